@@ -37,6 +37,4 @@ pub use search::over_forcing::{
 };
 pub use search::settings::AttractorSearch;
 pub use search::{AfterRest, Attractor, AttractorKind, Attractors, Recurrence};
-pub use verdict::{
-    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts,
-};
+pub use verdict::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts};

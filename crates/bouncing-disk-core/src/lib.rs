@@ -37,7 +37,6 @@
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
-//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
 //!

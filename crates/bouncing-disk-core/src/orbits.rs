@@ -23,8 +23,6 @@
 pub(crate) mod cascade;
 pub(crate) mod closing;
 pub(crate) mod continuation;
-#[cfg(feature = "extended")]
-pub mod extended;
 pub(crate) mod follow_attractor;
 pub(crate) mod periodic;
 

@@ -50,9 +50,8 @@ impl Progress {
 /// use std::ops::ControlFlow;
 /// use std::time::{Duration, Instant};
 ///
-/// use bouncing_disk_core::{
-///     Axis, BasinRun, BasinSettings, Error, Grid, ImpactMap, Progress, Unobserved, Vibration,
-/// };
+/// use bouncing_disk_core::attractors::{Axis, BasinRun, BasinSettings, Grid};
+/// use bouncing_disk_core::{Error, ImpactMap, Progress, Unobserved, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
 /// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 2.0, 40)?)?;
@@ -102,7 +101,8 @@ impl Observer for Unobserved {
 /// flights.
 ///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration, Watch};
+/// use bouncing_disk_core::run::Watch;
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
 /// let mut state = ImpactState::from_normalised(0.8, 1.3)?;

@@ -7,12 +7,12 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
-use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 use crate::error::Error;
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{asin, sin_cos};
+use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 use crate::run::{Observer, Watch, WorkCount};
-use crate::flight::platform::phase::Phase;
 
 /// The first radius that is tried, the last, and the smallest of the circles.
 const FIRST_RADIUS: f64 = 0.1;
@@ -446,9 +446,9 @@ impl<'w> Search<'w> {
 mod tests {
     use super::*;
     use crate::attractors::basin::{Axis, BasinSettings, Grid, KnownOrbit};
+    use crate::flight::platform::vibration::Vibration;
     use crate::numerics::random::SplitMix64;
     use crate::run::Unobserved;
-    use crate::flight::platform::vibration::Vibration;
     use crate::testing::StopAfter;
 
     fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {

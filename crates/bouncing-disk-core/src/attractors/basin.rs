@@ -9,13 +9,13 @@ mod starts;
 
 use core::f64::consts::TAU;
 
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::fraction::Fraction;
-use crate::run::Observer;
+use crate::orbits::periodic::PeriodicOrbit;
 use crate::read_checked;
+use crate::run::Observer;
 
 pub use run::BasinRun;
 
@@ -209,17 +209,11 @@ impl Default for BasinSettings {
 
 /// Labels of a grid, row by row (speed), lowest speed first; in a row by phase.
 #[derive(Debug, Clone, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBasins"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Basins {
     labels: Vec<Label>,
     columns: usize,
 }
-
-read_checked!(Basins as UncheckedBasins {
-    labels: Vec<Label>,
-    columns: usize,
-});
 
 impl Basins {
     /// Checks what is read: whole rows, one at least, of labels that orbits may have.
@@ -241,7 +235,7 @@ impl Basins {
     /// that has them as an array: what measures a boundary asks for nothing else.
     ///
     /// ```
-    /// use bouncing_disk_core::{ATTACHED, Basins, FIRST_ORBIT};
+    /// use bouncing_disk_core::attractors::{ATTACHED, Basins, FIRST_ORBIT};
     ///
     /// let basins = Basins::of_labels(vec![ATTACHED, ATTACHED, ATTACHED, FIRST_ORBIT], 2)?;
     /// assert_eq!(basins.entropy(2)?.boundary_boxes, 1);
@@ -425,8 +419,8 @@ fn flights_of_label(known: &[KnownOrbit]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Unobserved;
     use crate::flight::platform::vibration::Vibration;
+    use crate::run::Unobserved;
 
     fn map() -> ImpactMap {
         ImpactMap::new(Vibration::from_axial_forcing(0.45).expect("legal"), 0.5).expect("legal")

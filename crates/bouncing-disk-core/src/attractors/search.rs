@@ -9,13 +9,13 @@ pub(crate) mod settings;
 mod starts;
 
 use crate::attractors::basin::{KnownOrbit, Label};
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::attractors::verdict::{RestCycle, UndecidedReason};
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::fraction::Fraction;
-use crate::run::Observer;
+use crate::orbits::periodic::PeriodicOrbit;
 use crate::read_checked;
+use crate::run::Observer;
 use cells::VisitedCells;
 use settings::AttractorSearch;
 
@@ -101,14 +101,14 @@ pub enum AttractorKind {
     /// The disk comes to rest on the platform. Every map has starts that do; the others are told apart by
     /// what follows.
     Rest(AfterRest),
-    /// A [stable](crate::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
+    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
     /// none, as next to a graze.
     Periodic(KnownOrbit),
     /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits are born: it
     /// attracts from one side, or rounding decides whether it does. Starts come nearer to it without end in sight
     /// and stay undecided in basins.
     Marginal(PeriodicOrbit),
-    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::Verdict::Chaotic)).
+    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)).
     Chaotic {
         /// The largest Lyapunov exponent per impact.
         exponent: f64,
@@ -309,8 +309,8 @@ impl Attractors {
         Fraction::new(starts.saturating_sub(ended), starts).unwrap_or_default()
     }
 
-    /// The label of the attractor with this number in [`Self::basins`]: [`ATTACHED`](crate::ATTACHED) of the
-    /// disk at rest, then from [`FIRST_ORBIT`](crate::FIRST_ORBIT) on; `None` if there is no such attractor.
+    /// The label of the attractor with this number in [`Self::basins`]: [`ATTACHED`](crate::attractors::ATTACHED) of the
+    /// disk at rest, then from [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT) on; `None` if there is no such attractor.
     #[must_use]
     pub fn label(&self, number: usize) -> Option<Label> {
         (number < self.all.len()).then(|| label_of(number))
@@ -356,7 +356,8 @@ impl ImpactMap {
     /// attractor is known.
     ///
     /// ```
-    /// use bouncing_disk_core::{AttractorKind, AttractorSearch, ImpactMap, Unobserved, Vibration};
+    /// use bouncing_disk_core::attractors::{AttractorKind, AttractorSearch};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     ///
     /// // Where the paper has two attractors there are three: rest, period 1, and an orbit of four impacts.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.486)?, 0.5)?;

@@ -8,14 +8,14 @@ mod settings;
 pub(crate) mod witness;
 
 use crate::chaos::lyapunov::LyapunovEstimate;
-use crate::orbits::periodic::Multipliers;
-use crate::sweep::SweepRun;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
-use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
-use crate::run::{Observer, Progress, Unobserved};
 use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::orbits::periodic::Multipliers;
 use crate::read_checked;
+use crate::run::{Observer, Progress, Unobserved};
+use crate::sweep::SweepRun;
 use witness::Witness;
 
 pub use settings::VerdictSettings;
@@ -33,7 +33,7 @@ const TOGETHER: usize = 1 << 14;
 pub enum Verdict {
     /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle by more than [their error](crate::PeriodicOrbit::multiplier_error), and no impact of it chatters
+    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no impact of it chatters
     /// to rest.
     Periodic {
         /// Impacts of one period of the orbit.
@@ -161,7 +161,7 @@ pub enum UndecidedReason {
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
-        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::PeriodicOrbit::multiplier_error)).
+        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
         multiplier_error: f64,
         /// One of its impacts.
         state: ImpactState,
@@ -313,7 +313,8 @@ impl ImpactMap {
     /// What the orbit from `state` does for good.
     ///
     /// ```
-    /// use bouncing_disk_core::{ImpactMap, ImpactState, Verdict, VerdictSettings, Vibration};
+    /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings};
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
     ///
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let start = ImpactState::from_normalised(1.2, 1.3)?;
@@ -337,9 +338,8 @@ impl ImpactMap {
 /// The items of `observer` are the orbits. [`each_verdict`] keeps what a call that is stopped has found.
 ///
 /// ```
-/// use bouncing_disk_core::{
-///     ImpactMap, ImpactState, Unobserved, Verdict, VerdictSettings, Vibration, verdicts,
-/// };
+/// use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
 /// // From order to chaos: what a disk does against the forcing.
 /// let start = ImpactState::from_normalised(1.2, 1.3)?;
@@ -356,7 +356,7 @@ impl ImpactMap {
 /// ```
 ///
 /// # Errors
-/// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep()).
+/// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep::sweep()).
 pub fn verdicts(
     starts: &[(ImpactMap, ImpactState)],
     settings: VerdictSettings,

@@ -2,12 +2,12 @@
 //! tangency of manifolds that is the reason (docs/numerics/dynamics.md, "Crises").
 
 use crate::chaos::manifold::{Side, of_saddle};
-use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::error::{Error, within};
+use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::ln;
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::run::{Observer, Watch};
-use crate::flight::platform::vibration::Vibration;
 
 mod following;
 pub(crate) mod lifetimes;
@@ -287,7 +287,8 @@ impl CrisisSearch {
     /// The items of the observer are impacts, at most.
     ///
     /// ```
-    /// # use bouncing_disk_core::{CrisisSearch, Unobserved};
+    /// # use bouncing_disk_core::chaos::CrisisSearch;
+    /// # use bouncing_disk_core::Unobserved;
     /// // The attractor of Fig. 6 is lost where it touches a saddle of three impacts in three periods.
     /// let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 400_000)?;
     /// let crisis = search.crisis(None, &Unobserved)?.expect("a crisis");

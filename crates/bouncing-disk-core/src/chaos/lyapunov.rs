@@ -6,19 +6,20 @@ use core::ops::ControlFlow;
 
 use glam::{DMat2, DVec2};
 
-use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
-use crate::run::Observer;
 use crate::read_checked;
+use crate::run::Observer;
+use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
 ///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, TangentGrowth, Vibration};
+/// use bouncing_disk_core::chaos::TangentGrowth;
+/// use bouncing_disk_core::{ImpactMap, Vibration};
 ///
 /// // Along a periodic orbit the exponent is the logarithm of the larger Floquet multiplier, here 1/2 in modulus.
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
@@ -189,7 +190,7 @@ struct Followed {
 /// The items of `observer` are the orbits.
 ///
 /// # Errors
-/// Those of [`sweep`](crate::sweep()).
+/// Those of [`sweep`](crate::sweep::sweep()).
 pub fn lyapunov_exponents(
     starts: &[(ImpactMap, ImpactState)],
     transient: usize,

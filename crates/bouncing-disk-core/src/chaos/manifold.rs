@@ -1,11 +1,11 @@
 //! Stable and unstable manifolds of the saddles of the impact map (docs/numerics/dynamics.md, "Invariant
 //! manifolds of saddles").
 
-use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::error::{Error, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::run::{Observer, Watch};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::read_checked;
+use crate::run::{Observer, Watch};
 
 pub(crate) mod grower;
 mod record;
@@ -215,7 +215,8 @@ impl ImpactMap {
     /// The items of `observer` are the points that are allowed, of all branches.
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, ManifoldKind, ManifoldSettings, Unobserved, Vibration};
+    /// # use bouncing_disk_core::chaos::{ManifoldKind, ManifoldSettings};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let saddle = map.period_one_pair(1).expect("it exists").saddle.orbit(&map)?.expect("an orbit");
     /// let settings = ManifoldSettings::new(5.0, 1_000)?;

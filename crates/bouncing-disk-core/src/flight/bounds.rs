@@ -62,9 +62,9 @@ mod tests {
     use super::*;
     use crate::flight::gap::LaunchForm;
     use crate::flight::launch::Launch;
-    use crate::numerics::elementary::{CREST, sin_cos};
     use crate::flight::platform::phase::Phase;
     use crate::flight::platform::vibration::Vibration;
+    use crate::numerics::elementary::{CREST, sin_cos};
     use crate::testing::spread;
 
     fn vibration(k: u32) -> Vibration {

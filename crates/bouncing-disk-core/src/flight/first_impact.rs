@@ -28,11 +28,11 @@ use crate::flight::gap::{
 };
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{
     CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
-use crate::flight::platform::phase::Phase;
-use crate::flight::platform::vibration::Vibration;
 
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;

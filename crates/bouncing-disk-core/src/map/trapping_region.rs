@@ -1,8 +1,8 @@
 //! Bounds on the speeds that last: no periodic orbit and no attractor is faster. Proven in
 //! docs/numerics/dynamics.md, "Bounded speeds".
 
-use crate::map::impact_map::ImpactMap;
 use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::ImpactMap;
 
 /// What the roundings of a bound, ten at most and all of positive numbers, may take from it.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
@@ -95,10 +95,10 @@ mod tests {
     use core::f64::consts::TAU;
 
     use super::*;
-    use crate::map::impact_map::ImpactState;
-    use crate::numerics::random::SplitMix64;
     use crate::flight::platform::phase::Phase;
     use crate::flight::platform::vibration::Vibration;
+    use crate::map::impact_map::ImpactState;
+    use crate::numerics::random::SplitMix64;
 
     fn map(peak_acceleration: f64, restitution: f64) -> ImpactMap {
         ImpactMap::new(Vibration::new(peak_acceleration).expect("legal"), restitution).expect("legal")

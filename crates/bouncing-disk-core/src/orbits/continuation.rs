@@ -1,13 +1,13 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
 //! on the way (docs/numerics/dynamics.md, "Branches").
 
+use crate::error::{Error, finite, within};
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
 use crate::orbits::closing::{Closing, ContinuationParameter};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
-use crate::error::{Error, finite, within};
-use crate::map::impact_map::ImpactMap;
-use crate::run::{Observer, Watch};
-use crate::flight::platform::vibration::Vibration;
 use crate::read_checked;
+use crate::run::{Observer, Watch};
 
 mod birth;
 mod tip;
@@ -267,9 +267,8 @@ impl Branch {
     /// The items of `observer` are the points that are allowed.
     ///
     /// ```
-    /// # use bouncing_disk_core::{
-    /// #     Branch, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration,
-    /// # };
+    /// # use bouncing_disk_core::orbits::{Branch, Continuation, ContinuationParameter};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), false)?;
@@ -338,9 +337,8 @@ impl ImpactMap {
     /// The items of `observer` are the points that are allowed.
     ///
     /// ```
-    /// # use bouncing_disk_core::{
-    /// #     BifurcationKind, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration,
-    /// # };
+    /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;

@@ -1,19 +1,17 @@
 //! Following an attractor of the impact map in the forcing: the state is carried over from one value to the next.
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, within};
+use crate::error::Error;
+use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::run::{Observer, Tick, Unobserved, Watch};
-use crate::flight::platform::vibration::Vibration;
-use crate::read_checked;
 
 /// Impacts after which an observer may be asked.
 const IMPACTS_BETWEEN_TICKS: usize = 1_024;
 
 /// A value of the forcing, and a state of the followed attractor there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedFollowed"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Followed {
     /// The map at this forcing.
     pub map: ImpactMap,
@@ -21,22 +19,6 @@ pub struct Followed {
     pub axial_forcing: f64,
     /// The last impact of the transient.
     pub state: ImpactState,
-}
-
-read_checked!(Followed as UncheckedFollowed {
-    map: ImpactMap,
-    axial_forcing: f64,
-    state: ImpactState,
-});
-
-impl Followed {
-    /// Checks what is read: the map is that of the forcing.
-    fn check(&self) -> Result<(), Error> {
-        let own = Vibration::from_axial_forcing(self.axial_forcing)?;
-        let (found, expected) = (self.map.vibration().peak_acceleration(), own.peak_acceleration());
-        within("peak acceleration of the map", found, expected, expected, "pi times the axial forcing")?;
-        Ok(())
-    }
 }
 
 /// A lazy walk along an attractor: see [`follow_attractor`].

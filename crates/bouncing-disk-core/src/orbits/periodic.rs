@@ -6,12 +6,12 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, finite, not_negative, within};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
-use crate::run::{Observer, Tick, Watch};
-use crate::flight::platform::phase::Phase;
 use crate::read_checked;
+use crate::run::{Observer, Tick, Watch};
 
 mod catalogue;
 mod margin;
@@ -103,11 +103,11 @@ impl Multipliers {
     /// [`Self::spectral_radius`] over their number; minus infinity where both multipliers are zero.
     ///
     /// ```
-    /// use bouncing_disk_core::Multipliers;
+    /// use bouncing_disk_core::orbits::Multipliers;
     ///
     /// // Two impacts that together keep a quarter of a perturbation: each keeps a half.
     /// let multipliers = Multipliers::Real(-0.25, 0.25);
-    /// assert_eq!(multipliers.lyapunov_exponent(2), bouncing_disk_core::elementary::ln(0.5));
+    /// assert_eq!(multipliers.lyapunov_exponent(2), bouncing_disk_core::numerics::elementary::ln(0.5));
     /// ```
     #[must_use]
     pub fn lyapunov_exponent(&self, impacts: u64) -> f64 {
@@ -218,7 +218,8 @@ impl PeriodicOrbit {
     /// multipliers lie inside the unit circle if |T| < 1 + D.
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, Stability, Vibration};
+    /// # use bouncing_disk_core::orbits::Stability;
+    /// # use bouncing_disk_core::{ImpactMap, Vibration};
     /// // The fold in which the orbits of one impact are born.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(1.0 / 3.0)?, 0.5)?;
     /// let orbit = map.refine(&[map.period_one(1).expect("exists")])?;
@@ -556,8 +557,8 @@ impl PeriodicOrbit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Unobserved;
     use crate::flight::platform::vibration::Vibration;
+    use crate::run::Unobserved;
     use crate::testing::StopAfter;
 
     #[test]

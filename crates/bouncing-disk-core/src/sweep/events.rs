@@ -3,15 +3,14 @@
 use core::f64::consts::TAU;
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, not_negative};
+use crate::error::Error;
 use crate::flight::impact::Impact;
-use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::flight::platform::phase::Phase;
-use crate::read_checked;
+use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum SweepEvent {
     /// The disk hits the platform.
@@ -22,8 +21,7 @@ pub enum SweepEvent {
 
 /// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweepImpact"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SweepImpact {
     /// The impact.
     pub state: ImpactState,
@@ -34,18 +32,7 @@ pub struct SweepImpact {
     pub duration: f64,
 }
 
-read_checked!(SweepImpact as UncheckedSweepImpact {
-    state: ImpactState,
-    turns: u64,
-    duration: f64,
-});
-
 impl SweepImpact {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        not_negative("duration", self.duration).map(|_| ())
-    }
-
     #[inline(always)]
     pub(super) fn new(from: Phase, state: ImpactState, turns: u64) -> Self {
         let ahead = state.phase().angle() - from.angle();

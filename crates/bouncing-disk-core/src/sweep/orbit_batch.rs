@@ -1,14 +1,15 @@
 //! Independent orbits of impact maps, advanced together.
 
 use crate::error::Error;
-use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
 /// [`ImpactMap::step`], several times faster than one after the other.
 ///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, ImpactState, OrbitBatch, Vibration};
+/// use bouncing_disk_core::sweep::OrbitBatch;
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
 /// let starts = (0..100)

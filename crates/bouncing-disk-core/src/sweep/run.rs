@@ -5,10 +5,10 @@ use core::ops::ControlFlow;
 use super::events::SweepEvent;
 use super::runner;
 use crate::error::Error;
-use crate::sweep::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::Orbit;
-use crate::run::{Observer, Watch};
 use crate::read_checked;
+use crate::run::{Observer, Watch};
+use crate::sweep::lockstep::lanes::InstructionSet;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///
@@ -139,9 +139,8 @@ impl<T> PartialResults<T> {
 /// are not stored: whoever goes on brings the same ones.
 ///
 /// ```
-/// use bouncing_disk_core::{
-///     ChatterPolicy, ImpactMap, ImpactState, SweepRun, Unobserved, Vibration, orbit_diagram,
-/// };
+/// use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 ///
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;
 /// let orbits = (0..40)
@@ -274,7 +273,8 @@ impl<T: Send> SweepRun<T> {
 ///
 /// ```
 /// use core::ops::ControlFlow;
-/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepEvent, Unobserved, Vibration, sweep};
+/// use bouncing_disk_core::sweep::{SweepEvent, sweep};
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 ///
 /// // How many impacts, up to a hundred, before a disk comes to rest, against the forcing.
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;

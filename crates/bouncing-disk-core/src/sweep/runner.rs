@@ -5,9 +5,9 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::events::{SweepEvent, SweepImpact, advance};
 use crate::error::Error;
-use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 use crate::map::impact_map::Orbit;
 use crate::run::{Watch, WorkCount};
+use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
 /// them are in use, as much as about this many single flights (docs/numerics/lockstep.md, "Sweeps").

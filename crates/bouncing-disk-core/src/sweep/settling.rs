@@ -19,7 +19,7 @@ const FEWEST_ROUNDS: usize = 4;
 /// lose energy.
 ///
 /// ```
-/// use bouncing_disk_core::is_settling;
+/// use bouncing_disk_core::sweep::is_settling;
 ///
 /// let slowly: Vec<f64> = (0..100).map(|impact| 0.3 + 1.0 / f64::from(impact + 50)).collect();
 /// assert!(is_settling(&slowly, 8, 1e-6));
@@ -52,7 +52,7 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
 /// there are not four rounds of it.
 ///
 /// ```
-/// use bouncing_disk_core::repeats_every;
+/// use bouncing_disk_core::sweep::repeats_every;
 ///
 /// assert_eq!(repeats_every(&[0.3, 0.7].repeat(50), 8, 1e-6), Some(2));
 /// assert_eq!(repeats_every(&[0.3, 0.7], 8, 1e-6), None);
@@ -67,10 +67,11 @@ pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::ChatterPolicy;
+    use crate::flight::platform::vibration::Vibration;
     use crate::map::impact_map::{ImpactMap, ImpactState};
     use crate::run::Unobserved;
-    use crate::flight::platform::vibration::Vibration;
-    use crate::{ChatterPolicy, orbit_diagram};
+    use crate::sweep::orbit_diagram;
 
     fn speeds(axial_forcing: f64, transient: usize) -> Vec<f64> {
         let vibration = Vibration::from_axial_forcing(axial_forcing).expect("legal");

@@ -2,17 +2,22 @@
 
 use core::f64::consts::TAU;
 
+use super::events::advance;
 use super::*;
-use crate::chaos::lyapunov::lyapunov_exponents;
-use crate::orbits::periodic::Multipliers;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
+use crate::chaos::lyapunov::lyapunov_exponents;
 use crate::chatter::policy::ChatterPolicy;
+use crate::error::Error;
 use crate::flight::launch::Launch;
-use crate::sweep::lockstep::lanes::InstructionSet;
-use crate::map::impact_map::ImpactMap;
-use crate::run::{Unobserved, Watch};
+use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
+use crate::map::impact_map::{ImpactState, Orbit, OrbitEvent};
+use crate::orbits::periodic::Multipliers;
+use crate::run::{Unobserved, Watch};
+use crate::sweep::lockstep::lanes::InstructionSet;
 use crate::testing::{PAPER_POLICY, golden_spread};
+use core::ops::ControlFlow;
 
 const POLICIES: [ChatterPolicy; 2] = [ChatterPolicy::Complete, PAPER_POLICY];
 

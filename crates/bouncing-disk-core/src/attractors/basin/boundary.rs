@@ -22,7 +22,7 @@ const SPREAD_OF_SLOPE: f64 = 0.2;
 
 /// The share of cells that are uncertain at some distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UncertainShare {
     /// The distance, in cells.
     pub distance: usize,
@@ -32,7 +32,7 @@ pub struct UncertainShare {
 
 /// Whether the share of uncertain cells is a power of their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum BoundaryFit {
     /// It is, over the distances of the fit.
@@ -61,7 +61,7 @@ pub enum BoundaryFit {
 
 /// How the share of uncertain cells depends on their distance.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BoundaryScaling {
     /// The shares by rising distance: all of the same cells.
     pub shares: Vec<UncertainShare>,
@@ -81,9 +81,8 @@ impl Basins {
     /// The items of `observer` are the rows of cells that count, once for each distance.
     ///
     /// ```
-    /// use bouncing_disk_core::{
-    ///     AttractorSearch, Axis, BasinSettings, BoundaryFit, Grid, ImpactMap, Unobserved, Vibration,
-    /// };
+    /// use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, BoundaryFit, Grid};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     ///
     /// // The basin of the period-1 orbit just beyond its birth has a smooth boundary.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;

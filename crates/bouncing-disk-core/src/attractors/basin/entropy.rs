@@ -7,7 +7,7 @@ use crate::numerics::elementary::ln;
 
 /// The entropy of basins, in natural units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BasinEntropy {
     /// Cells along each side of a box.
     pub box_side: usize,
@@ -33,7 +33,8 @@ impl Basins {
     /// axes that would not be whole are left out. Boxes of 5 x 5 are usual.
     ///
     /// ```
-    /// use bouncing_disk_core::{Axis, BasinSettings, Grid, ImpactMap, Unobserved, Vibration};
+    /// use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     ///
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.2)?, 0.5)?;
     /// let grid = Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 2.0, 20)?)?;

@@ -5,8 +5,8 @@ use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
-use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 
 /// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better; with these, what a
 /// thread holds still fits into the second-level cache of small processors.
@@ -173,8 +173,8 @@ mod tests {
     use super::super::starts::Share;
     use super::super::{ATTACHED, Axis, Grid};
     use super::*;
-    use crate::run::Unobserved;
     use crate::flight::platform::vibration::Vibration;
+    use crate::run::Unobserved;
 
     fn compared(axial_forcing: f64, restitution: f64, cells: usize, max_impacts: u32) -> [usize; 4] {
         let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)

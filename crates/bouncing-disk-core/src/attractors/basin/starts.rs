@@ -5,9 +5,9 @@ use std::sync::{Mutex, PoisonError};
 use super::screen::{Judge, Verdicts};
 use super::{Grid, Label};
 use crate::error::Error;
-use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
-use crate::run::{Watch, WorkCount};
 use crate::flight::platform::phase::Phase;
+use crate::run::{Watch, WorkCount};
+use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
 
 use core::f64::consts::PI;
 

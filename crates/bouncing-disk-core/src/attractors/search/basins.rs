@@ -5,11 +5,13 @@ use core::ops::{ControlFlow, Range};
 use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
-use crate::attractors::basin::{ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
-use crate::sweep::{SweepEvent, sweep};
+use crate::attractors::basin::{
+    ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED,
+};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::run::{Observer, Progress, Unobserved};
+use crate::sweep::{SweepEvent, sweep};
 
 /// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
 /// that were allowed.
@@ -181,9 +183,8 @@ impl Attractors {
     /// known by their cells.
     ///
     /// ```
-    /// use bouncing_disk_core::{
-    ///     AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, Unobserved, Vibration,
-    /// };
+    /// use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     ///
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
@@ -229,9 +230,8 @@ impl Attractors {
     /// are known by their cells.
     ///
     /// ```
-    /// # use bouncing_disk_core::{
-    /// #     AttractorSearch, Axis, BasinSettings, Basins, Grid, ImpactMap, Unobserved, Vibration,
-    /// # };
+    /// # use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Basins, Grid};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
     /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());

@@ -6,14 +6,14 @@ use super::settings::AttractorSearch;
 use super::starts::starts;
 use super::{AfterRest, Attractor, AttractorKind, Attractors, MOST_ATTRACTORS, Recurrence};
 use crate::attractors::basin::KnownOrbit;
-use crate::orbits::periodic::newton::same_orbit;
-use crate::orbits::periodic::{PeriodicOrbit, Stability, phase_difference};
 use crate::attractors::verdict::{UndecidedReason, Verdict};
 use crate::error::Error;
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::fraction::Fraction;
+use crate::orbits::periodic::newton::same_orbit;
+use crate::orbits::periodic::{PeriodicOrbit, Stability, phase_difference};
 use crate::run::{Observer, Progress};
-use crate::flight::platform::phase::Phase;
 
 use core::f64::consts::{PI, TAU};
 use core::ops::ControlFlow;

@@ -4,13 +4,13 @@ use core::ops::ControlFlow;
 
 use super::cells::{CellMarks, VisitedCells};
 use super::{Attractors, Recurrence};
-use crate::sweep::{SweepEvent, sweep};
 use crate::attractors::verdict::witness::Witness;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::run::Observer;
+use crate::sweep::{SweepEvent, sweep};
 
 /// Impacts of a start that are compared with the cells of an attractor, and the share of them that must lie
 /// there.

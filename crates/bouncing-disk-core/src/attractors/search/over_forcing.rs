@@ -2,12 +2,12 @@
 
 use super::settings::AttractorSearch;
 use super::{Attractor, AttractorKind, Attractors};
-use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::error::{Error, within};
-use crate::map::impact_map::ImpactMap;
-use crate::run::{Observer, Progress, Watch};
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
+use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::read_checked;
+use crate::run::{Observer, Progress, Watch};
 
 /// Most forcings of one call.
 pub const MAX_FORCINGS: usize = 1 << 16;
@@ -174,7 +174,8 @@ pub(super) fn matched(
 /// The items of `observer` are the forcings.
 ///
 /// ```
-/// use bouncing_disk_core::{AttractorSearch, Unobserved, basin_fractions_over};
+/// use bouncing_disk_core::attractors::{AttractorSearch, basin_fractions_over};
+/// use bouncing_disk_core::Unobserved;
 ///
 /// // The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest.
 /// let search = AttractorSearch::default().with_starts(200)?;
@@ -209,7 +210,8 @@ impl BasinFractions {
     /// The items of `observer` are the forcings that are added.
     ///
     /// ```
-    /// # use bouncing_disk_core::{AttractorSearch, Unobserved, basin_fractions_over};
+    /// # use bouncing_disk_core::attractors::{AttractorSearch, basin_fractions_over};
+    /// # use bouncing_disk_core::Unobserved;
     /// # let search = AttractorSearch::default().with_starts(200)?;
     /// let begun = basin_fractions_over(0.5, &[0.32, 0.36], &search, 0.3, &Unobserved)?;
     /// let whole = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3, &Unobserved)?;

@@ -1,16 +1,16 @@
 //! How attractors are looked for.
 
 use super::cells::VisitedCells;
-use crate::orbits::periodic::MAX_PERIOD;
-use crate::orbits::periodic::search::OrbitSearch;
 use crate::attractors::verdict::VerdictSettings;
 use crate::error::{Error, within};
+use crate::orbits::periodic::MAX_PERIOD;
+use crate::orbits::periodic::search::OrbitSearch;
 use crate::read_checked;
 
 /// How attractors are looked for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
 ///
 /// ```
-/// use bouncing_disk_core::AttractorSearch;
+/// use bouncing_disk_core::attractors::AttractorSearch;
 ///
 /// let search = AttractorSearch::default().with_starts(4_000)?.with_orbits(None);
 /// assert_eq!(search.starts(), 4_000);

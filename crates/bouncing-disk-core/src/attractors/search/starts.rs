@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 
 /// The fractional parts of multiples of 1/g and 1/g^2, where g^3 = g + 1, as 64-bit fixed-point numbers: the
 /// most even sequence of its kind in two dimensions (M. Roberts' R2; g = 1.32471795724...).

@@ -1,9 +1,9 @@
 //! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at one.
 
 use super::VerdictSettings;
-use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{exp, ln};
+use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 
 /// Where the parts of a solution repeat each other to within this (rad, relative speed), the shorter orbit is
 /// sought: next to a doubling the equations are nearly singular, and a solution of rounded ones is that far

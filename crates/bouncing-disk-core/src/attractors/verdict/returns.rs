@@ -1,8 +1,8 @@
 //! Which impacts come near to an earlier one.
 
 use super::VerdictSettings;
-use crate::orbits::periodic::phase_difference;
 use crate::map::impact_map::ImpactState;
+use crate::orbits::periodic::phase_difference;
 
 /// After a return that proved nothing another one is waited for: half as many impacts as there have been, and
 /// these.

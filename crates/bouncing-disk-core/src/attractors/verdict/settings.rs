@@ -1,7 +1,7 @@
 //! How long an orbit is followed for its verdict.
 
-use crate::orbits::periodic::MAX_PERIOD;
 use crate::error::{Error, within};
+use crate::orbits::periodic::MAX_PERIOD;
 use crate::read_checked;
 
 /// The largest tolerance of a return.

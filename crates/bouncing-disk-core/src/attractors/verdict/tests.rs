@@ -3,9 +3,9 @@ use core::f64::consts::{PI, TAU};
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings};
 use crate::chaos::lyapunov::spectrum::lyapunov_spectra;
+use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::OrbitEvent;
 use crate::numerics::random::SplitMix64;
-use crate::flight::platform::vibration::Vibration;
 use crate::testing::{StopAfter, stored};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -112,8 +112,7 @@ fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
         let mut at = state;
         for step in 1..=impacts {
             at = map.step(at).expect("flies").into();
-            let returned =
-                crate::orbits::periodic::distance(at, state, 1.0 + state.velocity().abs()) < 1e-6;
+            let returned = crate::orbits::periodic::distance(at, state, 1.0 + state.velocity().abs()) < 1e-6;
             assert_eq!(returned, step == impacts, "{map:?} {verdict:?}: {step}");
         }
     }

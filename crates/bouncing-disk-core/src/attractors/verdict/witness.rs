@@ -7,12 +7,12 @@ use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
 use crate::chaos::lyapunov::{LyapunovEstimate, TangentGrowth};
-use crate::orbits::periodic::Stability;
-use crate::sweep::{SweepEvent, SweepImpact};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::exp;
-use crate::flight::platform::phase::Phase;
+use crate::orbits::periodic::Stability;
+use crate::sweep::{SweepEvent, SweepImpact};
 
 /// A flight is long if it lasts longer than this (rad), half a period of the platform.
 const LONG_FLIGHT: f64 = PI;
@@ -90,10 +90,7 @@ pub(crate) struct Witness {
 }
 
 impl Witness {
-    pub(crate) fn new(
-        (map, state): (ImpactMap, ImpactState),
-        settings: VerdictSettings,
-    ) -> Self {
+    pub(crate) fn new((map, state): (ImpactMap, ImpactState), settings: VerdictSettings) -> Self {
         Self {
             map,
             settings,

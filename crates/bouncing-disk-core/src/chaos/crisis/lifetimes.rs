@@ -1,13 +1,13 @@
 //! How long orbits live beyond a crisis, and the power law of their mean life.
 
 use super::Crisis;
-use crate::sweep::survival_times;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
+use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
 use crate::run::Observer;
-use crate::flight::platform::vibration::Vibration;
+use crate::sweep::survival_times;
 
 /// Impacts of the orbit on the attractor from one start to the next.
 const BETWEEN_STARTS: usize = 37;

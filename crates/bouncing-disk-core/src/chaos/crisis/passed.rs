@@ -3,10 +3,10 @@
 use super::CrisisSearch;
 use super::following::End;
 use crate::chaos::manifold::of_saddle;
-use crate::orbits::periodic::newton::same_orbit;
-use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::orbits::periodic::newton::same_orbit;
+use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 
 /// Orbits that are looked at.
 const ORBITS: usize = 24;

@@ -6,12 +6,12 @@ use super::{CrisisSearch, NoTangency, Tangency};
 use crate::chaos::manifold::grower::Grower;
 use crate::chaos::manifold::saddle::Saddle;
 use crate::chaos::manifold::{ManifoldKind, ManifoldSettings, Side};
-use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
-use crate::sweep::survival_times;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::run::{Unobserved, Watch, WorkCount};
+use crate::sweep::survival_times;
 
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;

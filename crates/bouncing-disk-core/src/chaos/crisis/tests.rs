@@ -231,7 +231,7 @@ fn mean_lives_scatter_as_their_errors_say() {
     let count = lives.len() as f64;
     assert!(lives.iter().all(|life| life.ended == 40));
     let mean = lives.iter().fold(0.0, |sum, life| sum + life.impacts) / count;
-    let square = |life: &crate::MeanLife| {
+    let square = |life: &crate::chaos::MeanLife| {
         let off = (life.impacts - mean) / (mean * life.relative_error);
         off * off
     };

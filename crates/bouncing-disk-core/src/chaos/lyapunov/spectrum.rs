@@ -6,14 +6,14 @@ use core::ops::ControlFlow;
 use glam::DMat2;
 
 use crate::chaos::lyapunov::{LyapunovEstimate, TangentGrowth};
-use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
 use crate::run::Observer;
-use crate::flight::platform::phase::Phase;
+use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 
 /// Both Lyapunov exponents per impact of the impact map.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -141,15 +141,14 @@ impl Followed {
 /// `transient` ones, with the standard error of the largest; of an orbit that has none the reason. The orbits
 /// are advanced in lockstep.
 ///
-/// The largest exponent is that of [`lyapunov_exponents`](crate::lyapunov_exponents), but for the rounding of
+/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the rounding of
 /// its sum.
 ///
 /// The items of `observer` are the orbits.
 ///
 /// ```
-/// use bouncing_disk_core::{
-///     ImpactMap, ImpactState, LyapunovOutcome, Unobserved, Vibration, lyapunov_spectra,
-/// };
+/// use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_spectra};
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;
@@ -163,7 +162,7 @@ impl Followed {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep()).
+/// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep::sweep()).
 pub fn lyapunov_spectra(
     starts: &[(ImpactMap, ImpactState)],
     transient: u64,

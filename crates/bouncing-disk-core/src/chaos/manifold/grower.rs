@@ -6,12 +6,12 @@ use glam::DVec2;
 use super::record::Record;
 use super::saddle::Saddle;
 use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, PieceEnd, Side};
-use crate::orbits::periodic::phase_difference;
 use crate::error::{Error, within};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::sin;
+use crate::orbits::periodic::phase_difference;
 use crate::run::Tick;
-use crate::flight::platform::phase::Phase;
 
 /// Length of the straight piece next to the saddle, after one generation: its distance from the curve is of
 /// the order of its square, and shrinks from then on.

@@ -3,9 +3,9 @@
 use glam::{DMat2, DVec2};
 
 use super::{ManifoldKind, of_saddle};
-use crate::orbits::periodic::{Multipliers, PeriodicOrbit, phase_difference};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit, phase_difference};
 
 /// How far (rad, and relative speed) the orbit may be from closing.
 const CLOSES: f64 = 1.0e-9;

@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings, KnownOrbit, UNDECIDED};
-use crate::orbits::periodic::phase_difference;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
+use crate::orbits::periodic::phase_difference;
 use crate::testing::{StopAfter, stored};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -148,7 +148,7 @@ fn each_impact_of_a_saddle_has_its_branches() {
     let map = map(0.561, 0.5);
     let found = map
         .periodic_orbits(
-            &crate::OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal"),
+            &crate::orbits::OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal"),
             &Unobserved,
         )
         .expect("searched");

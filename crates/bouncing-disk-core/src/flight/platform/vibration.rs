@@ -3,9 +3,9 @@
 use core::f64::consts::PI;
 
 use crate::error::{Error, within};
-use crate::numerics::elementary::{CREST, asin};
 use crate::flight::platform::crests::Crests;
 use crate::flight::platform::phase::Phase;
+use crate::numerics::elementary::{CREST, asin};
 use crate::read_checked;
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.

@@ -19,7 +19,7 @@ const NEWTON_STEPS: u32 = 20;
 /// any higher speed. The derivation is in docs/numerics/restitution.md.
 ///
 /// ```
-/// use bouncing_disk_core::{KuwabaraKono, RestitutionLaw};
+/// use bouncing_disk_core::map::{KuwabaraKono, RestitutionLaw};
 ///
 /// // Half of the speed is left at |w_A| = 2 g/omega, more of it at lower speeds.
 /// let law = KuwabaraKono::new(0.5, 2.0)?;

@@ -9,11 +9,11 @@
 use super::recurrence::{Equations, ImpactTimes};
 use crate::error::Error;
 use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{acos, pow};
 use crate::numerics::real::Real;
 use crate::run::Tick;
-use crate::flight::platform::phase::Phase;
-use crate::flight::platform::vibration::Vibration;
 
 /// Newton steps for one orbit.
 const MAX_NEWTON_STEPS: u32 = 40;

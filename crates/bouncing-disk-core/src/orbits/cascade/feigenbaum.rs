@@ -52,12 +52,12 @@ impl core::fmt::Display for FeigenbaumEstimate {
     }
 }
 
-/// Feigenbaum's constants from a cascade in doubles, one estimate for each doubling from the seventh on.
-/// Rounding ends their progress at the eleventh or so; `extended::feigenbaum_estimates` (feature `extended`)
-/// goes on.
+/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh on. Rounding ends
+/// their progress at the eleventh or so in doubles, and beyond the last in double-doubles.
 ///
 /// ```
-/// use bouncing_disk_core::{Unobserved, doubling_cascade, feigenbaum_estimates};
+/// use bouncing_disk_core::orbits::{doubling_cascade, feigenbaum_estimates};
+/// use bouncing_disk_core::Unobserved;
 ///
 /// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10, &Unobserved)?);
 /// let last = estimates.last().expect("from the seventh doubling on");
@@ -65,7 +65,7 @@ impl core::fmt::Display for FeigenbaumEstimate {
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[must_use]
-pub fn feigenbaum_estimates(cascade: &[CascadeDoubling]) -> Vec<FeigenbaumEstimate> {
+pub fn feigenbaum_estimates<R: Real>(cascade: &[CascadeDoubling<R>]) -> Vec<FeigenbaumEstimate> {
     let points: Vec<_> = cascade.iter().map(|doubling| (doubling.axial_forcing, doubling.width)).collect();
     estimates(&points)
 }
@@ -88,7 +88,7 @@ fn with_error<R: Real>(values: &[Option<R>], i: usize) -> Option<(f64, f64)> {
 }
 
 /// The estimates from (forcing, width) of the doublings from the first one on.
-pub(crate) fn estimates<R: Real>(points: &[(R, R)]) -> Vec<FeigenbaumEstimate> {
+fn estimates<R: Real>(points: &[(R, R)]) -> Vec<FeigenbaumEstimate> {
     let one = R::of(1.0);
     let distance = |i: usize| points[i].0 - points[i - 1].0;
     let forcing_ratios: Vec<_> =

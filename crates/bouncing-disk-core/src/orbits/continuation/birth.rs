@@ -5,9 +5,9 @@ use glam::DVec2;
 
 use super::walker::{Located, NEIGHBOURS, Walker};
 use super::{Bifurcation, BifurcationKind, BranchPoint};
-use crate::orbits::closing::{Closed, Plane, turned};
 use crate::error::Error;
 use crate::numerics::roots::bracket_of_width;
+use crate::orbits::closing::{Closed, Plane, turned};
 
 /// The distance of the halves (rad, units of 1 + P) up to which an orbit is the repetition of one half as far as its forcing tells:
 /// that grows with the square of the distance.

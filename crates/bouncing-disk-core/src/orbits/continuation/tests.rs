@@ -1,9 +1,9 @@
 use super::*;
-use crate::orbits::cascade::doubling_cascade;
-use crate::orbits::periodic::search::OrbitSearch;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::random::SplitMix64;
+use crate::orbits::cascade::doubling_cascade;
+use crate::orbits::periodic::search::OrbitSearch;
 use crate::run::Unobserved;
 use crate::testing::{StopAfter, stored};
 

@@ -2,9 +2,9 @@
 
 use super::walker::{Located, SMALLEST_STEP, Start, Underway};
 use super::{Branch, Continuation};
+use crate::error::{Error, finite, not_negative, within};
 use crate::orbits::closing::{Closed, Closing};
 use crate::orbits::periodic::MAX_PERIOD;
-use crate::error::{Error, finite, not_negative, within};
 use crate::read_checked;
 
 /// Where a branch goes on that has ended for its number of points: [`Branch::extended`]. It has all that the

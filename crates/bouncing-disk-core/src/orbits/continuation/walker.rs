@@ -8,15 +8,15 @@ use glam::{DMat2, DVec2};
 use super::birth::Halves;
 use super::tip::BranchTip;
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
-use crate::orbits::closing::{Closed, Closing, Plane};
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::error::Error;
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::roots::bisected_bracket;
+use crate::orbits::closing::{Closed, Closing, Plane};
+use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::WorkCount;
-use crate::flight::platform::phase::Phase;
 
 /// The cosine of the largest angle that the direction turns in one step.
 const STRAIGHT: f64 = 0.95;

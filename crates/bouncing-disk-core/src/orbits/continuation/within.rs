@@ -1,8 +1,8 @@
 //! The parts of a branch in a range of its parameter, as finely as somebody looks at them.
 
 use super::{BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::error::{Error, within};
+use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Unobserved;
 
 /// Steps of the arclength where a part is gone through for the first time, to learn how long it is.
@@ -42,7 +42,8 @@ impl Branch {
     /// doubling, with which a branch ends, is part of it: as the halved orbit, gone through twice.
     ///
     /// ```
-    /// # use bouncing_disk_core::{Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration};
+    /// # use bouncing_disk_core::orbits::{Continuation, ContinuationParameter};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;

@@ -7,11 +7,11 @@ use glam::{DMat2, DVec2};
 
 use super::newton::SAME;
 use super::{PeriodicOrbit, phase_difference};
-use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::double_double::DoubleDouble;
-use crate::flight::platform::phase::Phase;
+use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
 
 /// Relative to the derivative's size, 1 - T + D or 1 + T + D below which a multiplier is next to 1 or -1.
 const NEXT_TO_MARGIN: f64 = 1.0e-4;
@@ -274,8 +274,8 @@ mod tests {
     use super::super::search::OrbitSearch;
     use super::super::{Multipliers, Stability};
     use super::*;
-    use crate::run::Unobserved;
     use crate::flight::platform::vibration::Vibration;
+    use crate::run::Unobserved;
 
     fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
         ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)

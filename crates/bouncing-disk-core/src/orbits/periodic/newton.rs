@@ -2,11 +2,11 @@
 
 use super::margin::next_to_margin;
 use super::{PeriodicOrbit, phase_difference};
-use crate::orbits::closing::{Closing, ContinuationParameter, Plane};
 use crate::error::Error;
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::block_cyclic::solve_block_cyclic;
-use crate::flight::platform::phase::Phase;
+use crate::orbits::closing::{Closing, ContinuationParameter, Plane};
 
 /// Newton steps from a guess until [`ImpactMap::refine`] takes over or the guess is given up.
 pub(super) const MAX_STEPS: usize = 14;

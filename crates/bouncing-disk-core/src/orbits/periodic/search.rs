@@ -7,10 +7,10 @@ use super::PeriodicOrbit;
 use super::catalogue::Catalogue;
 use super::newton::{Attempt, MAX_STEPS};
 use crate::error::{Error, within};
-use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::run::{Observer, Watch, WorkCount};
 use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::read_checked;
+use crate::run::{Observer, Watch, WorkCount};
 
 /// What a search for periodic orbits looks for, and how closely.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,8 +99,7 @@ impl OrbitSearch {
 
 /// What a search covered, and what became of its starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitCoverage {
     /// What was searched for, and from how many starts.
     pub search: OrbitSearch,
@@ -135,8 +134,7 @@ pub struct OrbitCoverage {
 
 /// The periodic orbits that were found, and what was covered.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitsFound {
     /// Orbits of the map (no earlier impact forestalls a flight) that repeat no shorter one, by rising number
     /// of impacts, then of platform periods, then by falling speed of their fastest impact, which is the
@@ -168,11 +166,12 @@ impl ImpactMap {
     /// The items of `observer` are the starts.
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, OrbitSearch, Unobserved, Vibration};
+    /// # use bouncing_disk_core::orbits::OrbitSearch;
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
     /// let found = map.periodic_orbits(&OrbitSearch::new(2, 2)?, &Unobserved)?;
     /// // Two orbits of one impact and three of two, of which one attracts: the first orbit has doubled its period to it.
-    /// let attracts = |orbit: &&bouncing_disk_core::PeriodicOrbit| orbit.multipliers().spectral_radius() < 1.0;
+    /// let attracts = |orbit: &&bouncing_disk_core::orbits::PeriodicOrbit| orbit.multipliers().spectral_radius() < 1.0;
     /// assert_eq!(found.orbits.len(), 5);
     /// assert_eq!(found.orbits.iter().filter(attracts).map(|orbit| orbit.period()).collect::<Vec<_>>(), [2]);
     /// assert_eq!(found.coverage.found_by_coarser, 5);

@@ -7,11 +7,11 @@ use pulp::{Simd, WithSimd};
 use crate::chatter::accumulation::surely_bounces_on;
 use crate::error::{Error, room_for};
 use crate::flight::launch::Launch;
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactState;
 use crate::sweep::lockstep::lanes::{
     Batch, Dispatch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };
-use crate::map::impact_map::ImpactState;
-use crate::flight::platform::vibration::Vibration;
 
 /// A loop over lanes that [`Flights::run`] compiles for the vector instructions of the processor.
 ///
@@ -29,7 +29,8 @@ pub trait LaneLoop {
 /// or batch that does not exist does nothing, and asking for it gives `None`. The more batches, the better flights of one kind fill the vectors of the processor.
 ///
 /// ```
-/// use bouncing_disk_core::{Flights, InstructionSet, Launch, Phase, Vibration};
+/// use bouncing_disk_core::sweep::{Flights, InstructionSet};
+/// use bouncing_disk_core::{Launch, Phase, Vibration};
 ///
 /// let mut flights = Flights::new(InstructionSet::best(), 1)?;
 /// for lane in 0..10 {

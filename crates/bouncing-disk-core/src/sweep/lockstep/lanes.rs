@@ -21,10 +21,10 @@ mod subset;
 use pulp::Simd;
 
 use crate::flight::impact::Impact;
-use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::numerics::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::elementary::{reduced_of_lane, sin_cos_of_reduced};
 use platform::{Platform, PlatformLanes, Platforms};
 
 pub(crate) use instructions::Dispatch;

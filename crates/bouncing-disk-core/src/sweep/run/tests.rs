@@ -1,11 +1,11 @@
 //! Runs that are stopped, stored, read and gone on with against one call.
 
 use super::*;
-use crate::sweep::{orbit_diagram, survival_times, sweep};
 use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::run::{Progress, Unobserved};
-use crate::flight::platform::vibration::Vibration;
+use crate::sweep::{orbit_diagram, survival_times, sweep};
 use crate::testing::{StopAfter, Storable, stored};
 
 /// Orbits from rest to chaos.

@@ -5,11 +5,11 @@ use core::sync::atomic::{AtomicU64, Ordering};
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, Axis, FIRST_ORBIT};
-use crate::orbits::periodic::PeriodicOrbit;
 use crate::chatter::policy::ChatterPolicy;
-use crate::map::impact_map::ImpactState;
-use crate::run::{Progress, Unobserved};
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactState;
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::run::{Progress, Unobserved};
 use crate::testing::{PAPER_POLICY, StopAfter, stored};
 
 fn map() -> ImpactMap {
