@@ -20,13 +20,12 @@
 //! docs/numerics/dynamics.md.
 
 pub(crate) mod crisis;
-pub(crate) mod lyapunov;
 pub(crate) mod manifold;
 
+pub use crate::sweep::lyapunov::spectrum::{LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra};
+pub use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth, lyapunov_exponents};
 pub use crisis::lifetimes::{CrisisLives, MeanLife};
 pub use crisis::{Crisis, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency};
-pub use lyapunov::spectrum::{LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra};
-pub use lyapunov::{LyapunovEstimate, TangentGrowth, lyapunov_exponents};
 pub use manifold::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
 };

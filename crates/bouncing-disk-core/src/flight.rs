@@ -25,4 +25,7 @@ pub(crate) mod launch;
 pub(crate) mod platform;
 pub mod reference;
 
+// The model reads a drop through the same check.
+#[doc(hidden)]
+pub use drop::check_drop;
 pub use first_impact::MAX_FLIGHT_DURATION;

@@ -48,26 +48,25 @@
 pub mod attractors;
 pub mod chaos;
 pub mod chatter;
-mod error;
 pub mod flight;
 pub mod map;
 pub mod numerics;
 pub mod orbits;
 pub mod run;
-// The model reads as the core does.
-#[doc(hidden)]
-pub mod stored;
 pub mod sweep;
 #[cfg(test)]
 mod testing;
 
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
-pub use error::Error;
 pub use flight::impact::Impact;
 pub use flight::launch::Launch;
 pub use flight::platform::phase::Phase;
 pub use flight::platform::vibration::Vibration;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
+pub use numerics::error::Error;
+// The model reads as the core does.
+#[doc(hidden)]
+pub use numerics::stored;
 pub use run::{Observer, Progress, Unobserved};
 
 /// Compiles and runs the example of the README.

@@ -7,7 +7,7 @@
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
-use crate::error::Error;
+use crate::numerics::error::Error;
 
 /// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and some
 /// ten without any optimisation, so that an observer hears of every thread far more often than every 50 ms.

@@ -19,6 +19,7 @@
 
 mod events;
 pub(crate) mod lockstep;
+pub(crate) mod lyapunov;
 pub(crate) mod orbit_batch;
 mod orbit_diagram;
 mod run;

@@ -7,10 +7,10 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
-use crate::error::Error;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{asin, sin_cos};
+use crate::numerics::error::Error;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 use crate::run::{Observer, Watch, WorkCount};
 

@@ -10,8 +10,8 @@ mod starts;
 use core::f64::consts::TAU;
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::read_checked;

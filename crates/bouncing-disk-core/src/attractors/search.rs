@@ -10,8 +10,8 @@ mod starts;
 
 use crate::attractors::basin::{KnownOrbit, Label};
 use crate::attractors::verdict::{RestCycle, UndecidedReason};
-use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::fraction::Fraction;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::read_checked;

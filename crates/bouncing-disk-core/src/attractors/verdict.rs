@@ -7,15 +7,15 @@ mod returns;
 mod settings;
 pub(crate) mod witness;
 
-use crate::chaos::lyapunov::LyapunovEstimate;
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, finite, not_negative, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::orbits::periodic::Multipliers;
 use crate::read_checked;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::SweepRun;
+use crate::sweep::lyapunov::LyapunovEstimate;
 use witness::Witness;
 
 pub use settings::VerdictSettings;

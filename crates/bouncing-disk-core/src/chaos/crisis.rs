@@ -2,10 +2,10 @@
 //! tangency of manifolds that is the reason (docs/numerics/dynamics.md, "Crises").
 
 use crate::chaos::manifold::{Side, of_saddle};
-use crate::error::{Error, within};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::run::{Observer, Watch};
 

@@ -1,8 +1,8 @@
 //! Stable and unstable manifolds of the saddles of the impact map (docs/numerics/dynamics.md, "Invariant
 //! manifolds of saddles").
 
-use crate::error::{Error, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, not_negative, within};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
 use crate::read_checked;
 use crate::run::{Observer, Watch};

@@ -14,10 +14,10 @@ use core::f64::consts::TAU;
 
 use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
 use super::impact_series::ChatterSeries;
-use crate::error::{Error, not_negative, within};
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
+use crate::numerics::error::{Error, not_negative, within};
 use crate::read_checked;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
@@ -53,7 +53,7 @@ pub struct Accumulation {
 
 read_checked!(Accumulation as UncheckedAccumulation {
     duration: f64,
-    #[serde(deserialize_with = "crate::stored::infinite_if_none")]
+    #[serde(deserialize_with = "crate::numerics::stored::infinite_if_none")]
     error_bound: f64,
     phase: Phase,
     turns: u64,

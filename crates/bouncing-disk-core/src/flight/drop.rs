@@ -11,7 +11,6 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::error::{Error, within};
 use crate::flight::first_impact::{landed_within_a_turn, turned_by};
 use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{BRIEFEST, Bracket, GapForm, LaunchForm, Root, ShortForm};
@@ -19,6 +18,7 @@ use crate::flight::impact::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, hypot};
+use crate::numerics::error::{Error, within};
 
 /// Largest gap accepted, in units of g/omega^2.
 const LARGEST_GAP: f64 = 1.0e17;

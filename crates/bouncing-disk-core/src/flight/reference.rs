@@ -4,14 +4,13 @@
 //! It walks from the launch in steps that cannot jump over a zero of the gap (conservative advancement), until a
 //! single zero is in plain sight, and leaves that to Brent's method of the `roots` crate.
 
-
 use roots::{Convergency, find_root_brent};
 
-use crate::error::Error;
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::Launch;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{sin, sin_cos, wrapped_angle};
+use crate::numerics::error::Error;
 
 /// Steps after which the walk reports [`Error::NoConvergence`].
 const MAX_STEPS: u32 = 1_000_000;

@@ -4,12 +4,12 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
-use crate::error::{Error, not_negative, within};
 use crate::flight::impact::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
+use crate::numerics::error::{Error, not_negative, within};
 use crate::read_checked;
 use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 

@@ -2,10 +2,10 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{Error, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::wrapped_angle;
+use crate::numerics::error::{Error, within};
 
 /// The phase pi - tau, at which the platform that runs backwards has the height that it has at tau.
 fn mirrored(phase: Phase) -> Phase {

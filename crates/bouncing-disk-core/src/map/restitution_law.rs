@@ -3,7 +3,7 @@
 
 use core::fmt::{self, Debug, Display};
 
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 
 pub(crate) mod kuwabara_kono;
 

@@ -6,7 +6,7 @@ pub(crate) mod feigenbaum;
 mod recurrence;
 
 use self::branch::{FlipPoint, first_flip, next_flip, rounding};
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 use crate::numerics::real::Real;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::run::{Observer, Watch};

@@ -6,12 +6,12 @@ use core::f64::consts::{PI, TAU};
 
 use glam::{DMat2, DVec2};
 
-use crate::error::Error;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::elementary::{cos, nearest_whole, sin, sin_cos};
+use crate::numerics::error::Error;
 
 /// Newton steps until a correction is given up.
 const MAX_CORRECTIONS: u32 = 12;

@@ -1,15 +1,14 @@
 //! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
 //! on the way (docs/numerics/dynamics.md, "Branches").
 
-use crate::error::{Error, finite, within};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::{Error, finite, within};
 use crate::orbits::closing::{Closing, ContinuationParameter};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::read_checked;
 use crate::run::{Observer, Watch};
 
-mod birth;
 mod tip;
 mod walker;
 mod within;

@@ -1,9 +1,9 @@
 //! Following an attractor of the impact map in the forcing: the state is carried over from one value to the next.
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::error::Error;
 use crate::run::{Observer, Tick, Unobserved, Watch};
 
 /// Impacts after which an observer may be asked.

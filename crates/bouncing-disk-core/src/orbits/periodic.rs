@@ -5,11 +5,11 @@ use core::f64::consts::{PI, TAU};
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, finite, not_negative, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::read_checked;
 use crate::run::{Observer, Tick, Watch};
 

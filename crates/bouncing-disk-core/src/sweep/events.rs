@@ -3,10 +3,10 @@
 use core::f64::consts::TAU;
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
 use crate::flight::impact::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
+use crate::numerics::error::Error;
 
 /// One event of an orbit of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! Independent orbits of impact maps, advanced together.
 
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of

@@ -4,8 +4,8 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::run::SweepRun;
-use crate::error::Error;
 use crate::map::impact_map::{ImpactState, Orbit};
+use crate::numerics::error::Error;
 use crate::run::Observer;
 
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.

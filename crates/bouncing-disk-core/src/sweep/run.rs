@@ -4,8 +4,8 @@ use core::ops::ControlFlow;
 
 use super::events::SweepEvent;
 use super::runner;
-use crate::error::Error;
 use crate::map::impact_map::Orbit;
+use crate::numerics::error::Error;
 use crate::read_checked;
 use crate::run::{Observer, Watch};
 use crate::sweep::lockstep::lanes::InstructionSet;

@@ -4,8 +4,8 @@ use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicUsize, Ordering};
 
 use super::events::{SweepEvent, SweepImpact, advance};
-use crate::error::Error;
 use crate::map::impact_map::Orbit;
+use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 

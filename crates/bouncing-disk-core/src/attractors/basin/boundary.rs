@@ -4,8 +4,8 @@
 use std::collections::VecDeque;
 
 use super::{Basins, Label};
-use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
 use crate::run::{Observer, Watch};
 

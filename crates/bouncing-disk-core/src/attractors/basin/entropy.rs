@@ -2,8 +2,8 @@
 //! Wagemakers, B. Georgeot, D. Guery-Odelin, M. A. F. Sanjuan, Sci. Rep. 6, 31416 (2016)).
 
 use super::{Basins, Label, UNDECIDED};
-use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
 
 /// The entropy of basins, in natural units.
 #[derive(Debug, Clone, Copy, PartialEq)]

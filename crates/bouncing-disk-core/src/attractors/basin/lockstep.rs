@@ -4,8 +4,8 @@ use super::screen::{Judge, Verdicts};
 use super::starts::{Cell, Cells, Starts};
 use super::{BasinSettings, KnownOrbit, Label, UNDECIDED, flights_of_label};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 
 /// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better; with these, what a

@@ -5,8 +5,8 @@ mod stored;
 
 use super::starts::Cells;
 use super::{BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_number_of};
-use crate::error::{Error, room_for};
 use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::{Error, room_for};
 use crate::run::{Observer, Watch};
 
 /// The basins on a grid under way: the question, and the rows that are finished.

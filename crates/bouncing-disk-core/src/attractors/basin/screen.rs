@@ -6,8 +6,8 @@ use pulp::{Simd, WithSimd};
 
 use super::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label, TARGETS_OF_FLIGHT};
 use crate::chatter::rest_proof::RestProof;
-use crate::error::Error;
 use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, Dispatch, Impacts, LANES, Lanes, Mask, lanes_of, mask};
 
 /// Share by which the screen's radius exceeds the known orbit's, so that its rounding does not matter.

@@ -4,8 +4,8 @@ use std::sync::{Mutex, PoisonError};
 
 use super::screen::{Judge, Verdicts};
 use super::{Grid, Label};
-use crate::error::Error;
 use crate::flight::platform::phase::Phase;
+use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount};
 use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
 

@@ -8,8 +8,8 @@ use super::{Attractors, label_of};
 use crate::attractors::basin::{
     ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED,
 };
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::{SweepEvent, sweep};
 

@@ -2,8 +2,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::error::{Error, not_negative, within};
 use crate::map::impact_map::ImpactState;
+use crate::numerics::error::{Error, not_negative, within};
 use crate::read_checked;
 
 /// Cells of impacts that an orbit has visited: of a grid with the same number of cells along the phase, from 0

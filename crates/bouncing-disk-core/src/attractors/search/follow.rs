@@ -7,8 +7,8 @@ use super::{Attractors, Recurrence};
 use crate::attractors::verdict::witness::Witness;
 use crate::attractors::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::run::Observer;
 use crate::sweep::{SweepEvent, sweep};
 

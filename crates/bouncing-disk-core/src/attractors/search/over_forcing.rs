@@ -2,9 +2,9 @@
 
 use super::settings::AttractorSearch;
 use super::{Attractor, AttractorKind, Attractors};
-use crate::error::{Error, within};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::read_checked;
 use crate::run::{Observer, Progress, Watch};

@@ -2,7 +2,7 @@
 
 use super::cells::VisitedCells;
 use crate::attractors::verdict::VerdictSettings;
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::orbits::periodic::search::OrbitSearch;
 use crate::read_checked;

@@ -1,6 +1,6 @@
 //! How long an orbit is followed for its verdict.
 
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::read_checked;
 

@@ -2,10 +2,10 @@ use core::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings};
-use crate::chaos::lyapunov::spectrum::lyapunov_spectra;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::OrbitEvent;
 use crate::numerics::random::SplitMix64;
+use crate::sweep::lyapunov::spectrum::lyapunov_spectra;
 use crate::testing::{StopAfter, stored};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {

@@ -6,12 +6,12 @@ use core::ops::ControlFlow;
 use super::proof::{Proof, prove};
 use super::returns::Returns;
 use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
-use crate::chaos::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::exp;
 use crate::orbits::periodic::Stability;
+use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact};
 
 /// A flight is long if it lasts longer than this (rad), half a period of the platform.

@@ -4,18 +4,18 @@ use core::ops::ControlFlow;
 
 use super::lifetimes::MeanLife;
 use super::{CrisisSearch, NoCrisis};
-use crate::chaos::lyapunov::lyapunov_exponents;
 use crate::chaos::manifold::saddle::Saddle;
 use crate::chaos::manifold::{ManifoldKind, ManifoldSettings, Side, grower::Grower};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::Error;
 use crate::flight::launch::Launch;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::elementary::{exp, ln, sin_cos};
+use crate::numerics::error::Error;
 use crate::numerics::random::SplitMix64;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 use crate::run::{Progress, Unobserved, Watch};
+use crate::sweep::lyapunov::lyapunov_exponents;
 use crate::sweep::{SweepEvent, SweepRun};
 
 /// How far beyond its birth (relative to Gamma) the period-1 orbit is followed from at the earliest.

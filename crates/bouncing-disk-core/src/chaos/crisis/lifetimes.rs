@@ -2,9 +2,9 @@
 
 use super::Crisis;
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, within};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, within};
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
 use crate::run::Observer;
 use crate::sweep::survival_times;

@@ -3,8 +3,8 @@
 use super::CrisisSearch;
 use super::following::End;
 use crate::chaos::manifold::of_saddle;
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::orbits::periodic::newton::same_orbit;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
 

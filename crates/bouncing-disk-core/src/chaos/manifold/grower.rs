@@ -6,10 +6,10 @@ use glam::DVec2;
 use super::record::Record;
 use super::saddle::Saddle;
 use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, PieceEnd, Side};
-use crate::error::{Error, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::sin;
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::phase_difference;
 use crate::run::Tick;
 

@@ -3,8 +3,8 @@
 use glam::{DMat2, DVec2};
 
 use super::{ManifoldKind, of_saddle};
-use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit, phase_difference};
 
 /// How far (rad, and relative speed) the orbit may be from closing.

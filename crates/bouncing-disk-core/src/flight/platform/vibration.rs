@@ -2,10 +2,10 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{Error, within};
 use crate::flight::platform::crests::Crests;
 use crate::flight::platform::phase::Phase;
 use crate::numerics::elementary::{CREST, asin};
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.

@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::RestitutionLaw;
-use crate::error::{Error, within};
 use crate::numerics::elementary::pow;
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they

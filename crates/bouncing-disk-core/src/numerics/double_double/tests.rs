@@ -2,7 +2,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use super::*;
-use crate::error::Error;
+use crate::numerics::error::Error;
 use crate::numerics::random::SplitMix64;
 
 type High = FBig<HalfEven, 2>;

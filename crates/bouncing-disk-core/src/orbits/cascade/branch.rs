@@ -7,11 +7,11 @@
 //! falsi, with both ends known.
 
 use super::recurrence::{Equations, ImpactTimes};
-use crate::error::Error;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{acos, pow};
+use crate::numerics::error::Error;
 use crate::numerics::real::Real;
 use crate::run::Tick;
 

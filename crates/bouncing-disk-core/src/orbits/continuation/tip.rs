@@ -1,11 +1,40 @@
-//! Where a branch goes on that has ended for its number of points, as plain data.
+//! A branch under way, and its tip as plain data, from which it is extended.
 
-use super::walker::{Located, SMALLEST_STEP, Start, Underway};
-use super::{Branch, Continuation};
-use crate::error::{Error, finite, not_negative, within};
+use super::{Bifurcation, Branch, BranchPoint, Continuation};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::orbits::closing::{Closed, Closing};
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::read_checked;
+
+/// The smallest arclength of a step.
+pub(super) const SMALLEST_STEP: f64 = 1.0e-10;
+
+/// A point of the branch with its direction.
+#[derive(Debug, Clone)]
+pub(super) struct Located {
+    pub(super) at: Closed,
+    /// Of scaled length 1 in first impact and parameter.
+    pub(super) direction: Closed,
+    pub(super) arclength: f64,
+    pub(super) corrections: u32,
+}
+
+/// Where a branch began, and in which direction (scaled; phase, speed, parameter): whether it is back there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Start {
+    pub(super) at: [f64; 3],
+    pub(super) direction: [f64; 3],
+}
+
+/// A walk under way: all that the rest of it depends on.
+#[derive(Debug)]
+pub(super) struct Underway {
+    pub(super) start: Start,
+    pub(super) base: Located,
+    pub(super) step: f64,
+    pub(super) points: Vec<BranchPoint>,
+    pub(super) bifurcations: Vec<Bifurcation>,
+}
 
 /// Where a branch goes on that has ended for its number of points: [`Branch::extended`]. It has all that the
 /// rest of the branch depends on, to the bit, and is stored with the branch.

@@ -1,7 +1,7 @@
 //! The parts of a branch in a range of its parameter, as finely as somebody looks at them.
 
 use super::{BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Unobserved;
 

@@ -5,13 +5,16 @@ use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use super::newton::SAME;
 use super::{PeriodicOrbit, phase_difference};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
+
+/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a multiplier
+/// is next to 1 or -1: then their own uncertainty decides.
+pub(crate) const SAME: f64 = 1.0e-6;
 
 /// Relative to the derivative's size, 1 - T + D or 1 + T + D below which a multiplier is next to 1 or -1.
 const NEXT_TO_MARGIN: f64 = 1.0e-4;

@@ -1,11 +1,11 @@
 //! Newton's method from a rough guess, as the search for periodic orbits uses it: it gives up early.
 
-use super::margin::next_to_margin;
+use super::margin::{SAME, next_to_margin};
 use super::{PeriodicOrbit, phase_difference};
-use crate::error::Error;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::block_cyclic::solve_block_cyclic;
+use crate::numerics::error::Error;
 use crate::orbits::closing::{Closing, ContinuationParameter, Plane};
 
 /// Newton steps from a guess until [`ImpactMap::refine`] takes over or the guess is given up.
@@ -16,10 +16,6 @@ const NEAR: f64 = 1.0e-5;
 
 /// The longest step of a phase (rad): a longer one is shortened, and all of that iteration with it.
 const LONGEST_STEP: f64 = 0.7;
-
-/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a multiplier
-/// is next to 1 or -1: then their own uncertainty decides.
-pub(crate) const SAME: f64 = 1.0e-6;
 
 /// What became of a guess.
 pub(super) enum Attempt {

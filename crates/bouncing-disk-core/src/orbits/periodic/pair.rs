@@ -4,9 +4,9 @@
 use core::f64::consts::TAU;
 
 use super::{Multipliers, PeriodicOrbit};
-use crate::error::Error;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
 
 /// By how much, relative to the flight, the first impact may come early and still be the one that the closed
 /// form has. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight

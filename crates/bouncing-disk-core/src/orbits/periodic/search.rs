@@ -6,9 +6,9 @@ use core::f64::consts::TAU;
 use super::PeriodicOrbit;
 use super::catalogue::Catalogue;
 use super::newton::{Attempt, MAX_STEPS};
-use crate::error::{Error, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 use crate::run::{Observer, Watch, WorkCount};
 

@@ -5,10 +5,10 @@ use core::f64::consts::TAU;
 use pulp::{Simd, WithSimd};
 
 use crate::chatter::accumulation::surely_bounces_on;
-use crate::error::{Error, room_for};
 use crate::flight::launch::Launch;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactState;
+use crate::numerics::error::{Error, room_for};
 use crate::sweep::lockstep::lanes::{
     Batch, Dispatch, FlightScheduler, InstructionSet, LANES, Mask, Purpose, Rebounding, Row, kept, mask,
 };

@@ -4,8 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::BasinRun;
 use crate::attractors::basin::{BasinSettings, FIRST_ORBIT, Grid, KnownOrbit, Label, check_number_of};
-use crate::error::Error;
 use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::Error;
 
 /// A [`BasinRun`] as it is stored: of the labels those of the finished rows, one row after the other.
 #[derive(Serialize, Deserialize)]

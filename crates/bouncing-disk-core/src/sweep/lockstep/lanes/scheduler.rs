@@ -13,8 +13,8 @@ use super::short::Short;
 use super::{
     Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
 };
-use crate::error::Error;
 use crate::flight::first_impact::FASTEST_ARC;
+use crate::numerics::error::Error;
 use queue::Queue;
 
 /// What flights are computed for.

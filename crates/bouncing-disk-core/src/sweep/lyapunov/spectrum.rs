@@ -5,14 +5,14 @@ use core::ops::ControlFlow;
 
 use glam::DMat2;
 
-use crate::chaos::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, within};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
 use crate::run::Observer;
+use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
 use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 
 /// Both Lyapunov exponents per impact of the impact map.

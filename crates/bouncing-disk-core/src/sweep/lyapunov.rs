@@ -7,10 +7,10 @@ use core::ops::ControlFlow;
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::read_checked;
 use crate::run::Observer;
 use crate::sweep::{SweepEvent, SweepImpact, SweepRun};

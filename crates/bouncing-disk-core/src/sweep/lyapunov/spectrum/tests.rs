@@ -1,8 +1,8 @@
 use super::*;
-use crate::chaos::lyapunov::lyapunov_exponents;
 use crate::flight::platform::vibration::Vibration;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
+use crate::sweep::lyapunov::lyapunov_exponents;
 use crate::testing::{StopAfter, golden_spread};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
