@@ -9,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
-use bouncing_disk::core::PartialResults;
 use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::{Format, JOURNAL, Journal, Observer, Provenance, regular_file};
 use clap::Args;
 use serde::de::DeserializeOwned;

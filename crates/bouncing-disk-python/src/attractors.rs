@@ -1,9 +1,13 @@
 //! Attractors of the map, their basins on a grid and over the forcing, and measures of basins.
 
 use bouncing_disk::core::{
-    AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel, Axis,
-    BasinFractions as FractionsModel, BasinSettings, Basins, BoundaryFit, Error as CoreError, Grid,
-    ImpactMap, KnownOrbit, Label, PeriodicOrbit as OrbitModel, RestCycle,
+    Error as CoreError, ImpactMap,
+    attractors::{
+        AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel, Axis,
+        BasinFractions as FractionsModel, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
+        RestCycle,
+    },
+    orbits::PeriodicOrbit as OrbitModel,
 };
 use bouncing_disk::{Error, Observer, Progress};
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
@@ -300,7 +304,13 @@ pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
     let (forcings, search, reach) = (a.row("axial_forcing")?, search(&a)?, a.real("reach")?);
     let restitution = a.real("restitution")?;
     let found = a.run(|observer| {
-        Ok(bouncing_disk::core::basin_fractions_over(restitution, &forcings, &search, reach, observer)?)
+        Ok(bouncing_disk::core::attractors::basin_fractions_over(
+            restitution,
+            &forcings,
+            &search,
+            reach,
+            observer,
+        )?)
     })?;
     shown_fractions(a.py(), found)
 }

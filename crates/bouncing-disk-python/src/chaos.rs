@@ -2,9 +2,11 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    Crisis as CrisisModel, CrisisSearch, CycleTrust, LifeAfterRest, LyapunovOutcome, Manifold,
-    ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side, UndecidedReason,
-    Verdict, VerdictSettings, each_verdict,
+    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict},
+    chaos::{
+        Crisis as CrisisModel, CrisisSearch, LifeAfterRest, LyapunovOutcome, Manifold, ManifoldBranch,
+        ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
+    },
 };
 use numpy::{Complex64, PyArray1};
 use pyo3::prelude::*;
@@ -47,8 +49,12 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
     let (starts, policy, py) = (Starts::of(&a)?, a.policy()?, a.py());
     let (transient, recorded) = (a.usize("transient")?, a.usize("recorded")?);
     let rows = a.run(|observer| {
-        let columns =
-            bouncing_disk::core::orbit_diagram(&starts.orbits(policy)?, transient, recorded, observer)?;
+        let columns = bouncing_disk::core::sweep::orbit_diagram(
+            &starts.orbits(policy)?,
+            transient,
+            recorded,
+            observer,
+        )?;
         Rows::of(columns.iter().map(Vec::as_slice))
     })?;
     make!(
@@ -67,7 +73,8 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn survival_times(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<i64>>> {
     let (starts, most, policy) = (Starts::of(&a)?, a.usize("most")?, a.policy()?);
     let times = a.run(|observer| {
-        bouncing_disk::core::survival_times(&starts.orbits(policy)?, most, observer).map_err(Error::from)
+        bouncing_disk::core::sweep::survival_times(&starts.orbits(policy)?, most, observer)
+            .map_err(Error::from)
     })?;
     Ok(column(a.py(), &times, |time| *time as i64))
 }
@@ -77,7 +84,7 @@ pub(crate) fn survival_times(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<i6
 pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<f64>>> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.usize("transient")?, a.usize("impacts")?);
     let exponents = a.run(|observer| {
-        Ok(bouncing_disk::core::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?)
+        Ok(bouncing_disk::core::chaos::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?)
     })?;
     Ok(column(a.py(), &exponents, |exponent| exponent.unwrap_or(f64::NAN)))
 }
@@ -121,7 +128,7 @@ pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
     let (starts, transient, impacts) = (Starts::of(&a)?, a.u64("transient")?, a.u64("impacts")?);
     let all = a.run(|observer| {
         let outcomes =
-            bouncing_disk::core::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
+            bouncing_disk::core::chaos::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
         let mut all = room_for(outcomes.len())?;
         all.extend(outcomes.iter().map(Exponents::of));
         Ok(all)

@@ -1,6 +1,6 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
-use bouncing_disk::core::{Error as CoreError, NoCrisis};
+use bouncing_disk::core::{Error as CoreError, chaos::NoCrisis};
 use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;

@@ -2,9 +2,13 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter,
-    Error as CoreError, ImpactMap, ImpactState, OrbitBatch, OrbitSearch, PeriodicOrbit as OrbitModel,
-    Stability, Watch, feigenbaum_estimates,
+    Error as CoreError, ImpactMap, ImpactState,
+    orbits::{
+        BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter, OrbitSearch,
+        PeriodicOrbit as OrbitModel, Stability, feigenbaum_estimates,
+    },
+    run::Watch,
+    sweep::OrbitBatch,
 };
 use numpy::PyArray1;
 use pyo3::IntoPyObjectExt;
@@ -156,7 +160,7 @@ fn shown_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {
         impacts(ImpactState::velocity)?,
         impacts(ImpactState::normalised_speed)?,
         matrix(py, multipliers, [points.len(), 2])?,
-        column(py, points, bouncing_disk::core::BranchPoint::is_stable),
+        column(py, points, bouncing_disk::core::orbits::BranchPoint::is_stable),
         end,
         PyTuple::new(py, bifurcations)?,
     )?;
@@ -203,7 +207,7 @@ pub(crate) fn branch_orbit(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
     let (restitution, count, py) = (a.real("restitution")?, a.usize("count")?, a.py());
     let cascade = a.run(|observer| {
-        bouncing_disk::core::doubling_cascade(restitution, count, observer)
+        bouncing_disk::core::orbits::doubling_cascade(restitution, count, observer)
             .map_err(|error: CoreError| Error::from(error))
     })?;
     let estimates = feigenbaum_estimates(&cascade);

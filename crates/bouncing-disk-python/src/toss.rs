@@ -1,6 +1,6 @@
 //! Tosses and trajectories: the motion of the engine, in SI units.
 
-use bouncing_disk::core::{Error as CoreError, LyapunovEstimate, Phase, Watch};
+use bouncing_disk::core::{Error as CoreError, Phase, chaos::LyapunovEstimate, run::Watch};
 use bouncing_disk::{
     DiskParameters, DiskState, Engine, Error, Event, EventKind, EventRecord, InitialCondition, InitialSpin,
     Mode, MultiTossSettings, OrbitClass, OverFriction, PhaseSpan, PlatformState, RotaryOutcome, Scales,

@@ -9,9 +9,11 @@ mod golden;
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, CrisisSearch, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit,
-    LyapunovOutcome, ManifoldKind, ManifoldSettings, OrbitSearch, Unobserved, Verdict, VerdictSettings,
-    Vibration, lyapunov_spectra, orbit_diagram, verdicts,
+    ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration,
+    attractors::{Axis, BasinSettings, CycleTrust, Grid, KnownOrbit, Verdict, VerdictSettings, verdicts},
+    chaos::{CrisisSearch, LyapunovOutcome, ManifoldKind, ManifoldSettings, lyapunov_spectra},
+    orbits::OrbitSearch,
+    sweep::orbit_diagram,
 };
 use bouncing_disk::{
     Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,

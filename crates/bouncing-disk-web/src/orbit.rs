@@ -3,7 +3,10 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::System;
-use bouncing_disk::core::{Multipliers, UndecidedReason, Verdict, VerdictSettings};
+use bouncing_disk::core::{
+    attractors::{UndecidedReason, Verdict, VerdictSettings},
+    orbits::Multipliers,
+};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};

@@ -6,7 +6,7 @@ use bouncing_disk::{
     Event, InitialSpin,
     core::{
         ChatterPolicy,
-        elementary::{atan2, sin, sin_cos},
+        numerics::elementary::{atan2, sin, sin_cos},
     },
     toss_trajectory,
 };

@@ -6,7 +6,11 @@ mod panels;
 mod scan;
 mod windows;
 
-use bouncing_disk::core::{ATTACHED, ChatterPolicy, FIRST_ORBIT, Label, UNDECIDED, elementary::ln};
+use bouncing_disk::core::{
+    ChatterPolicy,
+    attractors::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED},
+    numerics::elementary::ln,
+};
 use bouncing_disk_plot::Figure;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};

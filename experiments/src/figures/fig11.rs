@@ -8,7 +8,7 @@ mod trends;
 
 use bouncing_disk::{
     Spread, TransientSettings,
-    core::{ChatterPolicy, elementary::ln},
+    core::{ChatterPolicy, numerics::elementary::ln},
 };
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};

@@ -2,7 +2,7 @@
 //! uncertainties, powers of ten.
 
 use bouncing_disk::core::{
-    elementary::{exp, ln},
+    numerics::elementary::{exp, ln},
     numerics::random::SplitMix64,
 };
 use serde::{Deserialize, Serialize};

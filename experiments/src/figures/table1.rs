@@ -6,7 +6,7 @@ use bouncing_disk::{
     LaunchSpeeds, Platform, Stroke, System,
     core::{
         ChatterPolicy, Phase,
-        elementary::{acos, asin, hypot, tan},
+        numerics::elementary::{acos, asin, hypot, tan},
     },
 };
 use bouncing_disk_plot::{Figure, Label, ruled_table};

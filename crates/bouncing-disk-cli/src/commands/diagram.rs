@@ -7,7 +7,10 @@ use std::rc::Rc;
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, MAX_RECORDED, Orbit, orbit_diagram};
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactState, Orbit,
+    sweep::{MAX_RECORDED, orbit_diagram},
+};
 use serde::{Deserialize, Serialize};
 
 use super::map::{MapArgs, VERTICAL, map, single};

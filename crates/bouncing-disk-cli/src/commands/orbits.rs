@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use bouncing_disk::core::{OrbitSearch, OrbitsFound, PeriodicOrbit};
+use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound, PeriodicOrbit};
 
 use super::map::{MapArgs, VERTICAL, map};
 use super::prelude::*;

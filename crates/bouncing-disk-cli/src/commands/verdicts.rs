@@ -5,7 +5,10 @@ use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, each_verdict};
+use bouncing_disk::core::{
+    ChatterPolicy,
+    attractors::{MAX_CELLS, Verdict, VerdictSettings, each_verdict},
+};
 use serde::{Deserialize, Serialize};
 
 use super::map::{MapArgs, VERTICAL, map};

@@ -1,6 +1,6 @@
 //! How steady speed and stall torque depend on the parameters.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
 use super::sweeps::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
