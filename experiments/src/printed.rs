@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::elementary::cos;
+use bouncing_disk::core::numerics::elementary::cos;
 
 /// The precision to which an exact expression (π/4, 1/3, "nine") is compared.
 const EXACT: f64 = 1e-9;

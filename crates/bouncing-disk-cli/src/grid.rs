@@ -10,7 +10,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use bouncing_disk::core::PartialResults;
+use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::{JOURNAL, Journal, Observer, Provenance};
 use serde::Serialize;
 use serde::de::DeserializeOwned;

@@ -6,9 +6,9 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use std::sync::Mutex;
 
 use crate::chatter::policy::{ChatterCut, ChatterPolicy};
-use crate::observer::{Observer, Progress};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
+use crate::run::{Observer, Progress};
 
 /// The paper's cut (Sec. IV A).
 pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 20) {

@@ -1,6 +1,6 @@
 //! The attractors of a map, and their basins.
 
-use bouncing_disk::core::{
+use bouncing_disk::core::attractors::{
     AfterRest, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings, RestCycle,
 };
 use pyo3::prelude::*;

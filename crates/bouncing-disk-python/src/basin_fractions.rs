@@ -1,6 +1,6 @@
 //! Attractors and the shares of their basins, followed over the forcing.
 
-use bouncing_disk::core::{Attractor, AttractorSearch, BasinFractions as Followed};
+use bouncing_disk::core::attractors::{Attractor, AttractorSearch, BasinFractions as Followed};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -258,7 +258,13 @@ pub(crate) fn basin_fractions_over(
     let forcings = row(axial_forcing, "axial_forcing")?;
     let search = SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
     let found = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        Ok(bouncing_disk::core::basin_fractions_over(restitution.0, &forcings, &search, reach.0, observer)?)
+        Ok(bouncing_disk::core::attractors::basin_fractions_over(
+            restitution.0,
+            &forcings,
+            &search,
+            reach.0,
+            observer,
+        )?)
     });
     found.map(BasinFractions)
 }

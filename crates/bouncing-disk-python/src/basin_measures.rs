@@ -1,6 +1,6 @@
 //! Measures of basins: their entropy, and the dimension of their boundary.
 
-use bouncing_disk::core::{Basins, BoundaryFit, BoundaryScaling};
+use bouncing_disk::core::attractors::{Basins, BoundaryFit, BoundaryScaling};
 use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -1,8 +1,8 @@
 //! Basins of attraction on a grid.
 
-use bouncing_disk::core::{
-    Axis, BasinSettings, Basins, Grid, ImpactMap as Map, KnownOrbit, Label, PeriodicOrbit as Orbit,
-};
+use bouncing_disk::core::ImpactMap as Map;
+use bouncing_disk::core::attractors::{Axis, BasinSettings, Basins, Grid, KnownOrbit, Label};
+use bouncing_disk::core::orbits::PeriodicOrbit as Orbit;
 use bouncing_disk::{Error, Observer, Progress};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -1,10 +1,10 @@
 //! Branches of periodic orbits, and the doubling cascade.
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{
-    BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
-    ImpactState, feigenbaum_estimates,
+use bouncing_disk::core::orbits::{
+    BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, feigenbaum_estimates,
 };
+use bouncing_disk::core::{Error as CoreError, ImpactState};
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -82,7 +82,7 @@ impl Branch {
     fn row(
         &self,
         py: Python<'_>,
-        of: impl Fn(&bouncing_disk::core::BranchPoint) -> f64,
+        of: impl Fn(&bouncing_disk::core::orbits::BranchPoint) -> f64,
     ) -> Py<PyArray1<f64>> {
         results::array(py, self.0.points.iter().map(of).collect()).unbind()
     }
@@ -156,7 +156,10 @@ impl Branch {
     /// Whether each orbit attracts, bool, shape (n,).
     #[getter]
     fn is_stable<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
-        results::array(py, self.0.points.iter().map(bouncing_disk::core::BranchPoint::is_stable).collect())
+        results::array(
+            py,
+            self.0.points.iter().map(bouncing_disk::core::orbits::BranchPoint::is_stable).collect(),
+        )
     }
 
     /// Why the branch ends, in words.
@@ -368,14 +371,14 @@ pub(crate) fn doubling_cascade<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let count = count.usize(py, "count")?;
     let cascade = long_call::run(py, progress.0, |observer| {
-        bouncing_disk::core::doubling_cascade(restitution.0, count, observer)
+        bouncing_disk::core::orbits::doubling_cascade(restitution.0, count, observer)
             .map_err(|error: CoreError| Error::from(error))
     })?;
     let estimates = feigenbaum_estimates(&cascade);
-    let row = |of: fn(&bouncing_disk::core::CascadeDoubling) -> f64| {
+    let row = |of: fn(&bouncing_disk::core::orbits::CascadeDoubling) -> f64| {
         results::array(py, cascade.iter().map(of).collect())
     };
-    let estimate = |of: fn(&bouncing_disk::core::FeigenbaumEstimate) -> f64| {
+    let estimate = |of: fn(&bouncing_disk::core::orbits::FeigenbaumEstimate) -> f64| {
         results::array(py, estimates.iter().map(of).collect())
     };
     let fields = (

@@ -1,6 +1,6 @@
 //! Crises, and lives beyond them.
 
-use bouncing_disk::core::{Crisis as Core, CrisisSearch, LifeAfterRest, NoCrisis, Tangency};
+use bouncing_disk::core::chaos::{Crisis as Core, CrisisSearch, LifeAfterRest, NoCrisis, Tangency};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -170,7 +170,7 @@ impl Crisis {
         let found = long_call::run_named(py, progress.0, &LIVES, |observer| {
             Ok(self.0.lives(&beyond, orbits, impacts, observer)?)
         })?;
-        let row = |of: fn(&bouncing_disk::core::MeanLife) -> f64| {
+        let row = |of: fn(&bouncing_disk::core::chaos::MeanLife) -> f64| {
             results::array(py, found.lives.iter().map(of).collect())
         };
         let (exponent, error, why) = match &found.scaling {

@@ -84,8 +84,12 @@ pub(crate) fn orbit_diagram<'py>(
     let (transient, recorded) = (transient.usize(py, "transient")?, recorded.usize(py, "recorded")?);
     let policy = policy(chatter);
     let columns = long_call::run(py, progress.0, |observer| {
-        let columns =
-            bouncing_disk::core::orbit_diagram(&starts.orbits(policy)?, transient, recorded, observer)?;
+        let columns = bouncing_disk::core::sweep::orbit_diagram(
+            &starts.orbits(policy)?,
+            transient,
+            recorded,
+            observer,
+        )?;
         let impacts = columns.iter().map(Vec::len).sum();
         let mut flat = Columns {
             offsets: room_for(columns.len() + 1)?,
@@ -155,7 +159,7 @@ pub(crate) fn survival_times<'py>(
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
     let (most, policy) = (most.usize(py, "most")?, policy(chatter));
     let times = long_call::run(py, progress.0, |observer| {
-        let times = bouncing_disk::core::survival_times(&starts.orbits(policy)?, most, observer)?;
+        let times = bouncing_disk::core::sweep::survival_times(&starts.orbits(policy)?, most, observer)?;
         Ok(times.into_iter().map(|time| time as i64).collect())
     })?;
     Ok(results::array(py, times))
@@ -207,7 +211,7 @@ pub(crate) fn lyapunov_exponents<'py>(
     let (transient, impacts) = (transient.usize(py, "transient")?, impacts.usize(py, "impacts")?);
     let exponents = long_call::run(py, progress.0, |observer| {
         let exponents =
-            bouncing_disk::core::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?;
+            bouncing_disk::core::chaos::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?;
         Ok(exponents.into_iter().map(|exponent| exponent.unwrap_or(f64::NAN)).collect())
     })?;
     Ok(results::array(py, exponents))

@@ -2,7 +2,8 @@
 
 use std::borrow::Cow;
 
-use bouncing_disk::core::{Error as CoreError, NoCrisis};
+use bouncing_disk::core::Error as CoreError;
+use bouncing_disk::core::chaos::NoCrisis;
 use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;

@@ -111,11 +111,11 @@ mod _native {
     use crate::verdicts::verdicts;
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
     #[pymodule_export]
-    const UNDECIDED: u8 = bouncing_disk::core::UNDECIDED;
+    const UNDECIDED: u8 = bouncing_disk::core::attractors::UNDECIDED;
     /// Label of a start that comes to rest.
     #[pymodule_export]
-    const ATTACHED: u8 = bouncing_disk::core::ATTACHED;
+    const ATTACHED: u8 = bouncing_disk::core::attractors::ATTACHED;
     /// Label of the first known orbit; the next ones count up from here.
     #[pymodule_export]
-    const FIRST_ORBIT: u8 = bouncing_disk::core::FIRST_ORBIT;
+    const FIRST_ORBIT: u8 = bouncing_disk::core::attractors::FIRST_ORBIT;
 }

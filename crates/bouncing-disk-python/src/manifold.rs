@@ -1,6 +1,6 @@
 //! Stable and unstable manifolds of saddles.
 
-use bouncing_disk::core::{
+use bouncing_disk::core::chaos::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, PieceEnd, Side,
 };
 use pyo3::exceptions::PyValueError;

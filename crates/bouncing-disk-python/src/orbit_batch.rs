@@ -1,7 +1,9 @@
 //! Many orbits of the impact map, advanced together: the bare map, without a question after each impact.
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{ImpactMap, ImpactState, OrbitBatch, Watch};
+use bouncing_disk::core::run::Watch;
+use bouncing_disk::core::sweep::OrbitBatch;
+use bouncing_disk::core::{ImpactMap, ImpactState};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use rayon::prelude::*;

@@ -1,6 +1,6 @@
 //! Periodic orbits of the impact map.
 
-use bouncing_disk::core::{Multipliers, OrbitSearch, PeriodicOrbit as Orbit, Stability};
+use bouncing_disk::core::orbits::{Multipliers, OrbitSearch, PeriodicOrbit as Orbit, Stability};
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::prelude::*;
 

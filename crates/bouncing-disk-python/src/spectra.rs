@@ -1,6 +1,6 @@
 //! Both Lyapunov exponents of many orbits, with their errors.
 
-use bouncing_disk::core::LyapunovOutcome;
+use bouncing_disk::core::chaos::LyapunovOutcome;
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, Starts};
@@ -85,7 +85,7 @@ pub(crate) fn lyapunov_spectra<'py>(
     let (transient, impacts) = (transient.u64(py, "transient")?, impacts.u64(py, "impacts")?);
     let all = long_call::run(py, progress.0, |observer| {
         let outcomes =
-            bouncing_disk::core::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
+            bouncing_disk::core::chaos::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
         let mut all = room_for(outcomes.len())?;
         all.extend(outcomes.iter().map(numbers));
         Ok(all)

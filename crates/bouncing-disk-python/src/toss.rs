@@ -1,6 +1,7 @@
 //! Single and multiple tosses.
 
-use bouncing_disk::core::{LyapunovEstimate, Multipliers};
+use bouncing_disk::core::chaos::LyapunovEstimate;
+use bouncing_disk::core::orbits::Multipliers;
 use bouncing_disk::{InitialSpin, MultiTossSettings, OrbitClass, SiEnergy, TossOrbit, TossPerformance};
 use numpy::Complex64;
 use pyo3::exceptions::PyValueError;

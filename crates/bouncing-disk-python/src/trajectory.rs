@@ -1,6 +1,7 @@
 //! The motion of the engine: its events, and samples between them.
 
-use bouncing_disk::core::{Error as CoreError, Watch};
+use bouncing_disk::core::Error as CoreError;
+use bouncing_disk::core::run::Watch;
 use bouncing_disk::{
     DiskState, Engine, Error, Event, EventKind, EventRecord, Mode, PhaseSpan, PlatformState, Scales,
     SlipDirection, Snapshot, System as Model, Trajectory as Motion, toss_trajectory as toss_motion,

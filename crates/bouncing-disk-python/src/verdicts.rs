@@ -1,6 +1,6 @@
 //! What orbits do for good.
 
-use bouncing_disk::core::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict};
+use bouncing_disk::core::attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict};
 use numpy::Complex64;
 use pyo3::prelude::*;
 

@@ -3,10 +3,10 @@
 //! Which branches there are, and where their bifurcations lie, does not depend on the window that is looked at: each is
 //! followed from its birth on, and the window gets its own points of it.
 
-use bouncing_disk::core::{
-    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, ImpactMap,
-    PeriodicOrbit, Unobserved,
+use bouncing_disk::core::orbits::{
+    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, PeriodicOrbit,
 };
+use bouncing_disk::core::{Error as CoreError, ImpactMap, Unobserved};
 use serde::Serialize;
 
 use crate::refusal::Refusal;

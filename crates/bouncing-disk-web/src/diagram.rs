@@ -1,8 +1,7 @@
 //! Columns of orbit diagrams.
 
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactState, Orbit, Unobserved, is_settling, orbit_diagram, repeats_every,
-};
+use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved};
 use bouncing_disk::{
     CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
 };

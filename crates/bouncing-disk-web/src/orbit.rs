@@ -1,6 +1,7 @@
 //! What one orbit does for good.
 
-use bouncing_disk::core::{Multipliers, UndecidedReason, Verdict, VerdictSettings};
+use bouncing_disk::core::attractors::{UndecidedReason, Verdict, VerdictSettings};
+use bouncing_disk::core::orbits::Multipliers;
 use serde::Serialize;
 
 use crate::refusal::Refusal;

@@ -1,7 +1,8 @@
 //! The attractors of a map, and rows of their basins.
 
-use bouncing_disk::core::{
-    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Unobserved,
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::attractors::{
+    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
 };
 use serde::Serialize;
 

@@ -1,9 +1,8 @@
 //! What is timed in WebAssembly and natively: impacts in lockstep (W1), and the basin W3 of the benchmarks of the core.
 
-use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Error, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit,
-    OrbitBatch, Unobserved, Vibration,
-};
+use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
+use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
+use bouncing_disk_core::{ChatterPolicy, Error, ImpactMap, ImpactState, Unobserved, Vibration};
 
 /// Orbits in lockstep.
 const ORBITS: usize = 1_024;

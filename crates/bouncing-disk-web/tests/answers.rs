@@ -1,6 +1,6 @@
 //! Answers to requests: what a page relies on, and every seam of what it may ask.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk_web::{Explorer, Reply};
 use serde_json::{Value, json};
 

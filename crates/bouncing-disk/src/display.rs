@@ -4,7 +4,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::LyapunovEstimate;
+use bouncing_disk_core::chaos::LyapunovEstimate;
 
 use crate::motion::event::Event;
 use crate::motion::phase_time::PhaseTime;

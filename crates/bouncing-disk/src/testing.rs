@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk_core::elementary::exp;
+use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
@@ -25,7 +25,10 @@ pub(crate) fn golden_spread(k: u64) -> f64 {
 
 /// A number whose logarithm is uniform between those of `low` and `high`.
 pub(crate) fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    let (low, high) = (bouncing_disk_core::elementary::ln(low), bouncing_disk_core::elementary::ln(high));
+    let (low, high) = (
+        bouncing_disk_core::numerics::elementary::ln(low),
+        bouncing_disk_core::numerics::elementary::ln(high),
+    );
     (low..high).prop_map(exp)
 }
 
@@ -105,8 +108,8 @@ impl Noise {
 
     /// The next number of mean 0 and deviation 1 (Box and Muller).
     pub(crate) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * bouncing_disk_core::elementary::ln(1.0 - self.0.unit())).sqrt();
-        radius * bouncing_disk_core::elementary::cos(TAU * self.0.unit())
+        let radius = (-2.0 * bouncing_disk_core::numerics::elementary::ln(1.0 - self.0.unit())).sqrt();
+        radius * bouncing_disk_core::numerics::elementary::cos(TAU * self.0.unit())
     }
 
     /// Numbers of deviation 1 of which each remembers the share `memory` of the one before.

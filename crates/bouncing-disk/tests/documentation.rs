@@ -7,9 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration, orbit_diagram, survival_times,
-};
+use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 
 /// Pages that nobody writes by hand.
 const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];

@@ -10,7 +10,9 @@ mod round_trip;
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{ChatterPolicy, LyapunovEstimate, Multipliers, Phase};
+use bouncing_disk::core::chaos::LyapunovEstimate;
+use bouncing_disk::core::orbits::Multipliers;
+use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::*;
 use serde_json::json;
 

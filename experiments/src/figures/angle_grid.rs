@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::elementary::{atan, cos};
+use bouncing_disk::core::numerics::elementary::{atan, cos};
 
 use super::toss_case::TossCase;
 use crate::experiment::ExperimentError;

@@ -1,6 +1,6 @@
 //! What is said of a sample of numbers in one number or two: the core's own statistics.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 pub(crate) use bouncing_disk::core::numerics::statistics::{extent, median};
 
 /// A number rounded to six decimals, where no more are meant.

@@ -1,7 +1,7 @@
 //! Seeded random numbers: noise for estimators that have no measured points to run on (whatever is made with it is labelled
 //! synthetic), and inputs that print alike.
 
-use bouncing_disk::core::elementary::{exp, ln};
+use bouncing_disk::core::numerics::elementary::{exp, ln};
 use bouncing_disk::core::numerics::random::SplitMix64;
 
 /// A documented, reproducible stream of numbers for each seed (splitmix64).

@@ -64,10 +64,8 @@ fn digits(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::{
-        ATTACHED, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, UNDECIDED,
-        Unobserved, Vibration,
-    };
+    use bouncing_disk_core::attractors::{ATTACHED, Axis, BasinSettings, Grid, KnownOrbit, UNDECIDED};
+    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 
     use super::super::record::tests::record;
     use super::*;

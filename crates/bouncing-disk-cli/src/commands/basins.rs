@@ -4,10 +4,11 @@ use std::io::{self, Write};
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
-use bouncing_disk::core::{
+use bouncing_disk::core::attractors::{
     ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
-    PeriodicOrbit, UNDECIDED,
+    UNDECIDED,
 };
+use bouncing_disk::core::orbits::PeriodicOrbit;
 use bouncing_disk::{Observer, Progress};
 use clap::Args;
 use serde::{Deserialize, Serialize};

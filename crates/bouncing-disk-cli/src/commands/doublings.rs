@@ -1,6 +1,8 @@
 //! `bouncing-disk doublings`: the period-doubling cascade.
 
-use bouncing_disk::core::{CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
+use bouncing_disk::core::orbits::{
+    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates,
+};
 use clap::Args;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! `bouncing-disk orbits`: the periodic orbits, stable and unstable.
 
-use bouncing_disk::core::{OrbitSearch, OrbitsFound};
+use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound};
 use clap::Args;
 use serde::Serialize;
 

@@ -7,7 +7,8 @@ use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, each_verdict};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::attractors::{MAX_CELLS, Verdict, VerdictSettings, each_verdict};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::error::Error;
+use crate::numerics::error::Error;
 use crate::read_checked;
 
 /// What is done with the infinite sequence of impacts of a chattering disk.

@@ -3,8 +3,8 @@
 
 use core::f64::consts::TAU;
 
-use crate::error::{Error, within};
-use crate::platform::phase::Phase;
+use crate::flight::platform::phase::Phase;
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// The first impact after a launch.

@@ -1,7 +1,7 @@
 //! A launch of the disk from the platform.
 
-use crate::error::Error;
-use crate::platform::phase::Phase;
+use crate::flight::platform::phase::Phase;
+use crate::numerics::error::Error;
 use crate::read_checked;
 
 /// A launch of the disk from the platform.

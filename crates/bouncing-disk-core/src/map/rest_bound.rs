@@ -17,7 +17,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// pair give (docs/numerics/restitution.md, "The error of a cut").
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, Phase, Vibration};
+    /// # use bouncing_disk_core::map::KuwabaraKono;
+    /// # use bouncing_disk_core::{ImpactMap, ImpactState, Phase, Vibration};
     /// // On a still platform the flights after an impact at speed v last (5/2) v^(4/5) together, where x = v^(1/5).
     /// let law = KuwabaraKono::new(0.5, 0.25)?;
     /// let map = ImpactMap::with_law(Vibration::new(0.0)?, law);

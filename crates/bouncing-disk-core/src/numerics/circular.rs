@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{Error, within};
 use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap

@@ -1,11 +1,15 @@
 //! What the digests are of. `tests/test_same_bits.py` of the Python package makes the same calls.
 
-use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, CrisisSearch, CycleTrust, Grid, ImpactMap, ImpactState, KnownOrbit,
-    LyapunovOutcome, ManifoldKind, ManifoldSettings, OrbitSearch, Unobserved, Verdict, VerdictSettings,
-    Vibration, lyapunov_spectra, orbit_diagram, verdicts,
+use bouncing_disk::core::attractors::{
+    Axis, BasinSettings, CycleTrust, Grid, KnownOrbit, Verdict, VerdictSettings, verdicts,
 };
+use bouncing_disk::core::chaos::{
+    CrisisSearch, LyapunovOutcome, ManifoldKind, ManifoldSettings, lyapunov_spectra,
+};
+use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::core::orbits::OrbitSearch;
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 use bouncing_disk::{
     Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
     SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,

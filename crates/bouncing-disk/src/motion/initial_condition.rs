@@ -1,6 +1,6 @@
 //! How a motion starts.
 
-use bouncing_disk_core::stored::check_drop;
+use bouncing_disk_core::flight::check_drop;
 use bouncing_disk_core::{Launch, Phase, read_checked};
 
 use crate::error::{Error, moderate};

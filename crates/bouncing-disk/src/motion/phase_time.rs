@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::wrapped_angle;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::{Phase, read_checked};
 
 use crate::error::{Error, check};

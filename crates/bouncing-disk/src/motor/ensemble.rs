@@ -9,7 +9,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Phase, Watch, WorkCount, read_checked};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{Observer, Phase, read_checked};
 
 use crate::error::{Error, check, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;

@@ -16,8 +16,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::cos;
 use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::numerics::elementary::cos;
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::{Error, moderate_not_negative, within_limit};

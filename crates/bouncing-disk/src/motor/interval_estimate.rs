@@ -100,15 +100,15 @@ pub(crate) fn small_sample_widening(size: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::elementary::{ln, pow};
+    use bouncing_disk_core::numerics::elementary::{ln, pow};
 
     use super::*;
 
     /// The share of Student's distribution between -t and t, by Simpson's rule over the angle atan(x/sqrt(degrees)), in which
     /// its density is a power of the cosine.
     fn share_within(t: f64, degrees: f64) -> f64 {
-        let end = bouncing_disk_core::elementary::atan(t / degrees.sqrt());
-        let density = |angle: f64| pow(bouncing_disk_core::elementary::cos(angle), degrees - 1.0);
+        let end = bouncing_disk_core::numerics::elementary::atan(t / degrees.sqrt());
+        let density = |angle: f64| pow(bouncing_disk_core::numerics::elementary::cos(angle), degrees - 1.0);
         let integral = |to: f64| {
             let (n, h) = (4_000, to / 4_000.0);
             (0..=n).fold(0.0, |sum, i| {

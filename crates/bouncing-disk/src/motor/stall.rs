@@ -13,7 +13,7 @@
 
 use std::convert::Infallible;
 
-use bouncing_disk_core::elementary::cos;
+use bouncing_disk_core::numerics::elementary::cos;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::roots::bisection;
 use bouncing_disk_core::{ChatterPolicy, Launch, OrbitEvent};

@@ -10,9 +10,10 @@ mod onset;
 mod resamples;
 mod shape_grid;
 
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount, read_checked};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{Observer, Unobserved, read_checked};
 
 use self::blocks::Blocks;
 use self::members::Members;

@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::{
-    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Watch, WorkCount,
-};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::sweep::{Flights, InstructionSet, PartialResults};
+use bouncing_disk_core::{ChatterPolicy, Launch, Observer, Phase};
 
 use super::rotors::{Carry, Rotors};
 use crate::error::Error;

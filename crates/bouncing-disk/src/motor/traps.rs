@@ -10,7 +10,8 @@ pub(crate) mod ranges;
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ImpactMap, Observer, Unobserved};
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;

@@ -10,8 +10,9 @@ mod search;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use bouncing_disk_core::elementary::{acos, tan};
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::elementary::{acos, tan};
+use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;

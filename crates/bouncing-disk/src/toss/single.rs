@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk_core::elementary::sin;
+use bouncing_disk_core::numerics::elementary::sin;
 use bouncing_disk_core::{ChatterPolicy, Phase, read_checked};
 
 use crate::error::{Error, finite, phase_angle};
@@ -161,7 +161,7 @@ const fn never_leaves(system: &System) -> Error {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    use bouncing_disk_core::elementary::{acos, asin, cos};
+    use bouncing_disk_core::numerics::elementary::{acos, asin, cos};
     use proptest::prelude::*;
 
     use super::*;

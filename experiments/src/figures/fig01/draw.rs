@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use bouncing_disk::core::elementary::{atan2, sin, sin_cos};
+use bouncing_disk::core::numerics::elementary::{atan2, sin, sin_cos};
 use bouncing_disk_plot::{
     Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke, TextStyle,
 };

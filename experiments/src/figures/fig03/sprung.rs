@@ -7,7 +7,7 @@
 
 use std::convert::Infallible;
 
-use bouncing_disk::core::elementary::{asin, sin, sin_cos};
+use bouncing_disk::core::numerics::elementary::{asin, sin, sin_cos};
 use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};

@@ -3,7 +3,7 @@
 //! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of amplitude angles?
 
 use bouncing_disk::InitialSpin;
-use bouncing_disk::core::elementary::sin;
+use bouncing_disk::core::numerics::elementary::sin;
 
 use super::data::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};

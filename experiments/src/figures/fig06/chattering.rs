@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{
-    ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Unobserved, Vibration, sweep,
-};
+use bouncing_disk::core::sweep::{SweepEvent, sweep};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, Unobserved, Vibration};
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, TossOrbit,
     multi_toss,

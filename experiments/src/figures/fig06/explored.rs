@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    ImpactState, Launch, Orbit, Phase, Unobserved, follow_attractor, orbit_diagram, survival_times,
-};
+use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
+use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, Unobserved};
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
     PhasedImpulse, multi_toss,

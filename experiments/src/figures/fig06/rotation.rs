@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::elementary::cos;
+use bouncing_disk::core::numerics::elementary::cos;
 
 use super::data::{Fig06Data, Slice};
 use crate::claim::{self, Cases, Claim};

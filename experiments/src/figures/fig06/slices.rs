@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{Followed, Unobserved};
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::orbits::Followed;
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
     multi_toss,

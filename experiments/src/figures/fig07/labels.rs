@@ -1,7 +1,7 @@
 //! How Fig. 7 stores the labels of its cells, as runs. The labels themselves are the core's (`analysis/basin.rs`).
 
-use bouncing_disk::core::elementary::ln;
-use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
+use bouncing_disk::core::attractors::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
+use bouncing_disk::core::numerics::elementary::ln;
 
 /// Kinds of cells in the picture, as indices into its palette.
 pub(super) const CHATTERING: u8 = 0;

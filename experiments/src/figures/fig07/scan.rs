@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Launch, Phase, UNDECIDED,
-    Unobserved, follow_attractor, survival_times,
-};
+use bouncing_disk::core::attractors::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, UNDECIDED};
+use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::sweep::survival_times;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Phase, Unobserved};
 use rayon::prelude::*;
 
 use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};

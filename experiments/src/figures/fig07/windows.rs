@@ -2,8 +2,9 @@
 
 use std::convert::Infallible;
 
+use bouncing_disk::core::attractors::{BasinSettings, KnownOrbit};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
-use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 
 use super::data::{CurvePoint, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};

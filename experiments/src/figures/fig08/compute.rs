@@ -1,6 +1,6 @@
 //! The computation of Fig. 8.
 
-use bouncing_disk::core::elementary::asin;
+use bouncing_disk::core::numerics::elementary::asin;
 
 use super::data::Fig08Data;
 use crate::experiment::ExperimentError;

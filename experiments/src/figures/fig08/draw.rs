@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk::core::elementary::sin_cos;
+use bouncing_disk::core::numerics::elementary::sin_cos;
 use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
 };

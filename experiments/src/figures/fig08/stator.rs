@@ -1,6 +1,6 @@
 //! A pretwisted beam in perspective.
 
-use bouncing_disk::core::elementary::sin_cos;
+use bouncing_disk::core::numerics::elementary::sin_cos;
 use bouncing_disk_plot::{Camera, Colour, Drawing, Path, Stroke};
 use glam::DVec3;
 

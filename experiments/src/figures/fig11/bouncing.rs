@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use bouncing_disk::core::elementary::acos;
+use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 
 use super::data::{Coexisting, EndOfBouncing};

@@ -1,6 +1,6 @@
 //! A user's steady speeds and stall torques over the curves of Fig. 11.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
 use super::data::{Fig11Data, MeasuredExponent, MeasuredMotor, MeasuredMotors};
 use crate::experiment::ExperimentError;

@@ -313,7 +313,7 @@ fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, Experiment
         speed_rad_per_s: thin(&speeds, top),
         impacts: impacts
             .map(|PhasedImpulse { phase, impulse }| {
-                let level = bouncing_disk::core::elementary::cos(phase + motor.phase_lag_rad);
+                let level = bouncing_disk::core::numerics::elementary::cos(phase + motor.phase_lag_rad);
                 (phase / TAU, impulse / total, level)
             })
             .collect(),

@@ -3,7 +3,7 @@
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-use bouncing_disk::core::elementary::{ln, pow};
+use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
 
 use super::data::{

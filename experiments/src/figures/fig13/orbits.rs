@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_8, PI};
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
 use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};

@@ -1,6 +1,6 @@
 //! How steady speed and stall torque depend on the parameters.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{

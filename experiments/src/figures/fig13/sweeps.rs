@@ -1,6 +1,6 @@
 //! Quantity off the sweeps of Fig. 13.
 
-use bouncing_disk::core::elementary::{cos, ln};
+use bouncing_disk::core::numerics::elementary::{cos, ln};
 
 use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
 use crate::figures::regression::StraightLine;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::core::elementary::{acos, asin, hypot, tan};
+use bouncing_disk::core::numerics::elementary::{acos, asin, hypot, tan};
 use bouncing_disk::{LaunchSpeeds, Platform, Stroke, System};
 
 use super::data::{Alike, Arc, AtSeparation, ComputedEntries, Row, Table1Data};

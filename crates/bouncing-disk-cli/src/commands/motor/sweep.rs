@@ -3,7 +3,7 @@
 use std::ops::Range as Rows;
 use std::str::FromStr;
 
-use bouncing_disk::core::PartialResults;
+use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::{
     Motor, MotorField, MotorSweep, MotorSweepRun, Observer, OperatingSettings, Operation, SweepAxis,
     SweepQuantity, operations,

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use bouncing_disk::core::Verdict;
+use bouncing_disk::core::attractors::Verdict;
 use serde_json::{Value, json};
 
 use super::{Kind, VerdictsJob};

@@ -1,6 +1,6 @@
 //! The kind of a verdict, as files and pictures have it.
 
-use bouncing_disk::core::Verdict;
+use bouncing_disk::core::attractors::Verdict;
 
 /// What the disk does for good, without the evidence.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

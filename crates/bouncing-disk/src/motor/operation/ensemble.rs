@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::run::Watch;
 
 use super::member::{AxialWindow, Member, RotorWindow, Window, far_above};
 use super::point::{Estimate, OperatingPoint, Operation, Shortfall};

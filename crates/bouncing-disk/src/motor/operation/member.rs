@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{
-    Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, WorkCount,
-};
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
 use super::energy_rows::{CarryAll, Energies};
 use super::no_lift_off::Lying;

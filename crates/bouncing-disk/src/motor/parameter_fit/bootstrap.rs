@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::WorkCount;
-use bouncing_disk_core::elementary::{cos, ln};
+use bouncing_disk_core::numerics::elementary::{cos, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
 use nalgebra::{DMatrix, DVector};
 
 use super::model::{Local, Model, mean_of};

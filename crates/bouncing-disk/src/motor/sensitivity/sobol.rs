@@ -2,7 +2,8 @@
 //! has.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Observer, Watch, read_checked};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{Observer, read_checked};
 
 use super::resamples::standard_errors;
 use crate::error::{Error, check, finite};

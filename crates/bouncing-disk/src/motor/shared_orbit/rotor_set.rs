@@ -1,6 +1,6 @@
 //! How far the rotors on one vertical motion turn: what their curves are made of.
 
-use bouncing_disk_core::LaneLoop;
+use bouncing_disk_core::sweep::LaneLoop;
 
 use crate::motor::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 

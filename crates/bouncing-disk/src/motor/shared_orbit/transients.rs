@@ -1,8 +1,8 @@
 //! The speed transients of many rotors on one vertical motion.
 
-use bouncing_disk_core::{
-    Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
-};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
+use bouncing_disk_core::{Impact, OrbitEvent, Phase, Unobserved};
 
 use super::rotor_set::{CarryAll, Turned};
 use super::shared_by;

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::{Observer, PartialResults, Progress, Watch};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::sweep::PartialResults;
+use bouncing_disk_core::{Observer, Progress};
 
 use super::MotorSweep;
 use super::axis::sheet_of_cell;

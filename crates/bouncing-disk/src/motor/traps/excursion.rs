@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, WorkCount};
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent};
 
 use crate::error::Error;
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};

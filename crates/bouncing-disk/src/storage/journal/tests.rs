@@ -335,7 +335,8 @@ fn transients_that_are_killed_again_and_again_end_as_those_of_one_call() {
 
 #[test]
 fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
-    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepRun, Vibration, orbit_diagram};
+    use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
+    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Vibration};
 
     let scratch = Scratch::new("sweep");
     let key = Provenance::new(JOURNAL).with("forcings", &"0.5 to 0.6").expect("storable");
