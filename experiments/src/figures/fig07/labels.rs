@@ -1,4 +1,4 @@
-//! How Fig. 7 stores the labels of its cells, as runs. The labels themselves are the core's (`analysis/basin.rs`).
+//! How Fig. 7 stores the labels of its cells, as runs. The labels themselves are the core's (`attractors/basin.rs`).
 
 use bouncing_disk::core::attractors::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 use bouncing_disk::core::numerics::elementary::ln;
