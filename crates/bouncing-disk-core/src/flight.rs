@@ -20,7 +20,6 @@ pub(crate) mod drop;
 pub(crate) mod first_impact;
 pub(crate) mod gap;
 mod graze_margin;
-pub(crate) mod impact;
 pub(crate) mod launch;
 pub(crate) mod platform;
 pub mod reference;

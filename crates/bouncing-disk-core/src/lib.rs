@@ -38,12 +38,12 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and for runs that can be resumed |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is
-//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
-//! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when
-//! they are read, and what is gone on with is no longer the same.
+//! Deserialisation passes the same checks as construction: a value outside its range, a missing key of a required value
+//! and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number. With `serde_json`,
+//! switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when they are read,
+//! and a resumed run no longer gives the same results.
 
 pub mod attractors;
 pub mod chaos;
@@ -58,8 +58,8 @@ pub mod sweep;
 mod testing;
 
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
-pub use flight::impact::Impact;
-pub use flight::launch::Launch;
+
+pub use flight::launch::{Impact, Launch};
 pub use flight::platform::phase::Phase;
 pub use flight::platform::vibration::Vibration;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};

@@ -19,7 +19,6 @@
 mod chattering;
 pub(crate) mod impact_map;
 mod inverse;
-mod rest_bound;
 pub(crate) mod restitution_law;
 mod trapping_region;
 

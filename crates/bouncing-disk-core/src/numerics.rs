@@ -10,7 +10,6 @@ pub mod double_double;
 pub mod elementary;
 pub(crate) mod error;
 pub mod fraction;
-pub mod minimum;
 pub mod power_law;
 pub mod random;
 pub mod real;

@@ -36,7 +36,7 @@ pub(crate) fn launch_that_may_dip(vibration: &Vibration, k: u64) -> (Phase, f64)
     (phase, 1.9 + 0.8 * golden_spread(7 * k) - vibration.velocity(phase))
 }
 
-/// What can be stored, if anything can.
+/// A type that can be stored, if the feature `serde` is on.
 #[cfg(feature = "serde")]
 pub(crate) trait Storable:
     Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned
@@ -46,14 +46,14 @@ pub(crate) trait Storable:
 #[cfg(feature = "serde")]
 impl<T: Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned> Storable for T {}
 
-/// What can be stored, if anything can.
+/// A type that can be stored, if the feature `serde` is on.
 #[cfg(not(feature = "serde"))]
 pub(crate) trait Storable: Clone + PartialEq + Debug {}
 
 #[cfg(not(feature = "serde"))]
 impl<T: Clone + PartialEq + Debug> Storable for T {}
 
-/// What is read of a value that was written; the value itself where nothing is.
+/// A value after it was written and read; the value itself without the feature `serde`.
 pub(crate) fn stored<T: Storable>(value: &T) -> T {
     #[cfg(feature = "serde")]
     let read = serde_json::from_str(&serde_json::to_string(value).expect("writes")).expect("legal");
@@ -81,7 +81,7 @@ impl StopAfter {
         self.asked.load(Ordering::Relaxed)
     }
 
-    /// What it was told last.
+    /// The last progress that it saw.
     pub(crate) fn last(&self) -> Progress {
         *self.last.lock().expect("no panic")
     }

@@ -1,7 +1,7 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
 use bouncing_disk::core::numerics::elementary::acos;
-use bouncing_disk::core::numerics::minimum::golden_section;
+use bouncing_disk::core::numerics::roots::golden_section;
 use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 

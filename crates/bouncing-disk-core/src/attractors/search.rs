@@ -136,7 +136,7 @@ read_checked!(enum AttractorKind as UncheckedKind {
 });
 
 impl AttractorKind {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         if let Self::Chaotic { exponent, standard_error, .. } = self {
             finite("exponent", *exponent)?;
@@ -337,7 +337,7 @@ const fn label_of(number: usize) -> Label {
 }
 
 impl ImpactMap {
-    /// The attractors, without being told.
+    /// The attractors, found without any known orbit.
     ///
     /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no attractor
     /// can leave, so that no window can miss one. Each is followed until it rests, or is seen to come ever

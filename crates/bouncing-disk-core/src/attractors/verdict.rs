@@ -4,21 +4,18 @@
 mod display;
 mod proof;
 mod returns;
-mod settings;
 pub(crate) mod witness;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::orbits::periodic::Multipliers;
+use crate::orbits::periodic::{MAX_PERIOD, Multipliers};
 use crate::read_checked;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::SweepRun;
 use crate::sweep::lyapunov::LyapunovEstimate;
 use witness::Witness;
-
-pub use settings::VerdictSettings;
 
 /// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
 /// which leave lanes empty, do not count.
@@ -261,7 +258,7 @@ impl Verdict {
 }
 
 impl RestCycle {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         at_least_one("impacts of a cycle", self.impacts)?;
         at_least_one("platform periods", self.platform_periods)?;
@@ -278,7 +275,7 @@ impl RestCycle {
 }
 
 impl CycleTrust {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::ChosenByRounding { exponent, standard_error } => {
@@ -290,7 +287,7 @@ impl CycleTrust {
 }
 
 impl UndecidedReason {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::ExponentNearZero { exponent, standard_error }
@@ -407,6 +404,66 @@ pub fn each_verdict<E: From<Error>>(
         block.iter().for_each(|start| each(start.and_then(|_| found.next())));
     }
     Ok(())
+}
+
+/// The largest tolerance of a return.
+const LARGEST_TOLERANCE: f64 = 1.0e-2;
+
+/// The fewest impacts that an exponent is measured over: batches of four.
+const FEWEST_IMPACTS: f64 = 64.0;
+
+/// How long an orbit is followed for its verdict, and how.
+///
+/// An orbit that repeats itself or rests is decided as soon as that is seen. The others are followed for
+/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+pub struct VerdictSettings {
+    /// Impacts before the exponent is measured. Default 2,000.
+    pub transient: u64,
+    /// Impacts that the exponent is measured over, at least 64. Default 100,000.
+    pub impacts: u64,
+    /// The longest period that is looked for, in impacts, in [1, 4096]. Default 256. The proof of a period
+    /// makes some fifty times as many flights at most, and 8,192 more, between two calls of an observer.
+    pub longest_period: usize,
+    /// How near an impact must come to an earlier one for a period to be tried (rad, and relative speed), in
+    /// (0, 0.01]. Default 1e-7. It decides how soon a period is found; whether there is one is proved from
+    /// there.
+    pub tolerance: f64,
+}
+
+impl Default for VerdictSettings {
+    fn default() -> Self {
+        Self { transient: 2_000, impacts: 100_000, longest_period: 256, tolerance: 1.0e-7 }
+    }
+}
+
+read_checked!(VerdictSettings as UncheckedSettings {
+    transient: u64,
+    impacts: u64,
+    longest_period: usize,
+    tolerance: f64,
+});
+
+impl VerdictSettings {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] with the field that is out of its range.
+    pub fn check(&self) -> Result<(), Error> {
+        within("impacts", self.impacts as f64, FEWEST_IMPACTS, f64::MAX, "at least 64")?;
+        let longest = self.longest_period as f64;
+        within("longest period", longest, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let least = f64::from_bits(1);
+        within("tolerance", self.tolerance, least, LARGEST_TOLERANCE, "(0, 0.01]")?;
+        Ok(())
+    }
+
+    /// Impacts after which an orbit is left.
+    pub(super) const fn allowed(&self) -> u64 {
+        self.transient.saturating_add(self.impacts)
+    }
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ use crate::run::{Observer, Watch};
 
 mod following;
 pub(crate) mod lifetimes;
-mod passed;
 mod tangency;
 
 use following::End;
@@ -298,7 +297,7 @@ impl CrisisSearch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if one of `saddles` is none; [`Error::Stopped`] if the observer breaks; those of
+    /// [`Error::OutOfRange`] if one of `saddles` is no saddle; [`Error::Stopped`] if the observer breaks; those of
     /// [`Vibration::first_impact`].
     pub fn crisis(
         &self,

@@ -8,7 +8,6 @@ use crate::read_checked;
 use crate::run::{Observer, Watch};
 
 pub(crate) mod grower;
-mod record;
 pub(crate) mod saddle;
 
 use grower::Grower;
@@ -105,7 +104,7 @@ impl ManifoldSettings {
         settings.check().map(|()| settings)
     }
 
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         within("arclength of a manifold", self.arclength, f64::MIN_POSITIVE, 1.0e6, "(0, 1e6]")?;
         let most = Self::MAX_POINTS as f64;

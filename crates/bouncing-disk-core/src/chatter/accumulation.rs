@@ -60,7 +60,7 @@ read_checked!(Accumulation as UncheckedAccumulation {
 });
 
 impl Accumulation {
-    /// Checks what is read. There is no bound on what a cut leaves out: it is infinite.
+    /// Checks a value that was deserialised. There is no bound on what a cut leaves out: it is infinite.
     fn check(&self) -> Result<(), Error> {
         not_negative("duration", self.duration)?;
         within("error_bound", self.error_bound, 0.0, f64::INFINITY, "[0, inf] (rad)")?;
@@ -504,7 +504,7 @@ mod tests {
         assert!(summed > 20_000, "{summed}");
     }
 
-    /// Where the platform falls away is told by the phase, not by the force, which rounds there.
+    /// The phase decides where the platform falls away, not the force, which rounds there.
     #[test]
     fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
         let mut pulled_off = 0;

@@ -14,7 +14,7 @@ use core::f64::consts::{PI, TAU};
 use crate::flight::first_impact::{landed_within_a_turn, turned_by};
 use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{BRIEFEST, Bracket, GapForm, LaunchForm, Root, ShortForm};
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, hypot};

@@ -25,7 +25,7 @@ use crate::flight::bounds::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::flight::gap::{
     Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, SHORT_FLIGHT, ShortForm, is_brief,
 };
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;

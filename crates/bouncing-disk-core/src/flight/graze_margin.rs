@@ -2,7 +2,7 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::sin_cos;

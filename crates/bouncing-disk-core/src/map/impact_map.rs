@@ -4,7 +4,7 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
@@ -368,7 +368,7 @@ read_checked!(Attachment as UncheckedAttachment {
 });
 
 impl Attachment {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         not_negative("last_speed", self.last_speed)?;
         if let Some((_, turns)) = self.separation {

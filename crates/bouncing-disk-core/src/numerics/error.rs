@@ -108,7 +108,7 @@ pub enum Error {
         /// When the first impact comes, in radians after the launch.
         found: f64,
     },
-    /// No branch of periodic orbits begins: the orbit is none of the map, or it is not an isolated one, as at a
+    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one, as at a
     /// fold.
     #[error("no branch begins at {parameter:?}: {what} is no isolated orbit there")]
     NoBranch {
@@ -117,7 +117,7 @@ pub enum Error {
         /// Where it was sought: the parameter of the continuation.
         parameter: f64,
     },
-    /// A number of a list is none of those that are meant.
+    /// A number of a list is not of the kind that is needed.
     #[error("{what} number {index} of {count} is not {expected}")]
     NotOfKind {
         /// What is in the list.

@@ -1,4 +1,4 @@
-//! How what is stored is read: through the checks of what is made.
+//! Deserialisation through the same checks as construction.
 
 /// Reads a type through its checks: a mirror of its fields, each of which must be there (but for an optional one) and no
 /// other, then `check` on the whole, or the constructor that is named after `=>`.

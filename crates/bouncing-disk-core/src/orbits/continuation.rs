@@ -77,7 +77,7 @@ impl Continuation {
         settings.check().map(|()| settings)
     }
 
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let (least, most) = self.parameter.legal();
         within("low end of a continuation", self.low, least, most, "the range of its parameter")?;
@@ -139,7 +139,7 @@ read_checked!(BranchPoint as UncheckedPoint {
 });
 
 impl BranchPoint {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         finite("parameter of a branch", self.parameter)?;
         finite("trace", self.trace)?;
@@ -261,7 +261,7 @@ impl Branch {
     /// many at once, also after it has been stored (as JSON with the feature `float_roundtrip` of `serde_json`). What has come to another end, or is as long already, is
     /// returned as it is.
     ///
-    /// A long continuation is stopped and gone on with in this way, some points at a time.
+    /// A long continuation is stopped and resumed in this way, some points at a time.
     ///
     /// The items of `observer` are the points that are allowed.
     ///
@@ -349,7 +349,7 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NoBranch`] if `orbit` is none of this map, or not an isolated one: start beside a fold or a birth, not on it.
+    /// [`Error::NoBranch`] if `orbit` is no orbit of this map, or not an isolated one: start beside a fold or a birth, not on it.
     pub fn continued(
         &self,
         orbit: &PeriodicOrbit,

@@ -13,7 +13,6 @@ use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::read_checked;
 use crate::run::{Observer, Tick, Watch};
 
-mod catalogue;
 mod margin;
 pub(crate) mod newton;
 pub(crate) mod pair;
@@ -53,7 +52,7 @@ read_checked!(enum Multipliers as UncheckedMultipliers {
 });
 
 impl Multipliers {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::Real(large, small) => {

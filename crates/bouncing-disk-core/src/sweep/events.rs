@@ -3,7 +3,7 @@
 use core::f64::consts::TAU;
 
 use crate::chatter::policy::ChatterPolicy;
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
 use crate::numerics::error::Error;

@@ -123,7 +123,7 @@ pub struct LyapunovEstimate {
 read_checked!(LyapunovEstimate as UncheckedEstimate { exponent: f64, standard_error: f64, impacts: u64 });
 
 impl LyapunovEstimate {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         finite("exponent", self.exponent)?;
         not_negative("standard error of an exponent", self.standard_error)?;

@@ -1,4 +1,4 @@
-//! Sweeps that may be stopped, stored and gone on with.
+//! Sweeps that can be stopped, stored and resumed.
 
 use core::ops::ControlFlow;
 
@@ -12,7 +12,7 @@ use crate::sweep::lockstep::lanes::InstructionSet;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///
-/// What is read has indices that rise and are those of items.
+/// Deserialised ones have rising indices of existing items.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedResults<T>"))]
@@ -30,7 +30,7 @@ read_checked!(PartialResults<T> as UncheckedResults {
 });
 
 impl<T> PartialResults<T> {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let Self { total, finished } = self;
         let unfitting = |what, found: usize, expected: usize| {
@@ -134,7 +134,7 @@ impl<T> PartialResults<T> {
 
 /// A sweep over a list of orbits under way: the results of those that are finished.
 ///
-/// A run that is stopped, written, read and gone on with gives the results of one [`sweep`]
+/// A run that is stopped, written, read and resumed gives the results of one [`sweep`]
 /// without a stop, bit for bit, for any number of threads. The orbits themselves and what is asked of them
 /// are not stored: whoever goes on brings the same ones.
 ///
@@ -162,7 +162,7 @@ pub struct SweepRun<T> {
     results: PartialResults<T>,
 }
 
-/// A run that goes on from what is finished.
+/// A run that resumes after the finished orbits.
 impl<T> From<PartialResults<T>> for SweepRun<T> {
     fn from(results: PartialResults<T>) -> Self {
         Self { results }

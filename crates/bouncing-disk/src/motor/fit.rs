@@ -1,7 +1,7 @@
 //! Least-squares fits of measured or computed curves.
 
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
-use bouncing_disk_core::numerics::minimum::golden_section;
+use bouncing_disk_core::numerics::roots::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
 use bouncing_disk_core::read_checked;
 use bouncing_disk_core::run::{Watch, WorkCount};

@@ -107,7 +107,7 @@ impl AttractorSearch {
         Self { orbits, ..self }
     }
 
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let most = Self::MAX_IMPACTS as f64;
         within("starts", self.starts.into(), 0.0, Self::MAX_STARTS.into(), "[0, 262144]")?;

@@ -1,17 +1,17 @@
 //! How one branch of a manifold grows: generation by generation, each the image of the last one, with points
 //! inserted where it stretches or turns.
 
-use glam::DVec2;
-
-use super::record::Record;
-use super::saddle::Saddle;
-use super::{ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldSettings, PieceEnd, Side};
+use crate::chaos::manifold::saddle::Saddle;
+use crate::chaos::manifold::{
+    ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
+};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::sin;
 use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::phase_difference;
 use crate::run::Tick;
+use glam::DVec2;
 
 /// Length of the straight piece next to the saddle, after one generation: its distance from the curve is of
 /// the order of its square, and shrinks from then on.
@@ -350,4 +350,62 @@ impl<'m> Grower<'m> {
 /// Whether two neighbours lie too near on the first piece for a point between them.
 fn is_undivided(from: &Node, to: &Node) -> bool {
     to.from - from.from <= SHORTEST_PART
+}
+
+/// The pieces as far as they are known.
+pub(super) struct Record {
+    pieces: Vec<ManifoldPiece>,
+    /// The piece that grows.
+    current: Option<ManifoldPiece>,
+    /// Its last point, and how far that is from the last one that was kept.
+    last: Option<(ImpactState, f64)>,
+    finest: f64,
+    pub(super) arclength: f64,
+    pub(super) points: usize,
+}
+
+impl Record {
+    pub(super) fn new(saddle: ImpactState, finest: f64) -> Self {
+        let current = ManifoldPiece { states: vec![saddle], start: PieceEnd::Saddle, end: PieceEnd::Cut };
+        Self { pieces: Vec::new(), current: Some(current), last: None, finest, arclength: 0.0, points: 1 }
+    }
+
+    /// Begins a piece.
+    pub(super) fn begin(&mut self, state: ImpactState, start: PieceEnd) {
+        self.current = Some(ManifoldPiece { states: vec![state], start, end: PieceEnd::Cut });
+        self.last = None;
+        self.points += 1;
+    }
+
+    /// A point of the piece that grows, so far from the one before.
+    pub(super) fn extend(&mut self, before: ImpactState, state: ImpactState, by: f64) {
+        let Some(current) = &mut self.current else {
+            // The generation before ended in a gap.
+            self.begin(before, PieceEnd::Graze);
+            return self.extend(before, state, by);
+        };
+        self.arclength += by;
+        let since = self.last.map_or(0.0, |(_, since)| since) + by;
+        if since >= self.finest {
+            current.states.push(state);
+            self.points += 1;
+            self.last = None;
+        } else {
+            self.last = Some((state, since));
+        }
+    }
+
+    /// Ends the piece that grows, if there is one.
+    pub(super) fn interrupt(&mut self, end: PieceEnd) {
+        if let Some(mut piece) = self.current.take() {
+            piece.states.extend(self.last.take().map(|(state, _)| state));
+            piece.end = end;
+            self.pieces.push(piece);
+        }
+    }
+
+    pub(super) fn finished(mut self) -> Vec<ManifoldPiece> {
+        self.interrupt(PieceEnd::Cut);
+        self.pieces
+    }
 }

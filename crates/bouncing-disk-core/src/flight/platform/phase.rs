@@ -44,7 +44,7 @@ pub(crate) const PAIR_TOLERANCE: f64 = 1.0e-9;
 read_checked!(Phase as UncheckedPhase { angle: f64, sin: f64, cos: f64 });
 
 impl Phase {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let Self { angle, sin, cos } = *self;
         let illegal = |field, value, legal| Err(Error::OutOfRange { field, value, legal });

@@ -1,12 +1,10 @@
 //! The platform's vertical vibration, in units where time is 1/omega and length g/omega^2.
 
-use core::f64::consts::PI;
-
-use crate::flight::platform::crests::Crests;
 use crate::flight::platform::phase::Phase;
 use crate::numerics::elementary::{CREST, asin};
 use crate::numerics::error::{Error, within};
 use crate::read_checked;
+use core::f64::consts::{PI, TAU};
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
 ///
@@ -141,5 +139,78 @@ impl Vibration {
     #[inline]
     pub fn acceleration(&self, phase: Phase) -> f64 {
         -self.peak_acceleration * phase.sin()
+    }
+}
+
+impl Vibration {
+    /// Weight that a resting disk puts on the platform per unit mass, 1 - P sin tau, in units of g (Eq. 3 as
+    /// corrected in docs/errata.md); the disk separates where it falls to zero.
+    #[must_use]
+    #[inline]
+    pub fn contact_force(&self, phase: Phase) -> f64 {
+        1.0 - self.peak_acceleration() * phase.sin()
+    }
+}
+
+/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the bounds of a flight exceed a tie: far more than their
+/// rounding.
+pub(crate) const CLEAR: f64 = 1.0e-9;
+
+/// Share of 1 + P by which a disk at the crest must be faster than one that falls past it.
+const CLEAR_FALL: f64 = 1.0e-5;
+
+/// What decides whether launches clear the first crest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Crests {
+    /// Time from the separation to the crest (rad).
+    pub(crate) separation_to_crest: f64,
+    /// A disk that has at least this speed at the crest has not been slower than the platform since the separation.
+    pub(crate) rising_speed: f64,
+}
+
+impl Crests {
+    pub(crate) const fn new(peak: f64, separation_angle: f64, separation_speed: f64) -> Self {
+        let separation_to_crest = CREST - separation_angle;
+        Self {
+            separation_to_crest,
+            rising_speed: (separation_speed - separation_to_crest) + CLEAR * (1.0 + peak),
+        }
+    }
+
+    /// Whether a launch is certain not to be hit before the first crest, unless within half a radian
+    /// (docs/numerics/lockstep.md, "Tests that are certain when they answer"): `disk_speed` is that at launch, `arc_speed` the one, negative, with
+    /// which it comes down to the height of the crests, not a number where it stays below.
+    #[inline(always)]
+    pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {
+        let ahead = CREST - angle;
+        let crest = ahead + if ahead > 0.0 { 0.0 } else { TAU };
+        let speed = disk_speed - crest;
+        let above = speed - arc_speed >= CLEAR_FALL * (1.0 + peak);
+        (crest <= self.separation_to_crest) | (above & ((speed <= 0.0) | (speed >= self.rising_speed)))
+    }
+}
+
+impl Vibration {
+    /// The phase at which a disk at rest on the platform separates, asin(1/P) (Eq. 15), or `None` if the
+    /// platform never falls away (P <= 1).
+    #[must_use]
+    pub fn separation_phase(&self) -> Option<Phase> {
+        let p = self.peak_acceleration();
+        (p > 1.0).then(|| Phase::from_parts(self.separation_angle, 1.0 / p, self.separation_speed / p))
+    }
+
+    /// Whether the platform falls away from a resting disk at this angle (rad) in [0, 2 pi): sigma <= tau <
+    /// pi - sigma.
+    #[must_use]
+    #[inline(always)]
+    pub fn falls_away_at(&self, angle: f64) -> bool {
+        angle >= self.separation_angle && angle < self.retention_angle
+    }
+
+    /// Time from `angle` to the next phase sigma, in (0, 2 pi].
+    #[inline(always)]
+    pub(crate) fn time_to_separation(&self, angle: f64) -> f64 {
+        let ahead = self.separation_angle - angle;
+        if ahead > 0.0 { ahead } else { ahead + TAU }
     }
 }

@@ -72,7 +72,7 @@ read_checked!(BranchTip as UncheckedTip {
 });
 
 impl BranchTip {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         let impacts = self.at.impacts.len();
         within("impacts of a branch", impacts as f64, 1.0, MAX_PERIOD as f64, "[1, 4096]")?;

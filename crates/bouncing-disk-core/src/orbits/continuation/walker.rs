@@ -7,7 +7,7 @@ use glam::{DMat2, DVec2};
 
 use super::tip::{BranchTip, Located, SMALLEST_STEP, Start, Underway};
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;

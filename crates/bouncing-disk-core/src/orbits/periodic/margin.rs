@@ -65,7 +65,7 @@ impl Equations {
 
     fn length(&self, steps: &[DVec2]) -> f64 {
         let speed = self.closing.scale.speed;
-        // A number that is none counts as infinite.
+        // Not a number counts as infinite.
         steps.iter().fold(0.0, |most: f64, step| {
             let own = step.x.abs().max(step.y.abs() / speed);
             if own.is_finite() { most.max(own) } else { f64::INFINITY }
@@ -257,7 +257,7 @@ impl ImpactMap {
         (0..impacts).fold(1.0, |product, _| product * (self.restitution() * self.restitution()))
     }
 
-    /// An orbit of an iteration, made exact where it lies next to a margin; `None` where it is none.
+    /// An orbit of an iteration, made exact where it lies next to a margin; `None` where it is not one.
     pub(super) fn exact_orbit(&self, orbit: PeriodicOrbit) -> Option<PeriodicOrbit> {
         let (fold, _) = next_to_margin(orbit.monodromy, self.determinant_after(orbit.period()));
         let orbit = if fold {

@@ -1,18 +1,16 @@
 //! All periodic orbits of few impacts, stable and unstable: a search that says what it covered
 //! (docs/numerics/dynamics.md, "The search for periodic orbits").
 
-use core::f64::consts::TAU;
-
-use super::PeriodicOrbit;
-use super::catalogue::Catalogue;
-use super::newton::{Attempt, MAX_STEPS};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::orbits::periodic::newton::{Attempt, MAX_STEPS, same_orbit};
 use crate::read_checked;
 use crate::run::{Observer, Watch, WorkCount};
+use core::f64::consts::TAU;
 
-/// What a search for periodic orbits looks for, and how closely.
+/// The settings of a search for periodic orbits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSearch"))]
@@ -59,7 +57,7 @@ impl OrbitSearch {
         search.check().map(|()| search)
     }
 
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         within("impacts of an orbit", self.max_impacts as f64, 1.0, Self::MAX_IMPACTS as f64, "[1, 64]")?;
         let most = Self::MAX_PLATFORM_PERIODS as f64;
@@ -97,7 +95,7 @@ impl OrbitSearch {
     }
 }
 
-/// What a search covered, and what became of its starts.
+/// The coverage of a search, and the results of its starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitCoverage {
@@ -119,7 +117,7 @@ pub struct OrbitCoverage {
     pub attempts: u64,
     /// Attempts that ended on a periodic orbit within the limits.
     pub converged: u64,
-    /// Attempts that ended on a solution that is none: a disk at rest, no period of the platform, or more
+    /// Attempts that ended on a solution that is no orbit: a disk at rest, no period of the platform, or more
     /// than the limit.
     pub refused: u64,
     /// Attempts whose Newton iteration did not settle.
@@ -346,6 +344,76 @@ fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error> + Sync) -> Result<Ve
 #[cfg(not(feature = "parallel"))]
 fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error>) -> Result<Vec<Row>, Error> {
     (0..count).map(row).collect()
+}
+
+/// An orbit of a [`Catalogue`].
+#[derive(Debug, Clone)]
+struct Entry {
+    orbit: PeriodicOrbit,
+    /// Sum of the impact velocities, which does not depend on where the orbit begins.
+    sum: f64,
+    found: u64,
+    by_coarser: bool,
+}
+
+/// Distinct orbits in the order in which they were found first.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Catalogue {
+    entries: Vec<Entry>,
+}
+
+impl Catalogue {
+    /// Adds an orbit that was found so often, unless it is known.
+    pub(super) fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
+        let sum = orbit.states.iter().fold(0.0, |sum, state| sum + state.velocity());
+        self.insert(Entry { orbit, sum, found, by_coarser });
+    }
+
+    /// Adds all orbits of another catalogue.
+    pub(super) fn merge(&mut self, other: Self) {
+        for entry in other.entries {
+            self.insert(entry);
+        }
+    }
+
+    fn insert(&mut self, entry: Entry) {
+        // The sums differ by twice what the comparison of the impacts allows at most.
+        let room = 2.0 * (entry.orbit.period() as f64 + entry.sum.abs());
+        let known = self.entries.iter_mut().find(|known| {
+            let errors = known.orbit.position_error + entry.orbit.position_error;
+            (known.sum - entry.sum).abs() <= room * errors && same_orbit(&known.orbit, &entry.orbit)
+        });
+        match known {
+            Some(known) => {
+                known.found += entry.found;
+                known.by_coarser |= entry.by_coarser;
+            }
+            None => self.entries.push(entry),
+        }
+    }
+
+    /// How many were found from a coarser grid, too.
+    pub(super) fn found_by_coarser(&self) -> u64 {
+        self.entries.iter().filter(|entry| entry.by_coarser).count() as u64
+    }
+
+    /// How many were found once.
+    pub(super) fn found_once(&self) -> u64 {
+        self.entries.iter().filter(|entry| entry.found == 1).count() as u64
+    }
+
+    /// The orbits by impacts, platform periods, falling speed of the first impact, phase of the first impact.
+    pub(super) fn into_sorted(self) -> Vec<PeriodicOrbit> {
+        let mut orbits: Vec<_> = self.entries.into_iter().map(|entry| entry.orbit).collect();
+        orbits.sort_by(|a, b| {
+            let (first, second) = (a.states[0], b.states[0]);
+            (a.period(), a.platform_periods)
+                .cmp(&(b.period(), b.platform_periods))
+                .then(first.velocity().total_cmp(&second.velocity()))
+                .then(first.phase().angle().total_cmp(&second.phase().angle()))
+        });
+        orbits
+    }
 }
 
 #[cfg(test)]

@@ -158,7 +158,7 @@ impl Flights {
         self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
     }
 
-    /// Computes the impacts of the first `lanes` launches. `failed` is told of each lane that has none (see
+    /// Computes the impacts of the first `lanes` launches. `failed` gets each lane without one (see
     /// [`Vibration::first_impact`]), in order; its impact means nothing then.
     pub fn fly(&mut self, lanes: usize, mut failed: impl FnMut(usize, Error)) {
         let lanes = lanes.min(LANES * self.batches.len());

@@ -9,7 +9,6 @@
 
 mod above;
 mod awaiting;
-mod classify;
 mod instructions;
 mod low;
 mod platform;
@@ -20,7 +19,7 @@ mod subset;
 
 use pulp::Simd;
 
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};

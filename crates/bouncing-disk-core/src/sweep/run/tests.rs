@@ -1,4 +1,4 @@
-//! Runs that are stopped, stored, read and gone on with against one call.
+//! Runs that are stopped, stored, read and resumed, against one call.
 
 use super::*;
 use crate::chatter::policy::ChatterPolicy;

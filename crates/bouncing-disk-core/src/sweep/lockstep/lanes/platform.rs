@@ -1,7 +1,7 @@
 //! What the lanes fly above: one platform for all of them, or each its own.
 
 use super::{ROW, Row};
-use crate::flight::platform::crests::Crests;
+use crate::flight::platform::vibration::Crests;
 use crate::flight::platform::vibration::Vibration;
 
 /// What the flights above one platform need to know of it (see [`Vibration`]).

@@ -1,21 +1,19 @@
 //! Sorts launches by the kind of flight that follows; each kind is computed together, in stages.
 
-mod queue;
 mod stages;
 
-use super::above::{Fly, Work};
-use super::awaiting::{AwaitingSearch, FallingPlatform};
-use super::classify::{Classify, Kinds};
-use super::low::{Low, Verdicts};
-use super::platform::{Platform, PlatformLanes, Platforms};
-use super::search::{Search, Times};
-use super::short::Short;
-use super::{
-    Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
-};
 use crate::flight::first_impact::FASTEST_ARC;
 use crate::numerics::error::Error;
-use queue::Queue;
+use crate::sweep::lockstep::lanes::above::{Fly, Work};
+use crate::sweep::lockstep::lanes::awaiting::{AwaitingSearch, FallingPlatform};
+use crate::sweep::lockstep::lanes::low::{Low, Verdicts};
+use crate::sweep::lockstep::lanes::platform::{Platform, PlatformLanes, Platforms};
+use crate::sweep::lockstep::lanes::search::{Classify, Kinds};
+use crate::sweep::lockstep::lanes::search::{Search, Times};
+use crate::sweep::lockstep::lanes::short::Short;
+use crate::sweep::lockstep::lanes::{
+    Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
+};
 
 /// What flights are computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -346,4 +344,46 @@ fn shared_platform(batches: &[Batch]) -> Option<Platform> {
     };
     let first = shared(batches.first()?)?;
     batches.iter().all(|batch| shared(batch) == Some(first)).then_some(first)
+}
+
+/// Flights of one kind, until there are enough of them.
+#[derive(Debug, Clone)]
+pub(super) struct Queue<Rows> {
+    pub(super) rows: Rows,
+    pub(super) who: [Who; LANES],
+    pub(super) len: usize,
+}
+
+impl<Rows> Queue<Rows> {
+    pub(super) const fn new(rows: Rows) -> Self {
+        Self { rows, who: [Who::NONE; LANES], len: 0 }
+    }
+
+    /// The place of one more flight; there must be room for it.
+    #[inline(always)]
+    pub(super) const fn place(&mut self, who: Who) -> usize {
+        let k = self.len % LANES;
+        self.who[k] = who;
+        self.len = k + 1;
+        k
+    }
+
+    /// Takes flights of a batch from `lanes` until there are none or no more room; `set` is given the place of each.
+    #[inline(always)]
+    pub(super) fn fill(
+        &mut self,
+        batch: usize,
+        lanes: &mut Lanes,
+        mut set: impl FnMut(&mut Rows, usize, usize),
+    ) {
+        let mut k = self.len;
+        while k < LANES
+            && let Some(lane) = lanes.next()
+        {
+            self.who[k] = Who { batch: batch as u32, lane: lane as u32 };
+            set(&mut self.rows, k, lane);
+            k += 1;
+        }
+        self.len = k;
+    }
 }

@@ -1,7 +1,7 @@
 //! The stages of the flights of each kind: computed once their queue is full, and sorted by what became of them.
 
 use super::FlightScheduler;
-use super::queue::Queue;
+use super::Queue;
 use crate::sweep::lockstep::lanes::above::Fly;
 use crate::sweep::lockstep::lanes::awaiting;
 use crate::sweep::lockstep::lanes::low::{self, Dips};
