@@ -29,9 +29,7 @@ pub(crate) mod periodic;
 pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
 pub use cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade};
 pub use closing::ContinuationParameter;
-pub use continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
-};
+pub use continuation::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 pub use follow_attractor::{Followed, Following, follow_attractor};
 pub use periodic::pair::{PeriodOneOrbit, PeriodOnePair};
 pub use periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};

@@ -8,6 +8,7 @@ use std::sync::Mutex;
 use crate::chatter::policy::{ChatterCut, ChatterPolicy};
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
 use crate::run::{Observer, Progress};
 
 /// The paper's cut (Sec. IV A).
@@ -18,6 +19,11 @@ pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 2
 
 /// [`PAPER_CUT`] as a policy.
 pub(crate) const PAPER_POLICY: ChatterPolicy = ChatterPolicy::Cut(PAPER_CUT);
+
+/// The map of a legal forcing and restitution.
+pub(crate) fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
+}
 
 /// Well spread numbers in [0, 1): multiples of a `stride` without short periods, less their whole parts.
 pub(crate) fn spread(k: u32, stride: f64) -> f64 {

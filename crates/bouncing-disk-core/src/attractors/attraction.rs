@@ -446,15 +446,9 @@ impl<'w> Search<'w> {
 mod tests {
     use super::*;
     use crate::attractors::basin::{Axis, BasinSettings, Grid, KnownOrbit};
-    use crate::flight::platform::vibration::Vibration;
     use crate::numerics::random::SplitMix64;
     use crate::run::Unobserved;
-    use crate::testing::StopAfter;
-
-    fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
-            .expect("legal")
-    }
+    use crate::testing::{StopAfter, map};
 
     /// The orbit of one impact every k periods that attracts from its birth to its doubling.
     fn node(map: &ImpactMap, k: u64) -> PeriodicOrbit {

@@ -58,19 +58,12 @@ impl ContinuationParameter {
 
 /// Impacts (phase in rad, the disk's own speed after the impact in units of g/omega) and the parameter.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(crate) struct Closed {
     pub(crate) impacts: Vec<DVec2>,
     pub(crate) parameter: f64,
 }
 
 impl Closed {
-    /// Whether all numbers are.
-    pub(crate) fn is_finite(&self) -> bool {
-        self.parameter.is_finite() && self.impacts.iter().all(|impact| impact.is_finite())
-    }
-
     /// This much of a direction further.
     pub(crate) fn moved(&self, direction: &Self, by: f64) -> Self {
         let impacts = self.impacts.iter().zip(&direction.impacts).map(|(x, d)| *x + *d * by).collect();
@@ -134,20 +127,9 @@ impl Closing {
         Ok((Self { map: *map, by, scale, turns }, Closed { impacts, parameter }))
     }
 
-    /// The equations that [`Self::scale_and_turns`] are those of.
-    pub(crate) const fn of_parts(
-        map: ImpactMap,
-        by: ContinuationParameter,
-        (speed, parameter): (f64, f64),
-        turns: Vec<f64>,
-    ) -> Self {
-        Self { map, by, scale: Scale { speed, parameter }, turns }
-    }
-
-    /// What the equations have besides map and parameter: the units of speed and parameter, and the turns of
-    /// the phase in each flight.
-    pub(crate) fn scale_and_turns(&self) -> ((f64, f64), Vec<f64>) {
-        ((self.scale.speed, self.scale.parameter), self.turns.clone())
+    /// The turns of the phase in each flight.
+    pub(crate) fn turns(&self) -> &[f64] {
+        &self.turns
     }
 
     /// The equations of the orbit gone through twice.

@@ -9,11 +9,9 @@ use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::read_checked;
 use crate::run::{Observer, Watch};
 
-mod tip;
 mod walker;
 mod within;
 
-pub use tip::BranchTip;
 use walker::Walker;
 
 /// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of a product and a
@@ -211,7 +209,7 @@ pub enum BranchEnd {
     Bifurcation,
     /// The branch is back at its start.
     Closed,
-    /// There are as many points as were allowed: [`Branch::extended`] goes on.
+    /// There are as many points as were allowed.
     PointLimit(usize),
     /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do
     /// not tell.
@@ -234,8 +232,6 @@ pub struct Branch {
     pub bifurcations: Vec<Bifurcation>,
     /// Why the branch ends.
     pub end: BranchEnd,
-    /// Where it goes on, if it ends for its number of points alone.
-    pub tip: Option<BranchTip>,
 }
 
 impl Branch {
@@ -255,44 +251,6 @@ impl Branch {
             }
             ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
         }
-    }
-
-    /// The branch up to so many points in all, in [2, 1e6]: the very same as if it had been continued for as
-    /// many at once, also after it has been stored (as JSON with the feature `float_roundtrip` of `serde_json`). What has come to another end, or is as long already, is
-    /// returned as it is.
-    ///
-    /// A long continuation is stopped and resumed in this way, some points at a time.
-    ///
-    /// The items of `observer` are the points that are allowed.
-    ///
-    /// ```
-    /// # use bouncing_disk_core::orbits::{Branch, Continuation, ContinuationParameter};
-    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
-    /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
-    /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), false)?;
-    /// let begun = map.continued(&orbit, &whole.with_steps(0.01, 0.05, 10)?, &Unobserved)?;
-    /// let extended = begun.extended(whole.max_points(), &Unobserved)?;
-    /// assert_eq!(extended, map.continued(&orbit, &whole, &Unobserved)?);
-    /// assert_eq!((begun.points.len(), begun.tip.is_some(), extended.tip), (10, true, None));
-    /// # Ok::<(), bouncing_disk_core::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for the number of points; [`Error::Unfitting`] where the tip is that of another
-    /// branch.
-    pub fn extended(&self, points: usize, observer: &dyn Observer) -> Result<Self, Error> {
-        within("points of a branch", points as f64, 2.0, Continuation::MAX_POINTS as f64, "[2, 1000000]")?;
-        let Some(tip) = &self.tip else { return Ok(self.clone()) };
-        if points <= self.points.len() {
-            return Ok(self.clone());
-        }
-        let settings = Continuation { max_points: points, ..*tip.settings() };
-        let watch = Watch::begin(observer, self.points.len() as u64, points as u64)?;
-        let (closing, underway) = tip.underway(self)?;
-        let branch = Walker::resumed(closing, &settings, watch.work()).go_on(underway)?;
-        watch.end();
-        Ok(branch)
     }
 
     /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`], which

@@ -39,12 +39,7 @@ pub(super) fn starts(map: &ImpactMap, count: u32) -> Vec<ImpactState> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flight::platform::vibration::Vibration;
-
-    fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
-            .expect("legal")
-    }
+    use crate::testing::map;
 
     #[test]
     fn the_steps_are_those_of_the_sequence() {

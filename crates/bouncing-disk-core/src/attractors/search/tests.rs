@@ -3,13 +3,8 @@ use core::f64::consts::PI;
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, UNDECIDED};
-use crate::flight::platform::vibration::Vibration;
 use crate::orbits::periodic::search::OrbitSearch;
-use crate::testing::{PAPER_POLICY, StopAfter, stored};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{PAPER_POLICY, StopAfter, map, stored};
 
 /// A search that is quick.
 fn quick(starts: u32) -> AttractorSearch {

@@ -2,15 +2,10 @@ use core::f64::consts::{PI, TAU};
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings};
-use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::OrbitEvent;
 use crate::numerics::random::SplitMix64;
 use crate::sweep::lyapunov::spectrum::lyapunov_spectra;
-use crate::testing::{StopAfter, stored};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{StopAfter, map, stored};
 
 fn state(angle: f64, normalised_speed: f64) -> ImpactState {
     ImpactState::from_normalised(angle, normalised_speed).expect("legal")

@@ -9,12 +9,8 @@ use crate::testing::{StopAfter, stored};
 /// Gamma of the tangency of Fig. 6 at restitution 0.5.
 const CRISIS: f64 = 0.560_750_705_529_919;
 
-fn map_of(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
-
 fn map(axial_forcing: f64) -> ImpactMap {
-    map_of(axial_forcing, 0.5)
+    crate::testing::map(axial_forcing, 0.5)
 }
 
 fn search_of(restitution: f64, range: (f64, f64)) -> CrisisSearch {
@@ -33,7 +29,7 @@ fn found() -> Crisis {
 
 /// The period-1 orbit in the midst of the attractor.
 fn node(axial_forcing: f64, restitution: f64) -> PeriodicOrbit {
-    let map = map_of(axial_forcing, restitution);
+    let map = crate::testing::map(axial_forcing, restitution);
     map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit")
 }
 

@@ -6,13 +6,8 @@ use glam::DVec2;
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings, KnownOrbit, UNDECIDED};
 use crate::flight::platform::phase::Phase;
-use crate::flight::platform::vibration::Vibration;
 use crate::orbits::periodic::phase_difference;
-use crate::testing::{StopAfter, stored};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{StopAfter, map, stored};
 
 fn saddle(map: &ImpactMap) -> PeriodicOrbit {
     map.period_one_pair(1).expect("exists").saddle.orbit(map).expect("flies").expect("admissible")

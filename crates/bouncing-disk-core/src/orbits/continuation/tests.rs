@@ -5,11 +5,7 @@ use crate::numerics::random::SplitMix64;
 use crate::orbits::cascade::doubling_cascade;
 use crate::orbits::periodic::search::OrbitSearch;
 use crate::run::Unobserved;
-use crate::testing::{StopAfter, stored};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{StopAfter, map, stored};
 
 fn forcing(low: f64, high: f64, rising: bool) -> Continuation {
     Continuation::new(ContinuationParameter::Forcing, (low, high), rising).expect("legal")
@@ -581,87 +577,4 @@ fn what_cannot_be_continued_is_refused() {
     assert!(Continuation::new(ContinuationParameter::Restitution, (0.0, 0.5), true).is_err());
     assert!(Continuation::new(ContinuationParameter::Restitution, (0.5, 1.0), true).is_err());
     assert_eq!(legal, stored(&legal));
-}
-
-/// One run of n points is two runs of n/2, bit for bit, also when the first part has been stored: through
-/// folds, past doublings, and on a doubled branch.
-#[test]
-fn a_branch_that_is_stored_and_extended_is_the_same() {
-    let (map, orbit) = node(1, 0.5, 0.1);
-    let whole = forcing(0.3, 0.6, false).with_steps(0.002, 0.01, 400).expect("legal");
-    let doubling = map.continued(&orbit, &forcing(0.3, 0.6, true), &Unobserved).expect("continued");
-    let from = |settings: &Continuation| {
-        [
-            map.continued(&orbit, settings, &Unobserved).expect("continued"),
-            doubling.switched(0, settings, &Unobserved).expect("switches"),
-        ]
-    };
-    let expected = from(&whole);
-    assert!(expected[0].of_kind(BifurcationKind::Fold).count() == 1 && expected[1].points.len() > 20);
-    for first in [2, 3, 10, 57, 100, 150, 399] {
-        let begun = from(&whole.with_steps(0.002, 0.01, first).expect("legal"));
-        for (begun, expected) in begun.iter().zip(&expected) {
-            if begun.points.len() < expected.points.len() {
-                assert_eq!(begun.end, BranchEnd::PointLimit(first));
-                assert!(begun.tip.is_some());
-            }
-            // In one further part, and in several.
-            let read = stored(begun);
-            assert_eq!(&read.extended(400, &Unobserved).expect("goes on"), expected, "{first}");
-            let middle = stored(&read.extended(first + 40, &Unobserved).expect("goes on"));
-            let again = middle.extended(first + 41, &Unobserved).expect("goes on");
-            assert_eq!(&stored(&again).extended(400, &Unobserved).expect("goes on"), expected, "{first}");
-            // Not shortened, and not changed.
-            assert_eq!(&read.extended(2, &Unobserved).expect("is as long"), begun);
-        }
-    }
-    let ended = &expected[0];
-    let same = ended.extended(ended.points.len() + 1, &Unobserved).expect("no failure");
-    assert_eq!(ended.tip.is_none(), &same == ended);
-}
-
-#[test]
-fn a_tip_of_another_branch_is_refused() {
-    let (map, orbit) = node(1, 0.5, 0.1);
-    let short = forcing(0.3, 0.6, true).with_steps(0.002, 0.01, 10).expect("legal");
-    let begun = map.continued(&orbit, &short, &Unobserved).expect("continued");
-    for points in [0, 1, 1_000_001] {
-        assert!(matches!(begun.extended(points, &Unobserved), Err(Error::OutOfRange { .. })));
-    }
-    let whole = map.continued(&orbit, &forcing(0.3, 0.6, true), &Unobserved).expect("continued");
-    let doubled = whole.switched(0, &short, &Unobserved).expect("switches");
-    let mixed = Branch { tip: doubled.tip.clone(), ..begun.clone() };
-    assert!(matches!(mixed.extended(20, &Unobserved), Err(Error::Unfitting { found: 2, expected: 1, .. })));
-    let empty = Branch { points: Vec::new(), ..begun.clone() };
-    assert!(matches!(empty.extended(20, &Unobserved), Err(Error::Unfitting { .. })));
-    let all = StopAfter::calls(u64::MAX);
-    let long = begun.extended(4_000, &all).expect("goes on");
-    assert_eq!(long, begun.extended(4_000, &Unobserved).expect("goes on"));
-    for calls in 1..all.asked() {
-        let stopped = begun.extended(4_000, &StopAfter::calls(calls));
-        assert!(matches!(stopped, Err(Error::Stopped { total: 4_000, .. })), "{calls}: {stopped:?}");
-    }
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn a_stored_tip_that_is_none_is_refused() {
-    let (map, orbit) = node(1, 0.5, 0.1);
-    let short = forcing(0.3, 0.6, true).with_steps(0.002, 0.01, 10).expect("legal");
-    let whole =
-        serde_json::to_value(map.continued(&orbit, &short, &Unobserved).expect("continued")).expect("writes");
-    for (place, value) in [
-        ("/tip/step", serde_json::json!(0.0)),
-        ("/tip/arclength", serde_json::json!(-1.0)),
-        ("/tip/turns", serde_json::json!([])),
-        ("/tip/turns", serde_json::json!([0.0, 1.0])),
-        ("/tip/at/impacts", serde_json::json!([])),
-        ("/tip/scale/0", serde_json::json!(0.0)),
-        ("/tip/at/parameter", serde_json::json!(null)),
-        ("/tip/settings/max_points", serde_json::json!(1)),
-    ] {
-        let mut wrong = whole.clone();
-        *wrong.pointer_mut(place).expect("is there") = value;
-        assert!(serde_json::from_value::<Branch>(wrong).is_err(), "{place}");
-    }
 }

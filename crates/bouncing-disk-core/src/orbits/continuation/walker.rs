@@ -5,7 +5,6 @@ use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use super::tip::{BranchTip, Located, SMALLEST_STEP, Start, Underway};
 use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
 use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
@@ -43,6 +42,26 @@ const FLIP_ROUNDINGS: f64 = 8.0;
 
 /// A branch is not taken to be closed before so many points.
 const FEWEST_OF_CLOSED: usize = 8;
+
+/// The smallest arclength of a step.
+const SMALLEST_STEP: f64 = 1.0e-10;
+
+/// A point of the branch with its direction.
+#[derive(Debug, Clone)]
+pub(super) struct Located {
+    pub(super) at: Closed,
+    /// Of scaled length 1 in first impact and parameter.
+    pub(super) direction: Closed,
+    pub(super) arclength: f64,
+    pub(super) corrections: u32,
+}
+
+/// Where a branch began, and in which direction (scaled; phase, speed, parameter): whether it is back there.
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    at: [f64; 3],
+    direction: [f64; 3],
+}
 
 /// What a branch does in one step.
 #[derive(Debug)]
@@ -86,11 +105,6 @@ impl<'s> Walker<'s> {
         }
         let direction = walker.closing.tangent(&at, across).ok_or(lost)?;
         Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
-    }
-
-    /// To go on with a branch.
-    pub(super) const fn resumed(closing: Closing, settings: &'s Continuation, work: WorkCount<'s>) -> Self {
-        Self { closing, settings, work: RefCell::new(work) }
     }
 
     /// From a doubling, onto the branch of twice the period.
@@ -159,24 +173,12 @@ impl<'s> Walker<'s> {
             return Err(Error::NoBranch { what: "the start of the branch", parameter });
         };
         let [at, direction] = [&start.at, &start.direction].map(|part| self.closing.scaled(part));
-        let step = self.settings.first_step;
-        self.go_on(Underway {
-            start: Start { at, direction },
-            base: start,
-            step,
-            points: vec![first],
-            bifurcations: Vec::new(),
-        })
-    }
-
-    /// The rest of a branch.
-    pub(super) fn go_on(self, underway: Underway) -> Result<Branch, Error> {
+        let mut step = self.settings.first_step;
         let (closing, settings) = (&self.closing, self.settings);
-        let Underway { start, mut base, mut step, mut points, mut bifurcations } = underway;
-        let mut tip = None;
+        let begun = Start { at, direction };
+        let (mut base, mut points, mut bifurcations) = (start, vec![first], Vec::new());
         let end = loop {
             if points.len() >= settings.max_points {
-                tip = Some(BranchTip::of(closing, settings, start, base, step));
                 break BranchEnd::PointLimit(points.len());
             }
             self.spend()?;
@@ -197,7 +199,7 @@ impl<'s> Walker<'s> {
             };
             bifurcations.extend(stretch.found);
             let (next, mut end) = (stretch.last, stretch.end);
-            if end.is_none() && points.len() >= FEWEST_OF_CLOSED && self.passes(&base, &next, &start) {
+            if end.is_none() && points.len() >= FEWEST_OF_CLOSED && self.passes(&base, &next, &begun) {
                 end = Some(BranchEnd::Closed);
             }
             if next.arclength > base.arclength {
@@ -208,7 +210,7 @@ impl<'s> Walker<'s> {
             }
             base = next;
         };
-        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end, tip })
+        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
     }
 
     /// What the branch does from `base` to `next`, as far as it goes. `None` if the step is too long to tell: every change

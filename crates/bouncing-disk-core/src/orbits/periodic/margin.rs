@@ -59,7 +59,7 @@ struct Equations {
 impl Equations {
     fn of(map: &ImpactMap, states: &[ImpactState]) -> Option<Self> {
         let (closing, at) = Closing::of(map, ContinuationParameter::Forcing, states).ok()?;
-        let (_, turns) = closing.scale_and_turns();
+        let turns = closing.turns().to_vec();
         Some(Self { map: *map, closing, at, turns, determinant: map.determinant_after(states.len()) })
     }
 
@@ -277,13 +277,8 @@ mod tests {
     use super::super::search::OrbitSearch;
     use super::super::{Multipliers, Stability};
     use super::*;
-    use crate::flight::platform::vibration::Vibration;
     use crate::run::Unobserved;
-
-    fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
-            .expect("legal")
-    }
+    use crate::testing::map;
 
     fn found(map: &ImpactMap, impacts: usize, starts: u32) -> Vec<PeriodicOrbit> {
         let search =

@@ -119,12 +119,7 @@ impl ImpactMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::flight::platform::vibration::Vibration;
-
-    fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-        ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
-            .expect("legal")
-    }
+    use crate::testing::map;
 
     /// The closed form against the derivative of the exact map, for both orbits, stable and unstable.
     #[test]

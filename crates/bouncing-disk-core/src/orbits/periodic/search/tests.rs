@@ -7,11 +7,7 @@ use super::*;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{cos, sin};
 use crate::numerics::random::SplitMix64;
-use crate::testing::{StopAfter, stored};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{StopAfter, map, stored};
 
 fn found(map: &ImpactMap, impacts: usize, periods: u64, starts: u32) -> OrbitsFound {
     let search =

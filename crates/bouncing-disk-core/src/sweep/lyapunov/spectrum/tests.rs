@@ -1,13 +1,8 @@
 use super::*;
-use crate::flight::platform::vibration::Vibration;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
 use crate::sweep::lyapunov::lyapunov_exponents;
-use crate::testing::{StopAfter, golden_spread};
-
-fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
-}
+use crate::testing::{StopAfter, golden_spread, map};
 
 fn start() -> ImpactState {
     ImpactState::from_normalised(0.8, 1.3).expect("legal")
