@@ -18,6 +18,7 @@ use crate::cache_key::Stale;
 use crate::claims::{Claim, Computed, Source};
 use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
 use crate::output::{OutputError, OutputFolder};
+use crate::registry::is_extra;
 use crate::{json, provenance};
 
 /// Figure by figure the picture, what it shows, the parameters, and printed against computed.
@@ -153,12 +154,16 @@ impl Figure {
         }
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
         let (made, _, origin) = entry.read(&data).map_err(failed)?;
-        let section = Section::of(entry, &made)?;
-        let section =
-            environment().render_named_str("section.md", SECTION, Value::from_serialize(&section))?;
-        let section = digits::rounded(&section);
+        let mut section = String::new();
+        if !is_extra(id) {
+            let values = Value::from_serialize(Section::of(entry, &made)?);
+            section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
+        }
+        // Another version of the program does not make another figure.
+        let mut record: serde_json::Value = serde_json::from_slice(&data).unwrap_or_default();
+        record.as_object_mut().map(|members| members.remove("provenance"));
         let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
-        let digest = digest([json::to_text(&made.data), drawing, section.clone()].concat().as_bytes());
+        let digest = digest([json::to_text(&record), drawing, section.clone()].concat().as_bytes());
         Ok(Self { made, origin, section, digest })
     }
 
