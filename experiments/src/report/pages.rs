@@ -142,10 +142,10 @@ impl Figure {
     ) -> Result<Self, PagesError> {
         let id = entry.id;
         let data = folder.read(&format!("{id}.json"))?.ok_or(PagesError::Missing { id })?;
-        let state = folder.cache_key(id).and_then(|key| {
+        let state = folder.cache_key(id).map(|key| {
             let read = |name: &str| folder.read(name).ok().flatten();
             let whole = key.names().all(|name| read(name).is_some_and(|bytes| key.holds(name, &bytes)));
-            Ok(whole && key.quality == quality && !key.shows_measurements())
+            whole && key.quality == quality && !key.shows_measurements()
         });
         match state {
             Ok(true) => {}
