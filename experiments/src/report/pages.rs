@@ -261,7 +261,8 @@ fn outdated_with(
     for name in if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] } {
         let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
         let other_template = *name == ERRATA_FILE && known(TEMPLATE) != Some(&digest(template.as_bytes()));
-        if other_template || docs.read(name)?.map(|page| digest(&page)).as_ref() != known(name) {
+        let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
+        if other_template || edited {
             outdated.push((*name).to_owned());
         }
     }
