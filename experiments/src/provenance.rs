@@ -27,7 +27,7 @@ pub const CLAIM: Format = Format { name: "bouncing-disk claim", version: 1, olde
 pub const GALLERY: Format = Format { name: "bouncing-disk gallery", version: 1, oldest: 1 };
 /// The format of `ID.cache-key`.
 pub const CACHE_KEY: Format = Format { name: "bouncing-disk cache key", version: 1, oldest: 1 };
-/// The format of `digests.json`; version 1 had the digests of the files with what they say of their origin taken out.
+/// The format of `digests.json`; version 1 had the digests of pictures with what they say of their origin taken out.
 pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, oldest: 2 };
 /// The format of the files in `data/performance`.
 pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };

@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn identifiers_select_in_the_order_of_the_list_and_an_unknown_one_lists_the_known() {
         let entries = demo_entries();
-        let error = select(&entries, &["fig99".to_owned()]).err().expect("fig99 does not exist");
+        let error = select(&entries, &["fig99".to_owned()]).expect_err("fig99 does not exist");
         assert_eq!(error.to_string(), "no figure or table is called \"fig99\"; known are: demo, broken");
         assert_eq!(select(&entries, &[]).expect("all").len(), entries.len());
         let selected = select(&entries, &["broken".to_owned(), "demo".to_owned()]).expect("both exist");

@@ -215,7 +215,7 @@ fn list(
     let widest_id = width_of_ids(selected.iter().map(|entry| entry.id));
     let widest = selected.iter().map(|entry| entry.title.chars().count()).max().unwrap_or_default();
     for entry in selected {
-        let state = match state(*entry, options.quality, &folder, measurements) {
+        let state = match state(entry, options.quality, &folder, measurements) {
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
@@ -272,7 +272,7 @@ fn check(
     let folder = OutputFolder::existing(options.folder());
     let mut outdated = Vec::new();
     for entry in selected {
-        if let Err(stale) = state(*entry, options.quality, &folder, measurements) {
+        if let Err(stale) = state(entry, options.quality, &folder, measurements) {
             say!("{}: {stale}", entry.id)?;
             outdated.push(entry.id);
         }
@@ -330,7 +330,7 @@ fn make(
     let (current, due): (Vec<_>, Vec<_>) = selected
         .iter()
         .copied()
-        .partition(|entry| !options.force && state(*entry, quality, folder, measurements).is_ok());
+        .partition(|entry| !options.force && state(entry, quality, folder, measurements).is_ok());
     let widest = width_of_ids(current.iter().map(|entry| entry.id));
     for entry in &current {
         say!("{:<widest$} up to date", entry.id)?;

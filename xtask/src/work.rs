@@ -39,7 +39,7 @@ pub(crate) fn make_all(
     thread::scope(|scope| {
         let work = || {
             while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let figure = make(*entry, quality, measurements, folder, report);
+                let figure = make(entry, quality, measurements, folder, report);
                 // A poisoned lock holds intact results: a push is the only thing done under it.
                 finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
             }

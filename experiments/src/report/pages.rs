@@ -18,6 +18,7 @@ use crate::cache_key::Stale;
 use crate::claims::{Claim, Computed, Source};
 use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
 use crate::output::{OutputError, OutputFolder};
+use crate::registry::is_extra;
 use crate::{json, provenance};
 
 /// Figure by figure the picture, what it shows, the parameters, and printed against computed.
@@ -141,10 +142,10 @@ impl Figure {
     ) -> Result<Self, PagesError> {
         let id = entry.id;
         let data = folder.read(&format!("{id}.json"))?.ok_or(PagesError::Missing { id })?;
-        let state = folder.cache_key(id).and_then(|key| {
+        let state = folder.cache_key(id).map(|key| {
             let read = |name: &str| folder.read(name).ok().flatten();
             let whole = key.names().all(|name| read(name).is_some_and(|bytes| key.holds(name, &bytes)));
-            Ok(whole && key.quality == quality && !key.shows_measurements())
+            whole && key.quality == quality && !key.shows_measurements()
         });
         match state {
             Ok(true) => {}
@@ -153,12 +154,16 @@ impl Figure {
         }
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
         let (made, _, origin) = entry.read(&data).map_err(failed)?;
-        let section = Section::of(entry, &made)?;
-        let section =
-            environment().render_named_str("section.md", SECTION, Value::from_serialize(&section))?;
-        let section = digits::rounded(&section);
+        let mut section = String::new();
+        if !is_extra(id) {
+            let values = Value::from_serialize(Section::of(entry, &made)?);
+            section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
+        }
+        // Another version of the program does not make another figure.
+        let mut record: serde_json::Value = serde_json::from_slice(&data).unwrap_or_default();
+        record.as_object_mut().map(|members| members.remove("provenance"));
         let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
-        let digest = digest([json::to_text(&made.data), drawing, section.clone()].concat().as_bytes());
+        let digest = digest([json::to_text(&record), drawing, section.clone()].concat().as_bytes());
         Ok(Self { made, origin, section, digest })
     }
 
@@ -256,7 +261,8 @@ fn outdated_with(
     for name in if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] } {
         let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
         let other_template = *name == ERRATA_FILE && known(TEMPLATE) != Some(&digest(template.as_bytes()));
-        if other_template || docs.read(name)?.map(|page| digest(&page)).as_ref() != known(name) {
+        let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
+        if other_template || edited {
             outdated.push((*name).to_owned());
         }
     }
