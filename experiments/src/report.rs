@@ -1,6 +1,6 @@
 //! What is made from the results of all figures: the gallery with `claims.json`, and the committed pages.
 //!
-//! A claim becomes a [`Row`] of words once; one set of templates turns rows into HTML and Markdown.
+//! A claim becomes a row of words once; one set of templates turns rows into HTML and Markdown.
 
 pub mod counts;
 mod digits;
