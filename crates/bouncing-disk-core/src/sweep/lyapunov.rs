@@ -236,6 +236,20 @@ pub fn lyapunov_exponents(
 mod tests {
     use super::*;
 
+    /// The passage by a fold multiplies a perturbation by n^2, a shear by n, an escape from a periodic orbit by 2^52 at most.
+    #[test]
+    fn neutral_growth_is_no_chaos() {
+        for impacts in [100, 10_000, 1_000_000_u64] {
+            let n = impacts as f64;
+            let grown = |growth: f64| LyapunovEstimate { exponent: growth / n, standard_error: 0.0, impacts };
+            for growth in [ln(n), 2.0 * ln(n), 52.0 * ln(2.0)] {
+                assert!(!grown(growth).grows() && !grown(-growth).shrinks(), "{growth} over {impacts}");
+            }
+            let chaos = 52.0 * ln(2.0) + 2.0 * ln(n) + 1.0;
+            assert!(grown(chaos).grows() && grown(-chaos).shrinks(), "{impacts}");
+        }
+    }
+
     /// The logarithm of a growth of 1e200 or 1e-200 is a number; without bound, or without effect, it is none.
     #[test]
     fn growth_of_any_size_has_an_exponent() {
