@@ -251,8 +251,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     #[inline]
     pub(crate) fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
-            let speed = self.rebound_speed(state.velocity)?;
-            state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
+            state = self.step(state)?.into();
         }
         Ok(state)
     }
