@@ -85,21 +85,23 @@ impl AlikeMotor {
             .then(|| steady / constant / motor.largest_acceleration()),
             exponential_residual: exponential.residual / top,
             ramp_residual: ramp.residual / top,
-            oscillation: oscillation(curve)? / top,
+            oscillation: oscillation(curve, top)?,
             impacts_per_s: curve.impacts as f64 / duration,
             turn: turn(curve),
         })
     }
 }
 
-/// Standard deviation of the speed from its straight line over the second half.
-fn oscillation(curve: &SpeedCurve) -> Result<f64, ExperimentError> {
-    let half = curve.speeds.len() / 2;
-    let points: Vec<(f64, f64)> =
-        curve.times.iter().zip(&curve.speeds).skip(half).map(|(time, speed)| (*time, *speed)).collect();
-    let unexplained = StraightLine::through(&points).map_or(1.0, |line| 1.0 - line.explained);
-    let spread = Spread::of(&curve.speeds[half..])?;
-    Ok(spread.deviation * unexplained.max(0.0).sqrt())
+/// Standard deviation of the speed, averaged over [`INTERVALS`], from its straight line over the second half, as a share of `top`.
+pub(crate) fn oscillation(curve: &SpeedCurve, top: f64) -> Result<f64, ExperimentError> {
+    let per_point = (curve.speeds.len() / INTERVALS).max(1);
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let averaged = curve.times.chunks(per_point).zip(curve.speeds.chunks(per_point));
+    let points: Vec<(f64, f64)> = averaged.map(|(times, speeds)| (mean(times), mean(speeds))).collect();
+    let second_half = &points[points.len() / 2..];
+    let unexplained = StraightLine::through(second_half).map_or(1.0, |line| 1.0 - line.explained);
+    let speeds: Vec<f64> = second_half.iter().map(|(_, speed)| *speed).collect();
+    Ok(Spread::of(&speeds)?.deviation * unexplained.max(0.0).sqrt() / top)
 }
 
 /// How sharply the curve turns to its last speed, the mean over its last fifth.
@@ -169,8 +171,9 @@ mod tests {
             impacts: 0,
             separations: 0,
         };
-        assert!(oscillation(&curve(|time| 3.0 + 0.1 * time)).expect("many") < 1e-9);
-        let alternating = oscillation(&curve(|time| 0.1 * time + if time % 2.0 < 1.0 { 1.0 } else { -1.0 }));
+        assert!(oscillation(&curve(|time| 3.0 + 0.1 * time), 1.0).expect("many") < 1e-9);
+        let alternating =
+            oscillation(&curve(|time| 0.1 * time + if time % 2.0 < 1.0 { 1.0 } else { -1.0 }), 1.0);
         assert!((alternating.expect("many") - 1.0).abs() < 0.02);
     }
 

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use self::consistency::consistency;
 use super::toss_case::TossCase;
+use crate::claims::printed::PrintedNumber;
 use crate::claims::{
     Claim,
     paper::{self, SectionThree, TableOne},
@@ -110,6 +111,8 @@ pub struct Fig04Data {
     low_friction: Vec<FrictionOptimum>,
     /// The toss of Table I.
     table_i_toss: TossPoint,
+    /// |ν| of the toss at the printed optimum, if a number is printed.
+    speed_ratio_at_printed_optimum: Option<f64>,
     /// The best tosses of all phase lags and amplitude angles.
     best: Vec<Best>,
     /// Up to this amplitude angle friction holds the dough to the end if θ = −τ_sep: tan φ_L = (μ a_e²/a_g²)
@@ -315,11 +318,17 @@ fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, Exper
     let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
     let kept = toss.energy.platform_work() - toss.energy.friction_loss;
     done();
+    let at_printed_optimum = PrintedNumber::read(&printed.optimal_amplitude_angle_rad)
+        .map(|angle| {
+            Ok::<_, ExperimentError>(TossPoint::new(&table, &table.at_angle(angle.value).toss(rest)?))
+        })
+        .transpose()?;
     let consistency = consistency(&table_i, &printed, count)?;
     done();
     Ok(Fig04Data {
         largest_amplitude_angle_rad: table.largest_angle(),
         table_i_toss: TossPoint::new(&table, &table.toss(rest)?),
+        speed_ratio_at_printed_optimum: at_printed_optimum.and_then(|toss| toss.speed_ratio.map(f64::abs)),
         lossless_efficiency_of_fastest: toss.rotary_energy_gain / kept,
         amplitude_angle_rad: angles,
         families,

@@ -156,9 +156,11 @@ struct Transient {
     stall_acceleration_rad_per_s2: Spread,
     stall_torque_n_m: Spread,
     /// Root mean square of member minus exponential fit, over the steady speed; mean over the ensemble.
-    relative_oscillation: f64,
+    relative_exponential_residual: f64,
     /// The same for the fit of a linear rise to a constant speed.
     relative_ramp_residual: f64,
+    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over the ensemble.
+    oscillation: f64,
     /// What the unperturbed motor repeats.
     cycle: Cycle,
     impacts_per_s: f64,

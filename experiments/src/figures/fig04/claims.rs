@@ -219,7 +219,7 @@ fn size(toss: &TossPoint) -> f64 {
 
 /// How the optimum compares with the largest ratio and with the observed tosses.
 fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
-    let at_optimum = size(fastest);
+    let at_optimum = data.speed_ratio_at_printed_optimum;
     let drawn = curves(data, InitialSpin::AbsoluteRest).iter().map(|curve| size(&curve.largest_speed_ratio));
     let largest = drawn.max_by(f64::total_cmp);
     // What the paper calls negligible: whatever two ratios that print like its two differ by.
@@ -234,16 +234,20 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
     vec![
         Claim::printed_statement(
             "section3.speed_ratio_nearly_largest",
-            largest.zip(negligible).map(|(largest, negligible)| largest - at_optimum <= negligible),
+            largest.zip(negligible).zip(at_optimum).map(|((largest, negligible), ratio)| largest - ratio <= negligible),
             format!(
-                "{at_optimum:.4} at the optimum, {:.4} at most; the paper calls negligible what lies between two ratios that print as {} and {}, at \
-                 most {:.3}",
+                "{:.4} at the printed optimum φ_L = {}, {:.4} at our own, {:.4} at most; the paper calls negligible what lies between two ratios \
+                 that print as {} and {}, at most {:.3}",
+                at_optimum.unwrap_or(f64::NAN),
+                data.printed.optimal_amplitude_angle_rad,
+                size(fastest),
                 largest.unwrap_or(f64::NAN),
                 data.printed.speed_ratio_at_optimum,
                 data.printed.largest_speed_ratio,
                 negligible.unwrap_or(f64::NAN),
             ),
-        ),
+        )
+        .cause(OTHER_OPTIMUM),
         Claim::printed_statement(
             "section3.optimum_differs_from_observed",
             farthest.map(|farthest| fastest.amplitude_angle_rad > farthest),

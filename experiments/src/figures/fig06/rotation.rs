@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::numerics::elementary::cos;
+use bouncing_disk::core::numerics::elementary::{cos, sin};
 
 use super::data::{Fig06Data, Slice};
 use crate::claims::judging::trend;
@@ -10,7 +10,7 @@ use crate::claims::{self as claim, Cases, Claim};
 use crate::figures::numbers;
 pub(super) use crate::figures::numbers::extent;
 
-/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow approach to the
+/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence to the
 /// orbit next to a doubling.
 const STORED: f64 = 1.0e-5;
 
@@ -90,6 +90,11 @@ fn period_one_turns(data: &Fig06Data) -> Vec<Claim> {
         linear.abs().max((slice.semielliptical_mean - cos(phase + lag)).abs())
     };
     let (_, worst) = extent(ones.iter().map(miss));
+    let slope = |phase: f64, lag: f64| sin(phase + lag).abs();
+    let steepest =
+        |(_, phase): &(&Slice, f64)| slope(*phase, data.linear.phase_lag_rad).max(slope(*phase, lag));
+    let (_, slope) = extent(ones.iter().map(steepest));
+    let from_rounding = TAU * 0.5 * numbers::STORED_STEP * slope;
     vec![
         Claim::printed_statement(
             "section4.slip_vanishes",
@@ -102,7 +107,11 @@ fn period_one_turns(data: &Fig06Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section4.period_one_speed",
             claim::all(&ones, |one| miss(one) < STORED),
-            format!("largest deviation {worst:.1e} ωΦ at {} values of Γ, (c) and (d)", ones.len()),
+            format!(
+                "largest deviation {worst:.1e} ωΦ at {} values of Γ, (c) and (d); the stored phases, rounded to {:e} of a period, allow {from_rounding:.1e} ωΦ",
+                ones.len(),
+                numbers::STORED_STEP,
+            ),
         ),
         Claim::printed_statement(
             "section4.maximum_speed",

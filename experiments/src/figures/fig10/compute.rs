@@ -11,7 +11,7 @@ use bouncing_disk::{
 use super::{Alike, Exception, Fig10Data, Reading, Transient};
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::alike;
+use crate::figures::alike::{alike, oscillation};
 use crate::figures::motor_case::{MotorCase, perturbation_table};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::progress::Progress;
@@ -167,8 +167,15 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
 }
 
 /// Root mean square of member minus exponential fit over the steady speed, mean over the ensemble.
-fn relative_oscillation(runs: &TransientEnsemble) -> f64 {
+fn relative_exponential_residual(runs: &TransientEnsemble) -> f64 {
     runs.fits.iter().map(|fit| fit.residual / fit.steady_speed).sum::<f64>() / runs.fits.len() as f64
+}
+
+/// The oscillation of single orbits, of the members; mean over the ensemble.
+fn mean_oscillation(motor: &MotorCase, runs: &TransientEnsemble) -> Result<f64, ExperimentError> {
+    let of = |curve| oscillation(curve, motor.peak_angular_speed_rad_per_s);
+    let members = runs.curves.iter().map(of).collect::<Result<Vec<f64>, _>>()?;
+    Ok(members.iter().sum::<f64>() / members.len() as f64)
 }
 
 fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<Transient, ExperimentError> {
@@ -212,8 +219,9 @@ fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<T
             deviation: inertia * stall.deviation,
             standard_error: inertia * stall.standard_error,
         },
-        relative_oscillation: relative_oscillation(runs),
+        relative_exponential_residual: relative_exponential_residual(runs),
         relative_ramp_residual: ramp_residual / runs.curves.len() as f64,
+        oscillation: mean_oscillation(motor, runs)?,
         cycle: motor.cycle(ChatterPolicy::Complete)?,
         impacts_per_s: member.impacts as f64 / (member.times[0] + member.times[member.times.len() - 1]),
     })
