@@ -3,6 +3,7 @@
 //!     cargo run --release -p bouncing-disk-experiments --example sweep_picture -- efficiency.png
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use std::error::Error;
 
 use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
@@ -16,7 +17,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let axes =
         vec![SweepAxis::new(MotorField::LoadTorque, loads), SweepAxis::new(MotorField::PhaseLag, lags)];
     let settings = OperatingSettings { relative_error: 0.03, members: 8, ..OperatingSettings::default() };
-    let result = MotorSweep::new(motor, axes, settings)?.run()?;
+    let result = MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?;
 
     let path = std::env::args().nth(1).unwrap_or_else(|| "efficiency.png".to_owned());
     std::fs::write(&path, sweep_picture(&result, SweepQuantity::Efficiency).to_png()?)?;

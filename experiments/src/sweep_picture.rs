@@ -127,13 +127,17 @@ fn map(result: &MotorSweepResult, quantity: SweepQuantity, rows: &SweepAxis, col
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk::core::Unobserved;
     use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings};
 
     use super::*;
 
     fn swept(axes: Vec<SweepAxis>) -> MotorSweepResult {
         let settings = OperatingSettings { relative_error: 0.2, members: 4, ..OperatingSettings::default() };
-        MotorSweep::new(Motor::paper_70_khz(), axes, settings).expect("legal").run().expect("no failure")
+        MotorSweep::new(Motor::paper_70_khz(), axes, settings)
+            .expect("legal")
+            .run(&Unobserved)
+            .expect("no failure")
     }
 
     /// Curves and maps, of one value and of uneven ones, with cells that have no number.

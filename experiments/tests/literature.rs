@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Verdict, VerdictSettings, Vibration,
-    doubling_cascade, elementary::sin_cos,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Verdict, VerdictSettings,
+    Vibration, doubling_cascade, elementary::sin_cos,
 };
 use bouncing_disk_experiments::printed::PrintedNumber;
 use serde::Deserialize;
@@ -84,7 +84,8 @@ impl Checked<'_> {
 
     /// The forcing of a doubling of the cascade.
     fn doubling(&self, number: usize) -> f64 {
-        doubling_cascade(self.restitution(), number).expect("converges")[number - 1].axial_forcing
+        doubling_cascade(self.restitution(), number, &Unobserved).expect("converges")[number - 1]
+            .axial_forcing
     }
 
     /// Where the doublings accumulate, from the last two of nine.

@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{
-    AttractorSearch, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, Phase,
+    AttractorSearch, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, Phase, Unobserved,
     VerdictSettings, Vibration, doubling_cascade, orbit_diagram, verdicts,
 };
 use bouncing_disk::{
@@ -42,7 +42,7 @@ fn value(first: f64, last: f64, count: usize, index: usize) -> f64 {
 fn tosses_and_designs() {
     let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest).unwrap();
     assert_eq!(written("toss")["performance"], stored(&toss));
-    let design = best_toss(&TossConstraints::pizza_toss()).unwrap();
+    let design = best_toss(&TossConstraints::pizza_toss(), &Unobserved).unwrap();
     assert_eq!(written("design")["design"], stored(&design));
 }
 
@@ -54,7 +54,7 @@ fn diagrams_from_rest() {
             map(value(0.3, 0.6, 9, index), 0.5).orbit(start, ChatterPolicy::Complete)
         })
         .collect();
-    let columns = orbit_diagram(&orbits, 100, 40).unwrap();
+    let columns = orbit_diagram(&orbits, 100, 40, &Unobserved).unwrap();
     let found = written("diagram -G 0.3:0.6:9 --start rest --transient 100 --recorded 40");
     for (column, found) in columns.iter().zip(found["columns"].as_array().unwrap()) {
         let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
@@ -75,7 +75,7 @@ fn verdicts_on_a_map() {
     }
     let found = written("verdicts -G 0.2:2:7 -r 0.1:0.9:4 --impacts 2000 --transient 200 --details");
     let cells: Vec<&Value> = found["cells"].as_array().unwrap().iter().map(|cell| &cell["verdict"]).collect();
-    assert_eq!(json!(cells), stored(&verdicts(&starts, settings).unwrap()));
+    assert_eq!(json!(cells), stored(&verdicts(&starts, settings, &Unobserved).unwrap()));
     // Without details there is the kind of each.
     let kinds = written("verdicts -G 0.2:2:7 -r 0.1:0.9:4 --impacts 2000 --transient 200");
     let rows = kinds["kinds_by_restitution"].as_array().unwrap();
@@ -87,7 +87,8 @@ fn basins_with_a_chaotic_attractor() {
     let search = AttractorSearch::default().with_starts(100).unwrap();
     let grid = Grid::new(Axis::new(0.0, 1.0, 21).unwrap(), Axis::new(0.0, 5.0, 21).unwrap()).unwrap();
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
-    let basins = map(0.55, 0.5).attractors(&search).unwrap().basins(grid, settings).unwrap();
+    let basins =
+        map(0.55, 0.5).attractors(&search, &Unobserved).unwrap().basins(grid, settings, &Unobserved).unwrap();
     let found = written("basins -G 0.55 --cells 21 --starts 100 --impacts 400");
     let rows: Vec<String> =
         (0..21).map(|row| basins.row(row).iter().map(|label| format!("{label:02x}")).collect()).collect();
@@ -96,7 +97,10 @@ fn basins_with_a_chaotic_attractor() {
 
 #[test]
 fn doublings() {
-    assert_eq!(written("doublings --count 6")["doublings"], stored(&doubling_cascade(0.5, 6).unwrap()));
+    assert_eq!(
+        written("doublings --count 6")["doublings"],
+        stored(&doubling_cascade(0.5, 6, &Unobserved).unwrap())
+    );
 }
 
 #[test]
@@ -106,14 +110,14 @@ fn motors() {
     let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
     // Two vertical motions.
     let axes = vec![axis(MotorField::Amplitude, [1e-8, 2e-8]), axis(MotorField::LoadTorque, [0.0, 1e-5])];
-    let sweep = MotorSweep::new(motor, axes, settings).unwrap().run().unwrap();
+    let sweep = MotorSweep::new(motor, axes, settings).unwrap().run(&Unobserved).unwrap();
     let line = "motor sweep --over amplitude=1e-8:2e-8:2 --over load_torque=0:1e-5:2 --relative-error 0.3 --members 4";
     assert_eq!(written(line)["cells"], stored(sweep.cells()));
     let transient = TransientSettings { duration: 3.0, intervals: 30, ..TransientSettings::default() };
-    let all = ensemble(motor.system(), &transient, 7).unwrap();
+    let all = ensemble(motor.system(), &transient, 7, &Unobserved).unwrap();
     let found = written("motor transient --members 7 --duration 3 --intervals 30");
     assert_eq!((&found["curves"], &found["member_fits"]), (&stored(&all.curves), &stored(&all.fits)));
-    let curve = motor.torque_speed_curve(&[0.0, 1e-5, 2e-5], &settings).unwrap();
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5, 2e-5], &settings, &Unobserved).unwrap();
     let line = "motor curve --loads 0:2e-5:3 --relative-error 0.3 --members 4 --no-spread";
     assert_eq!(written(line)["operations"], stored(&curve));
 }

@@ -4,7 +4,7 @@
 use std::hint::black_box;
 
 use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Vibration,
+    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Unobserved, Vibration,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -27,8 +27,9 @@ impl W3 {
         let vibration = Vibration::from_axial_forcing(0.5).expect("legal forcing");
         let map = ImpactMap::new(vibration, 0.5).expect("legal restitution");
         let start = ImpactState::from_normalised(0.8, 1.3).expect("legal state");
-        let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
-        let radius = orbit.trapping_radius(&map, 64).expect("it attracts");
+        let orbit =
+            map.settled_orbit(start, 4_000, 4, 1.0e-8, &Unobserved).expect("no failure").expect("settles");
+        let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("it attracts");
         Self { map, known: [KnownOrbit::new(orbit, radius).expect("legal radius")] }
     }
 
@@ -38,7 +39,7 @@ impl W3 {
     }
 
     fn together(&self, grid: Grid) {
-        black_box(self.map.basins(grid, &self.known, SETTINGS).expect("no failure"));
+        black_box(self.map.basins(grid, &self.known, SETTINGS, &Unobserved).expect("no failure"));
     }
 
     fn one_by_one(&self, grid: Grid) -> u32 {

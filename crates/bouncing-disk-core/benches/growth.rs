@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::hint::black_box;
 
-use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Phase, Vibration};
+use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Phase, Unobserved, Vibration};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Launches per timed call.
@@ -21,7 +21,7 @@ fn impacts(c: &mut Criterion) {
     for impacts in [1_000_u64, 10_000, 100_000, 1_000_000] {
         group.throughput(Throughput::Elements(impacts));
         group.bench_function(impacts.to_string(), |bencher| {
-            bencher.iter(|| map.iterate(black_box(start), impacts).expect("impacts follow"));
+            bencher.iter(|| map.iterate(black_box(start), impacts, &Unobserved).expect("impacts follow"));
         });
     }
     group.finish();

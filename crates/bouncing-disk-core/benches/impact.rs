@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, InstructionSet, Launch, OrbitBatch, OrbitEvent, Phase, Vibration,
+    ChatterPolicy, ImpactMap, ImpactState, InstructionSet, Launch, OrbitBatch, OrbitEvent, Phase, Unobserved,
+    Vibration,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -27,7 +28,7 @@ fn w1(c: &mut Criterion) {
     group.bench_function("scalar", |bencher| {
         let mut state = start;
         bencher.iter(|| {
-            state = map.iterate(state, IMPACTS).expect("impacts follow");
+            state = map.iterate(state, IMPACTS, &Unobserved).expect("impacts follow");
             state
         });
     });

@@ -3,7 +3,8 @@
 use std::hint::black_box;
 
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Vibration, orbit_diagram, survival_times,
+    ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Unobserved, Vibration, orbit_diagram,
+    survival_times,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -49,7 +50,9 @@ fn diagrams(c: &mut Criterion) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
             group.bench_function(format!("sweep_threads_{threads}"), |bencher| {
                 bencher.iter(|| {
-                    pool.install(|| black_box(orbit_diagram(&orbits, IMPACTS - RECORDED, RECORDED)))
+                    pool.install(|| {
+                        black_box(orbit_diagram(&orbits, IMPACTS - RECORDED, RECORDED, &Unobserved))
+                    })
                 });
             });
         }
@@ -65,7 +68,7 @@ fn crisis(c: &mut Criterion) {
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
         group.bench_function(format!("sweep_threads_{threads}"), |bencher| {
-            bencher.iter(|| pool.install(|| black_box(survival_times(&orbits, 10_000))));
+            bencher.iter(|| pool.install(|| black_box(survival_times(&orbits, 10_000, &Unobserved))));
         });
     }
     group.bench_function("one_by_one", |bencher| {

@@ -3,8 +3,5 @@
 
 mod cascade;
 
-pub use self::cascade::{
-    ExtendedDoubling, doubling_cascade, doubling_cascade_observed, feigenbaum_estimates,
-    first_doubling_forcing,
-};
+pub use self::cascade::{ExtendedDoubling, doubling_cascade, feigenbaum_estimates, first_doubling_forcing};
 pub use crate::numerics::double_double::DoubleDouble;

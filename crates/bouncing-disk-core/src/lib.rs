@@ -5,7 +5,7 @@
 //!
 //! ```
 //! use std::f64::consts::TAU;
-//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Vibration, orbit_diagram};
+//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Unobserved, Vibration, orbit_diagram};
 //!
 //! # fn main() -> Result<(), bouncing_disk_core::Error> {
 //! // Gamma = 0.45 and restitution 0.5: a disk on the period-1 orbit lands once in every period.
@@ -13,7 +13,7 @@
 //! let state = map.period_one(1).expect("it exists from Gamma = 1/3 on");
 //! assert!((map.step(state)?.duration() - TAU).abs() < 1e-12);
 //! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
-//! let column = orbit_diagram(&[map.orbit(state, ChatterPolicy::Complete)], 200, 50)?;
+//! let column = orbit_diagram(&[map.orbit(state, ChatterPolicy::Complete)], 200, 50, &Unobserved)?;
 //! assert_eq!(column[0].len(), 50);
 //! # Ok(())
 //! # }
@@ -71,7 +71,6 @@ mod testing;
 pub use analysis::attractors::cells::VisitedCells;
 pub use analysis::attractors::over_forcing::{
     AttractorsAt, BasinFractions, FollowedAttractor, MAX_FORCINGS, basin_fractions_over,
-    basin_fractions_over_observed,
 };
 pub use analysis::attractors::settings::AttractorSearch;
 pub use analysis::attractors::{AfterRest, Attractor, AttractorKind, Attractors, Recurrence};
@@ -82,7 +81,7 @@ pub use analysis::basin::{
     UNDECIDED,
 };
 pub use analysis::cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
-pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade, doubling_cascade_observed};
+pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade};
 pub use analysis::closing::ContinuationParameter;
 pub use analysis::continuation::{
     Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
@@ -90,12 +89,8 @@ pub use analysis::continuation::{
 pub use analysis::crisis::lifetimes::{CrisisLives, MeanLife};
 pub use analysis::crisis::{Crisis, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency};
 pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
-pub use analysis::lyapunov::spectrum::{
-    LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra, lyapunov_spectra_observed,
-};
-pub use analysis::lyapunov::{
-    LyapunovEstimate, TangentGrowth, lyapunov_exponents, lyapunov_exponents_observed,
-};
+pub use analysis::lyapunov::spectrum::{LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra};
+pub use analysis::lyapunov::{LyapunovEstimate, TangentGrowth, lyapunov_exponents};
 pub use analysis::manifold::{
     Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
 };
@@ -105,11 +100,10 @@ pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
 pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};
 pub use analysis::sweep::{
     MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, is_settling, orbit_diagram,
-    orbit_diagram_observed, repeats_every, survival_times, survival_times_observed, sweep, sweep_observed,
+    repeats_every, survival_times, sweep,
 };
 pub use analysis::verdict::{
     CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts,
-    verdicts_observed,
 };
 pub use chatter::accumulation::{Accumulation, ChatterImpact};
 pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};

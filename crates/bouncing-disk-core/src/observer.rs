@@ -32,14 +32,13 @@ impl Progress {
     }
 }
 
-/// Is told how far a long call is, and may stop it.
+/// Sees how far a long call is, and may stop it.
 ///
-/// Every call that may take longer than 0.1 s has a form whose name ends in `_observed` and that takes an
-/// observer: it is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each
-/// thread, and when all is done. Where it breaks, the call returns [`Error::Stopped`]; its last answer, when
-/// all is done, is not asked for. The calls come from the threads that do the work, several at a time and in
-/// no certain order, so that `done` of one call may be less than that of the one before. No bit of a result
-/// depends on an observer.
+/// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] if nobody
+/// looks. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
+/// when all is done. Where it breaks, the call returns [`Error::Stopped`], except at the last call, when all is
+/// done. The calls come from the threads that do the work, several at a time and in no certain order, so that
+/// `done` of one call may be less than that of the one before. No bit of a result depends on an observer.
 ///
 /// A function or closure of this form is an observer; the core looks at no clock, but the observer may.
 ///
@@ -47,7 +46,9 @@ impl Progress {
 /// use std::ops::ControlFlow;
 /// use std::time::{Duration, Instant};
 ///
-/// use bouncing_disk_core::{Axis, BasinRun, BasinSettings, Error, Grid, ImpactMap, Progress, Vibration};
+/// use bouncing_disk_core::{
+///     Axis, BasinRun, BasinSettings, Error, Grid, ImpactMap, Progress, Unobserved, Vibration,
+/// };
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
 /// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 2.0, 40)?)?;
@@ -61,7 +62,7 @@ impl Progress {
 /// };
 /// let mut run = BasinRun::new(map, grid, &[], BasinSettings::default())?;
 /// match run.advance(&observer) {
-///     Ok(()) => assert_eq!(run.into_basins()?, map.basins(grid, &[], BasinSettings::default())?),
+///     Ok(()) => assert_eq!(run.into_basins()?, map.basins(grid, &[], BasinSettings::default(), &Unobserved)?),
 ///     // The run may be written to a file here, and goes on after it has been read again.
 ///     Err(Error::Stopped { done, total }) => println!("{done} of {total} rows so far"),
 ///     Err(error) => return Err(error),
@@ -79,7 +80,7 @@ impl<F: Fn(Progress) -> ControlFlow<()> + Sync> Observer for F {
     }
 }
 
-/// Nobody looks, nobody stops: what the forms of long calls without an observer use.
+/// Nobody looks, nobody stops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unobserved;
 

@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{
     ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, BifurcationKind, Branch,
     ChatterPolicy, Continuation, ContinuationParameter, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
-    KnownOrbit, Label, Phase, UNDECIDED, Vibration,
+    KnownOrbit, Label, Phase, UNDECIDED, Unobserved, Vibration,
 };
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -35,14 +35,16 @@ fn panel(map: &ImpactMap) -> Panel {
     let add = |known: &mut Vec<KnownOrbit>, orbit, radius| {
         known.push(KnownOrbit::new(orbit, radius).expect("legal"));
     };
-    if let Ok(radius) = orbit.trapping_radius(map, 64) {
+    if let Ok(radius) = orbit.trapping_radius(map, 64, &Unobserved) {
         add(&mut known, orbit, radius);
     } else {
         let beside = Phase::new(state.phase().angle() + 1e-3).expect("finite");
         let beside = ImpactState::new(beside, state.velocity()).expect("legal");
-        if let Some(after) = map.state_after(beside, 20_000, ChatterPolicy::Complete).expect("no failure") {
-            let settled = map.settled_orbit(after, 0, 64, 1e-8).expect("no failure");
-            match settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64).ok()?, orbit))) {
+        if let Some(after) =
+            map.state_after(beside, 20_000, ChatterPolicy::Complete, &Unobserved).expect("no failure")
+        {
+            let settled = map.settled_orbit(after, 0, 64, 1e-8, &Unobserved).expect("no failure");
+            match settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64, &Unobserved).ok()?, orbit))) {
                 Some((radius, orbit)) => add(&mut known, orbit, radius),
                 None => chaotic = true,
             }
@@ -50,13 +52,13 @@ fn panel(map: &ImpactMap) -> Panel {
     }
     let settings = BasinSettings { max_impacts: 500, ..BasinSettings::default() };
     'search: while !known.is_empty() && known.len() < 4 {
-        let basins = map.basins(grid(60), &known, settings).expect("no failure");
+        let basins = map.basins(grid(60), &known, settings, &Unobserved).expect("no failure");
         for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
             let (angle, speed) = (grid(60).impact_angle(index % 60), grid(60).speed().centre(index / 60));
             let start = ImpactState::from_normalised(angle, speed).expect("legal");
-            let settled = map.settled_orbit(start, 4_000, 64, 1e-8).expect("no failure");
+            let settled = map.settled_orbit(start, 4_000, 64, 1e-8, &Unobserved).expect("no failure");
             if let Some((radius, orbit)) =
-                settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64).ok()?, orbit)))
+                settled.and_then(|orbit| Some((orbit.trapping_radius(map, 64, &Unobserved).ok()?, orbit)))
             {
                 add(&mut known, orbit, radius);
                 continue 'search;
@@ -95,12 +97,12 @@ fn all_panels_agree(cells: usize) {
     for forcing in [0.34, 0.486, 0.5, 0.55, 0.6] {
         let map = map(forcing, 0.5);
         let panel = panel(&map);
-        let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+        let found = map.attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");
         assert_eq!(found.all().len(), 1 + panel.known.len() + usize::from(panel.chaotic), "Gamma {forcing}");
         attractors.push(found.all().len());
         let settings = BasinSettings { max_impacts: panel.max_impacts, ..BasinSettings::default() };
-        let known = map.basins(grid(cells), &panel.known, settings).expect("no failure");
-        let own = found.basins(grid(cells), settings).expect("no failure");
+        let known = map.basins(grid(cells), &panel.known, settings, &Unobserved).expect("no failure");
+        let own = found.basins(grid(cells), settings, &Unobserved).expect("no failure");
         let differing = known.labels().iter().zip(own.labels());
         let differing = differing.filter(|(known, own)| label_of(&found, &panel, **known) != **own).count();
         assert_eq!(differing, 0, "Gamma {forcing}: of {} cells", cells * cells);
@@ -135,7 +137,8 @@ fn random_start(map: &ImpactMap, random: &mut SplitMix64) -> ImpactState {
 fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool {
     let map = found.map();
     let peak = map.vibration().peak_acceleration();
-    let Some(mut state) = map.state_after(start, transient, ChatterPolicy::Complete).expect("no failure")
+    let Some(mut state) =
+        map.state_after(start, transient, ChatterPolicy::Complete, &Unobserved).expect("no failure")
     else {
         return true;
     };
@@ -144,7 +147,7 @@ fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool
     }
     let mut hits = vec![0; found.all().len()];
     for _ in 0..200 {
-        match map.state_after(state, 1, ChatterPolicy::Complete).expect("no failure") {
+        match map.state_after(state, 1, ChatterPolicy::Complete, &Unobserved).expect("no failure") {
             Some(next) => state = next,
             None => return true,
         }
@@ -165,7 +168,7 @@ fn brute_force(maps: u64, starts: u32, transient: usize) -> [u64; 4] {
     let mut totals = [0; 4];
     for number in 0..maps {
         let map = map(0.1 + 2.9 * random.unit(), 0.1 + 0.8 * random.unit());
-        let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+        let found = map.attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");
         let mut own = SplitMix64::new(SplitMix64::seed_of_stream(18, number));
         let missed = (0..starts)
             .map(|_| random_start(&map, &mut own))
@@ -197,10 +200,10 @@ fn no_attractor_of_some_size_is_missed_on_200_maps() {
 /// The branch of the attracting orbit of so many impacts at this forcing.
 fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
     let map = map(axial_forcing, 0.5);
-    let found = map.attractors(&AttractorSearch::default()).expect("no failure");
+    let found = map.attractors(&AttractorSearch::default(), &Unobserved).expect("no failure");
     let known = found.known().find(|known| known.orbit().period() == impacts).expect("attracts");
     let settings = Continuation::new(ContinuationParameter::Forcing, (0.6, 0.605), rising).expect("legal");
-    map.continued(known.orbit(), &settings).expect("continued")
+    map.continued(known.orbit(), &settings, &Unobserved).expect("continued")
 }
 
 /// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and there the

@@ -7,7 +7,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::{
     ATTACHED, Axis, BasinSettings, ChatterPolicy, Error, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
-    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Vibration, doubling_cascade,
+    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Unobserved, Vibration, doubling_cascade,
 };
 use dual_numbers::dual_derivative;
 use glam::{DMat2, DVec2};
@@ -40,7 +40,7 @@ proptest! {
         let map = map(forcing, restitution);
         let from = state(angle, -speed * PI * forcing);
         let one_by_one = (0..impacts).try_fold(from, |at, _| map.step(at).map(ImpactState::from));
-        match (map.iterate(from, impacts), one_by_one) {
+        match (map.iterate(from, impacts, &Unobserved), one_by_one) {
             (Ok(own), Ok(other)) => {
                 let bits = |state: ImpactState| {
                     let phase = state.phase();
@@ -239,7 +239,7 @@ fn the_impact_speed_of_period_one_does_not_depend_on_the_forcing() {
 
 #[test]
 fn cascade_agrees_with_the_closed_form_and_with_feigenbaum() {
-    let cascade = doubling_cascade(0.5, 6).expect("the cascade exists");
+    let cascade = doubling_cascade(0.5, 6, &Unobserved).expect("the cascade exists");
     assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-12);
     let periods: Vec<_> = cascade.iter().map(|doubling| doubling.period).collect();
     assert_eq!(periods, [1, 2, 4, 8, 16, 32]);
@@ -272,15 +272,15 @@ fn multipliers_of_plain_matrices() {
 fn basins_are_the_same_for_any_number_of_threads() {
     let map = map(0.5, 0.5);
     let start = ImpactState::from_normalised(0.9, 1.3).expect("legal");
-    let orbit = map.settled_orbit(start, 2_000, 8, 1e-9).expect("no failure").expect("period 2");
+    let orbit = map.settled_orbit(start, 2_000, 8, 1e-9, &Unobserved).expect("no failure").expect("period 2");
     assert_eq!(orbit.period(), 2);
-    let radius = orbit.trapping_radius(&map, 32).expect("attracts");
+    let radius = orbit.trapping_radius(&map, 32, &Unobserved).expect("attracts");
     let known = [KnownOrbit::new(orbit, radius).expect("legal")];
     let grid = Grid::new(Axis::new(0.0, 1.0, 37).expect("legal"), Axis::new(0.0, 2.0, 41).expect("legal"))
         .expect("legal");
     let labels = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        pool.install(|| map.basins(grid, &known, BasinSettings::default())).expect("no failure")
+        pool.install(|| map.basins(grid, &known, BasinSettings::default(), &Unobserved)).expect("no failure")
     };
     let one = labels(1);
     assert!(one.fraction(FIRST_ORBIT) > 0.2 && one.fraction(ATTACHED) > 0.4);
@@ -405,7 +405,11 @@ fn a_chattering_disk_has_no_period() {
         let state = ImpactState::from_normalised(3.0, 0.05).unwrap();
         assert_eq!(map.period_of(state, 8, 1.0e-8), Ok(None), "{forcing} {restitution}");
         for transient in [0, 5, 2_000] {
-            assert_eq!(map.settled_orbit(state, transient, 8, 1.0e-8), Ok(None), "{forcing} {restitution}");
+            assert_eq!(
+                map.settled_orbit(state, transient, 8, 1.0e-8, &Unobserved),
+                Ok(None),
+                "{forcing} {restitution}"
+            );
         }
     }
 }
@@ -416,7 +420,7 @@ fn a_chattering_disk_has_no_period() {
 fn impacts_late_in_a_chatter_are_no_period() {
     let map = map(0.2, 0.5);
     for impacts in [40, 200, 900] {
-        let late = map.iterate(state(3.0, -0.2), impacts).unwrap();
+        let late = map.iterate(state(3.0, -0.2), impacts, &Unobserved).unwrap();
         assert_eq!(map.period_of(late, 8, 1.0e-8), Ok(None), "{late:?}");
     }
 }
@@ -461,7 +465,10 @@ fn illegal_searches_of_a_period_are_named() {
     let state = map.period_one(1).unwrap();
     for (longest, tolerance) in [(0, 1e-8), (usize::MAX, 1e-8), (1 << 63, 1e-8), (8, f64::NAN), (8, -1.0)] {
         assert!(matches!(map.period_of(state, longest, tolerance), Err(Error::OutOfRange { .. })));
-        assert!(matches!(map.settled_orbit(state, 0, longest, tolerance), Err(Error::OutOfRange { .. })));
+        assert!(matches!(
+            map.settled_orbit(state, 0, longest, tolerance, &Unobserved),
+            Err(Error::OutOfRange { .. })
+        ));
     }
 }
 
@@ -529,7 +536,7 @@ fn grids_a_trillion_periods_away_have_the_same_phases() {
 fn a_launch_after_a_long_chatter_keeps_time() {
     let map = ImpactMap::new(Vibration::new(2.0).unwrap(), 1.0 - 1.0e-9).unwrap();
     let mut state = state(2.9, -1.0e-6);
-    state = map.iterate(state, 600_000).unwrap();
+    state = map.iterate(state, 600_000, &Unobserved).unwrap();
     let impact = map.vibration().first_impact(Launch::new(state.phase(), 1.0).unwrap()).unwrap();
     assert!(impact.duration() > 0.5, "{impact:?}");
 }

@@ -2,7 +2,7 @@
 //! library's derivative.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ImpactMap, ImpactState, OrbitSearch, PeriodicOrbit, Vibration};
+use bouncing_disk_core::{ImpactMap, ImpactState, OrbitSearch, PeriodicOrbit, Unobserved, Vibration};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
@@ -86,7 +86,7 @@ fn compare(count: usize, seed: u64) -> (f64, usize) {
         let vibration = Vibration::from_axial_forcing(0.1 + 2.9 * random.unit()).expect("legal");
         let map = ImpactMap::new(vibration, 0.1 + 0.8 * random.unit()).expect("legal");
         let search = OrbitSearch::new(4, 4).expect("legal").with_starts(16, 16).expect("legal");
-        let found = map.periodic_orbits(&search).expect("no failure");
+        let found = map.periodic_orbits(&search, &Unobserved).expect("no failure");
         for orbit in found.orbits.iter().take(MOST_OF_A_MAP.min(count - compared)) {
             let (trace, determinant) = deviations(&map, orbit);
             assert!(trace <= 1e-10 && determinant <= 1e-10, "{map}: {trace:e} {determinant:e} {orbit:?}");

@@ -9,7 +9,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::{
     ChatterCut, ChatterPolicy, Constant, Error, ImpactMap, ImpactState, KuwabaraKono, Launch, OrbitEvent,
-    Phase, RestitutionLaw, Vibration,
+    Phase, RestitutionLaw, Unobserved, Vibration,
 };
 use dual_numbers::dual_derivative;
 use glam::DMat2;
@@ -137,7 +137,7 @@ proptest! {
         let own = ImpactMap::with_law(vibration(forcing), Same(restitution));
         let from = state(angle, -speed * PI * forcing);
         for impacts in [0, 1, 20] {
-            prop_assert_eq!(constant.iterate(from, impacts).map(bits), own.iterate(from, impacts).map(bits));
+            prop_assert_eq!(constant.iterate(from, impacts, &Unobserved).map(bits), own.iterate(from, impacts, &Unobserved).map(bits));
         }
         match (constant.step_with_derivative(from), own.step_with_derivative(from)) {
             (Ok((one, by_one)), Ok((other, by_other))) => {
@@ -301,8 +301,8 @@ fn an_illegal_restitution_ends_the_motion_where_it_happens() {
         };
         refused(Some(map(0).step(start).map(drop)));
         refused(Some(map(0).step_with_derivative(start).map(drop)));
-        refused(Some(map(7).iterate(start, u64::MAX).map(drop)));
-        assert!(map(7).iterate(start, 7).is_ok());
+        refused(Some(map(7).iterate(start, u64::MAX, &Unobserved).map(drop)));
+        assert!(map(7).iterate(start, 7, &Unobserved).is_ok());
         let mut orbit = map(0).orbit(start, PAPER_POLICY);
         refused(orbit.next().map(|event| event.map(drop)));
         assert!(orbit.next().is_none());
@@ -344,7 +344,7 @@ fn the_map_has_the_seams_of_the_constant_one() {
 fn a_chaotic_orbit_under_the_law_is_that_of_its_steps() {
     let law = KuwabaraKono::new(0.5, 4.0).expect("legal");
     let map = ImpactMap::with_law(vibration(0.9), law);
-    let settled = map.iterate(state(0.8, -4.0), 10_000).expect("bounces");
+    let settled = map.iterate(state(0.8, -4.0), 10_000, &Unobserved).expect("bounces");
     let mut orbit = map.orbit(settled, ChatterPolicy::Cut(ChatterCut::new(0.0, 0.0, 1).expect("legal")));
     let mut at = settled;
     for _ in 0..1_000 {

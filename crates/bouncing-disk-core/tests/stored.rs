@@ -156,6 +156,7 @@ fn every_event_of_an_orbit() {
                 events.push(*event);
                 if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
+            &Unobserved,
         );
         for event in &events.expect("no failure")[0] {
             match event {
@@ -266,7 +267,7 @@ fn whatever_happens_can_be_read() {
             if *events < 60 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
         // A flight that is too long ends an orbit.
-        let _ = sweep(&[orbit], |_| 0, visit);
+        let _ = sweep(&[orbit], |_| 0, visit, &Unobserved);
     }
     assert!(attachments > 100, "{attachments}");
 }

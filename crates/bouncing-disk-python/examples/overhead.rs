@@ -7,19 +7,21 @@
 use std::time::Instant;
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{Axis, BasinSettings, Grid, ImpactMap, ImpactState, KnownOrbit, Vibration};
+use bouncing_disk::core::{
+    Axis, BasinSettings, Grid, ImpactMap, ImpactState, KnownOrbit, Unobserved, Vibration,
+};
 
 fn main() -> Result<(), Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     let start = ImpactState::from_normalised(1.2, 1.3)?;
-    let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7)? else { return Ok(()) };
-    let Ok(radius) = orbit.trapping_radius(&map, 64) else { return Ok(()) };
+    let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7, &Unobserved)? else { return Ok(()) };
+    let Ok(radius) = orbit.trapping_radius(&map, 64, &Unobserved) else { return Ok(()) };
     let known = [KnownOrbit::new(orbit, radius)?];
     let grid = Grid::new(Axis::new(0.0, 1.0, 1000)?, Axis::new(0.0, 3.0, 1000)?)?;
     let mut least = f64::INFINITY;
     for _ in 0..5 {
         let began = Instant::now();
-        let basins = map.basins(grid, &known, BasinSettings::default())?;
+        let basins = map.basins(grid, &known, BasinSettings::default(), &Unobserved)?;
         least = least.min(began.elapsed().as_secs_f64());
         assert_eq!(basins.labels().len(), 1_000_000);
     }

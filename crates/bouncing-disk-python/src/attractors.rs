@@ -116,9 +116,8 @@ impl Attractors {
         let grid = GridArguments { phases, phase_range, speeds, speed_range }.grid(py)?;
         let settings =
             BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
-        let found = long_call::run(py, progress.0, |observer| {
-            labels(&self.0.basins_observed(grid, settings, observer)?)
-        })?;
+        let found =
+            long_call::run(py, progress.0, |observer| labels(&self.0.basins(grid, settings, observer)?))?;
         let mut told = vec!["undecided".to_owned()];
         told.extend(self.0.all().iter().map(|attractor| attractor.kind.to_string()));
         let map = Bound::new(py, self.impact_map())?;
@@ -236,5 +235,5 @@ pub(crate) fn attractors(
 ) -> PyResult<Attractors> {
     let search = SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
     let map = impact_map.get().map;
-    long_call::run(py, progress.0, |observer| Ok(map.attractors_observed(&search, observer)?)).map(Attractors)
+    long_call::run(py, progress.0, |observer| Ok(map.attractors(&search, observer)?)).map(Attractors)
 }

@@ -1,8 +1,6 @@
 //! Attractors and the shares of their basins, followed over the forcing.
 
-use bouncing_disk::core::{
-    Attractor, AttractorSearch, BasinFractions as Followed, basin_fractions_over_observed,
-};
+use bouncing_disk::core::{Attractor, AttractorSearch, BasinFractions as Followed, basin_fractions_over};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -155,7 +153,7 @@ impl BasinFractions {
         let search: AttractorSearch =
             SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
         long_call::run_named(py, progress.0, &NAMES, |observer| {
-            Ok(self.0.extended_observed(&forcings, &search, reach.0, observer)?)
+            Ok(self.0.extended(&forcings, &search, reach.0, observer)?)
         })
         .map(Self)
     }
@@ -260,7 +258,7 @@ pub(crate) fn basin_fractions_over(
     let forcings = row(axial_forcing, "axial_forcing")?;
     let search = SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
     let found = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        Ok(basin_fractions_over_observed(restitution.0, &forcings, &search, reach.0, observer)?)
+        Ok(basin_fractions_over(restitution.0, &forcings, &search, reach.0, observer)?)
     });
     found.map(BasinFractions)
 }

@@ -129,7 +129,7 @@ pub(crate) fn boundary_scaling<'py>(
     }
     let basins = basins_of(py, basins, &SCALING)?;
     let found = long_call::run_named(py, progress.0, &SCALING, |observer| {
-        Ok(basins.boundary_scaling_observed(&all, observer)?)
+        Ok(basins.boundary_scaling(&all, observer)?)
     })?;
     made(py, &found)
 }

@@ -115,7 +115,7 @@ fn known(
     let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
     let radius = match radius {
         Some(radius) => radius,
-        None => orbit.trapping_radius_observed(map, SAMPLES, &quiet)?,
+        None => orbit.trapping_radius(map, SAMPLES, &quiet)?,
     };
     Ok(KnownOrbit::new(orbit, radius)?)
 }
@@ -195,7 +195,7 @@ pub(crate) fn basins<'py>(
     let labels = long_call::run_named(py, progress.0, &names, |observer| {
         let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
         let known = known.collect::<Result<Vec<_>, _>>()?;
-        labels(&map.basins_observed(grid, &known, settings, observer)?)
+        labels(&map.basins(grid, &known, settings, observer)?)
     })?;
     result(py, impact_map, &grid, labels, meaning)
 }

@@ -3,7 +3,7 @@
 use bouncing_disk::Error;
 use bouncing_disk::core::{
     BifurcationKind, Branch as Core, BranchEnd, Continuation, ContinuationParameter, Error as CoreError,
-    ImpactState, doubling_cascade_observed, feigenbaum_estimates,
+    ImpactState, doubling_cascade, feigenbaum_estimates,
 };
 use numpy::{Complex64, PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -238,7 +238,7 @@ impl Branch {
         let settings = Settings { parameter, range, rising: true, first_step, largest_step, max_points };
         let settings = settings.checked(py)?;
         long_call::run_named(py, progress.0, &NAMES, |observer| {
-            Ok(self.0.switched_observed(index, &settings, observer)?)
+            Ok(self.0.switched(index, &settings, observer)?)
         })
         .map(Self)
     }
@@ -332,10 +332,8 @@ pub(crate) fn continued(
     let (parameter, range) = (self::parameter(parameter)?, parameter_range);
     let settings = Settings { parameter, range, rising, first_step, largest_step, max_points }.checked(py)?;
     let (map, orbit) = (impact_map.get().map, &orbit.get().0);
-    long_call::run_named(py, progress.0, &NAMES, |observer| {
-        Ok(map.continued_observed(orbit, &settings, observer)?)
-    })
-    .map(Branch)
+    long_call::run_named(py, progress.0, &NAMES, |observer| Ok(map.continued(orbit, &settings, observer)?))
+        .map(Branch)
 }
 
 /// The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers
@@ -370,8 +368,7 @@ pub(crate) fn doubling_cascade<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let count = count.usize(py, "count")?;
     let cascade = long_call::run(py, progress.0, |observer| {
-        doubling_cascade_observed(restitution.0, count, observer)
-            .map_err(|error: CoreError| Error::from(error))
+        doubling_cascade(restitution.0, count, observer).map_err(|error: CoreError| Error::from(error))
     })?;
     let estimates = feigenbaum_estimates(&cascade);
     let row = |of: fn(&bouncing_disk::core::CascadeDoubling) -> f64| {

@@ -168,7 +168,7 @@ impl Crisis {
         let beyond = row(beyond, "beyond")?;
         let (orbits, impacts) = (orbits.usize(py, "orbits")?, impacts.usize(py, "impacts")?);
         let found = long_call::run_named(py, progress.0, &LIVES, |observer| {
-            Ok(self.0.lives_observed(&beyond, orbits, impacts, observer)?)
+            Ok(self.0.lives(&beyond, orbits, impacts, observer)?)
         })?;
         let row = |of: fn(&bouncing_disk::core::MeanLife) -> f64| {
             results::array(py, found.lives.iter().map(of).collect())

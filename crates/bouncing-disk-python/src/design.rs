@@ -1,8 +1,6 @@
 //! The best hand motion.
 
-use bouncing_disk::{
-    DiskParameters, OverFriction, TossConstraints, TossDesign, TossObjective, best_toss_observed,
-};
+use bouncing_disk::{DiskParameters, OverFriction, TossConstraints, TossDesign, TossObjective, best_toss};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -129,7 +127,7 @@ pub(crate) fn best_toss<'py>(
         over_friction,
     };
     let design: TossDesign =
-        long_call::run_named(py, progress.0, &NAMES, |observer| best_toss_observed(&constraints, observer))?;
+        long_call::run_named(py, progress.0, &NAMES, |observer| best_toss(&constraints, observer))?;
     let fields = (
         design.hand.stroke,
         design.hand.amplitude_angle,

@@ -2,7 +2,7 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
-use bouncing_disk::core::{lyapunov_exponents_observed, orbit_diagram_observed, survival_times_observed};
+use bouncing_disk::core::{lyapunov_exponents, orbit_diagram, survival_times};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -85,7 +85,7 @@ pub(crate) fn orbit_diagram<'py>(
     let (transient, recorded) = (transient.usize(py, "transient")?, recorded.usize(py, "recorded")?);
     let policy = policy(chatter);
     let columns = long_call::run(py, progress.0, |observer| {
-        let columns = orbit_diagram_observed(&starts.orbits(policy)?, transient, recorded, observer)?;
+        let columns = orbit_diagram(&starts.orbits(policy)?, transient, recorded, observer)?;
         let impacts = columns.iter().map(Vec::len).sum();
         let mut flat = Columns {
             offsets: room_for(columns.len() + 1)?,
@@ -155,7 +155,7 @@ pub(crate) fn survival_times<'py>(
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
     let (most, policy) = (most.usize(py, "most")?, policy(chatter));
     let times = long_call::run(py, progress.0, |observer| {
-        let times = survival_times_observed(&starts.orbits(policy)?, most, observer)?;
+        let times = survival_times(&starts.orbits(policy)?, most, observer)?;
         Ok(times.into_iter().map(|time| time as i64).collect())
     })?;
     Ok(results::array(py, times))
@@ -206,7 +206,7 @@ pub(crate) fn lyapunov_exponents<'py>(
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
     let (transient, impacts) = (transient.usize(py, "transient")?, impacts.usize(py, "impacts")?);
     let exponents = long_call::run(py, progress.0, |observer| {
-        let exponents = lyapunov_exponents_observed(&starts.states()?, transient, impacts, observer)?;
+        let exponents = lyapunov_exponents(&starts.states()?, transient, impacts, observer)?;
         Ok(exponents.into_iter().map(|exponent| exponent.unwrap_or(f64::NAN)).collect())
     })?;
     Ok(results::array(py, exponents))

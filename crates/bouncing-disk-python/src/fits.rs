@@ -61,7 +61,7 @@ pub(crate) fn fit_exponential<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (times, speeds) = (row(times, "times")?, row(speeds, "speeds")?);
     let fit = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        ExponentialFit::new_observed(&times, &speeds, observer)
+        ExponentialFit::new(&times, &speeds, observer)
     })?;
     let fields = (fit.steady_speed, fit.time_constant, fit.residual, fit.stall_acceleration());
     results::make(py, "ExponentialFit", fields)
@@ -153,7 +153,7 @@ pub(crate) fn fit_transients<'py>(
     let fit = long_call::run_named(py, progress.0, &NAMES, |observer| -> Result<TransientFit, Error> {
         let runs: Vec<(&[f64], &[f64])> =
             runs.iter().map(|speeds| (times.as_slice(), speeds.as_slice())).collect();
-        TransientFit::of_measured_observed(&runs, &settings, observer)
+        TransientFit::of_measured(&runs, &settings, observer)
     })?;
     let form = match fit.form {
         RiseForm::Exponential => "exponential",

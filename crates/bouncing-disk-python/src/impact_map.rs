@@ -204,7 +204,7 @@ impl ImpactMap {
         let impacts = impacts.u64(py, "impacts")?;
         long_call::run_named(py, progress.0, &[PHASE], |observer| {
             let from = state(impact_phase.0, axial_impact_velocity.0)?;
-            Ok(pair(self.map.iterate_observed(from, impacts, observer)?))
+            Ok(pair(self.map.iterate(from, impacts, observer)?))
         })
     }
 
@@ -334,7 +334,7 @@ impl ImpactMap {
         let names = [name("longest period", &["longest_period"])];
         let orbit = long_call::run_named(py, progress.0, &names, |observer| {
             let start = first_impact(impact_phase.0, normalised_speed.0)?;
-            Ok(self.map.settled_orbit_observed(start, transient, longest, tolerance.0, observer)?)
+            Ok(self.map.settled_orbit(start, transient, longest, tolerance.0, observer)?)
         })?;
         Ok(orbit.map(PeriodicOrbit))
     }

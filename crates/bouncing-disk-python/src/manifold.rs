@@ -174,7 +174,7 @@ pub(crate) fn manifold<'py>(
     let settings = settings.map_err(|error| errors::of_named(py, error, &NAMES))?;
     let (map, orbit) = (impact_map.get().map, &orbit.get().0);
     let (found, pieces) = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        let found = map.manifold_observed(orbit, which, &settings, observer)?;
+        let found = map.manifold(orbit, which, &settings, observer)?;
         let pieces = Pieces::of(&found)?;
         Ok((found, pieces))
     })?;

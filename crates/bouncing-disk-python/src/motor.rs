@@ -316,7 +316,7 @@ impl Motor {
     /// MotorReport
     #[pyo3(signature = (*, progress=ProgressCallable(None)), text_signature = "($self, /, *, progress=None)")]
     fn report<'py>(&self, py: Python<'py>, progress: ProgressCallable) -> PyResult<Bound<'py, PyAny>> {
-        let report = long_call::run(py, progress.0, |observer| self.0.report_observed(observer))?;
+        let report = long_call::run(py, progress.0, |observer| self.0.report(observer))?;
         let (name, impacts, platform_periods, rests, exponent) = regime(&report.regime);
         let fields = (
             report.axial_forcing,

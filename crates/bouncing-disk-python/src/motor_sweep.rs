@@ -84,7 +84,7 @@ pub(crate) fn motor_map<'py>(
     names.extend(OF_MOTOR.map(|quantity| quantity.of_values_in(&["axes"])));
     let sweep = MotorSweep::new(motor.get().0, given, settings)
         .map_err(|error| errors::of_named(py, error, &names))?;
-    let found = long_call::run_named(py, progress.0, &names, |observer| sweep.run_observed(observer))?;
+    let found = long_call::run_named(py, progress.0, &names, |observer| sweep.run(observer))?;
     let all: Vec<_> = found.cells().iter().map(numbers).collect();
     let shaped = |column: Bound<'py, PyAny>| column.call_method1("reshape", (&shape,));
     let mut fields = Vec::new();

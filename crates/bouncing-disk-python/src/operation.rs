@@ -161,7 +161,7 @@ pub(crate) fn operating_point<'py>(
     let unit = motor.preload_force() * motor.system().disk().contact_radius();
     let names = LOAD.map(|quantity| name(quantity, &["load_torque"]).given(load).unit(unit, "N m"));
     let operation = long_call::run_named(py, progress.0, &names, |observer| {
-        motor.operating_point_observed(load, &settings, observer)
+        motor.operating_point(load, &settings, observer)
     })?;
     let Numbers { values, impacts, status, shortfall } = numbers(&operation);
     let values = PyTuple::new(py, values)?;
@@ -210,7 +210,7 @@ pub(crate) fn torque_speed_curve<'py>(
     let count = name("number of loads", &["load_torques"]).legal("[1, 1000000] torques");
     let names = [load, acceleration, count, name("load_torque", &["load_torques"])];
     let operations = long_call::run_named(py, progress.0, &names, |observer| {
-        motor.torque_speed_curve_observed(&loads, &settings, observer)
+        motor.torque_speed_curve(&loads, &settings, observer)
     })?;
     let all: Vec<_> = operations.iter().map(numbers).collect();
     let columns: Vec<_> = (0..COLUMNS)
@@ -256,7 +256,7 @@ pub(crate) fn stall_load<'py>(
     let settings =
         Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor: Model = motor.get().0;
-    let stall = long_call::run(py, progress.0, |observer| motor.stall_load_observed(&settings, observer))?;
+    let stall = long_call::run(py, progress.0, |observer| motor.stall_load(&settings, observer))?;
     let fields = (
         stall.torque.value,
         stall.torque.standard_error,
@@ -329,8 +329,8 @@ pub(crate) fn input_spreads<'py>(
         derived("load_acceleration", &["load_torques"]),
     ];
     let spreads = long_call::run_named(py, progress.0, &names, |observer| match &loads {
-        Some(loads) => motor.speed_spreads_observed(loads, &settings, &tolerance, observer),
-        None => Ok(vec![motor.stall_spread_observed(&settings, &tolerance, observer)?]),
+        Some(loads) => motor.speed_spreads(loads, &settings, &tolerance, observer),
+        None => Ok(vec![motor.stall_spread(&settings, &tolerance, observer)?]),
     })?;
     let class = |spread: InputSpread| {
         let InputSpread {
@@ -385,7 +385,7 @@ pub(crate) fn best_phase_lag<'py>(
     let settings =
         Settings { relative_error, members, most_impacts, relaunch_perturbation, seed }.checked(py)?;
     let motor: Model = motor.get().0;
-    let best = long_call::run(py, progress.0, |observer| motor.best_phase_lag_observed(&settings, observer))?;
+    let best = long_call::run(py, progress.0, |observer| motor.best_phase_lag(&settings, observer))?;
     let fields = (
         best.phase_lag.value,
         best.phase_lag.standard_error,

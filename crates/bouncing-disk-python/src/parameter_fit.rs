@@ -163,7 +163,7 @@ pub(crate) fn fit_parameters<'py>(
     };
     let nominal = motor.get().0;
     let fit = long_call::run_named(py, progress.0, &NAMES, |observer| {
-        ParameterFit::new_observed(&nominal, &all, &ranges, &settings, observer)
+        ParameterFit::new(&nominal, &all, &ranges, &settings, observer)
     })?;
     let (nominal, estimates) = (PyDict::new(py), PyDict::new(py));
     for fitted in &fit.parameters {

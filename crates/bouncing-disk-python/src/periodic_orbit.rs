@@ -138,9 +138,7 @@ impl PeriodicOrbit {
     ) -> PyResult<f64> {
         let samples = samples.at_most(py, "samples", 1 << 20, "[1, 1048576]")? as u32;
         let map = impact_map.get().map;
-        long_call::run(py, progress.0, |observer| {
-            Ok(self.0.trapping_radius_observed(&map, samples, observer)?)
-        })
+        long_call::run(py, progress.0, |observer| Ok(self.0.trapping_radius(&map, samples, observer)?))
     }
 
     /// The orbit as JSON, as the Rust library stores it.
@@ -242,7 +240,6 @@ pub(crate) fn periodic_orbits(
     ];
     let search = search.map_err(|error| errors::of_named(py, error, &names))?;
     let map = impact_map.get().map;
-    let found =
-        long_call::run(py, progress.0, |observer| Ok(map.periodic_orbits_observed(&search, observer)?))?;
+    let found = long_call::run(py, progress.0, |observer| Ok(map.periodic_orbits(&search, observer)?))?;
     Ok(found.orbits.into_iter().map(PeriodicOrbit).collect())
 }

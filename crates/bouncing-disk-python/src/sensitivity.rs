@@ -156,7 +156,7 @@ pub(crate) fn local_sensitivities<'py>(
     let (model, asked) = (motor.get().0, self::quantity(quantity)?);
     let names = [&sheet_names(&["motor"])[..], &motor_names(&["motor"])].concat();
     let found = long_call::run_named(py, progress.0, &names, |observer| {
-        model.local_sensitivities_observed(asked, &chosen, &settings, observer)
+        model.local_sensitivities(asked, &chosen, &settings, observer)
     })?;
     let names = PyTuple::new(py, found.iter().map(|one| one.parameter.name()))?;
     let (derivative, error) = columns(py, &found, |one| one.derivative);
@@ -259,7 +259,7 @@ pub(crate) fn sobol_indices<'py>(
     let model = motor.get().0;
     let found: Vec<SobolIndices> = long_call::run_named(py, progress.0, &sample.names, |observer| {
         let Sample { quantity, ranges, sampling, operating, .. } = &sample;
-        model.sobol_indices_observed(*quantity, ranges, *sampling, operating, observer)
+        model.sobol_indices(*quantity, ranges, *sampling, operating, observer)
     })?;
     let (first, first_error) = columns(py, &found, |one| one.first);
     let (total, total_error) = columns(py, &found, |one| one.total);
@@ -312,7 +312,7 @@ pub(crate) fn elementary_effects<'py>(
     let model = motor.get().0;
     let found: Vec<ElementaryEffects> = long_call::run_named(py, progress.0, &sample.names, |observer| {
         let Sample { quantity, ranges, sampling, operating, .. } = &sample;
-        model.elementary_effects_observed(*quantity, ranges, *sampling, operating, observer)
+        model.elementary_effects(*quantity, ranges, *sampling, operating, observer)
     })?;
     let (mean, mean_error) = columns(py, &found, |one| one.mean);
     let (size, size_error) = columns(py, &found, |one| one.mean_size);

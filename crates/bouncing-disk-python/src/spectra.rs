@@ -1,6 +1,6 @@
 //! Both Lyapunov exponents of many orbits, with their errors.
 
-use bouncing_disk::core::{LyapunovOutcome, lyapunov_spectra_observed};
+use bouncing_disk::core::{LyapunovOutcome, lyapunov_spectra};
 use pyo3::prelude::*;
 
 use crate::arguments::{Count, ProgressCallable, Starts};
@@ -84,7 +84,7 @@ pub(crate) fn lyapunov_spectra<'py>(
     let starts = Starts::new(axial_forcing, restitution, impact_phase, normalised_speed)?;
     let (transient, impacts) = (transient.u64(py, "transient")?, impacts.u64(py, "impacts")?);
     let all = long_call::run(py, progress.0, |observer| {
-        let outcomes = lyapunov_spectra_observed(&starts.states()?, transient, impacts, observer)?;
+        let outcomes = lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
         let mut all = room_for(outcomes.len())?;
         all.extend(outcomes.iter().map(numbers));
         Ok(all)

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{LyapunovEstimate, Multipliers};
 use bouncing_disk::{
-    InitialSpin, MultiTossSettings, OrbitClass, SiEnergy, TossOrbit, TossPerformance, multi_toss_observed,
+    InitialSpin, MultiTossSettings, OrbitClass, SiEnergy, TossOrbit, TossPerformance, multi_toss,
 };
 use numpy::Complex64;
 use pyo3::exceptions::PyValueError;
@@ -176,7 +176,7 @@ pub(crate) fn multi_toss<'py>(
     };
     let start = Start::new(phase, angular_speed, gap, relative_velocity);
     let orbit: TossOrbit = long_call::run_named(py, progress.0, &start.names(&model), |observer| {
-        multi_toss_observed(model, start.condition(&model)?, settings, observer)
+        multi_toss(model, start.condition(&model)?, settings, observer)
     })?;
     let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);
     let scales = model.scales();

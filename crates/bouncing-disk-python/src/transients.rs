@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::{
-    Error, ExponentialFit, SpeedCurve, Spread, System as Model, TransientMember, TransientSettings,
-    ensemble_observed, transient_observed, transients_observed,
+    Error, ExponentialFit, SpeedCurve, Spread, System as Model, TransientMember, TransientSettings, ensemble,
+    transient, transients,
 };
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -130,7 +130,7 @@ pub(crate) fn transient<'py>(
     };
     let system = system.get().0;
     let curve = long_call::run_named(py, progress.0, &names(duration.0, period(&system)), |observer| {
-        transient_observed(&system, Phase::new(phase.0)?, &settings, observer)
+        transient(&system, Phase::new(phase.0)?, &settings, observer)
     })?;
     let (times, speeds) = (results::array(py, curve.times), results::array(py, curve.speeds));
     results::make(py, "SpeedCurve", (times, speeds, curve.impacts, curve.separations))
@@ -227,7 +227,7 @@ pub(crate) fn transients<'py>(
             let settings = TransientSettings { duration, intervals, relaunch_perturbation, seed, policy };
             all.push(TransientMember { system, phase: Phase::new(phases.get(member))?, settings });
         }
-        let curves = transients_observed(&all, observer)?.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let curves = transients(&all, observer)?.into_iter().collect::<Result<Vec<_>, _>>()?;
         Matrices::of(&curves, intervals)
     })?;
     let shape = matrices.shape;
@@ -289,7 +289,7 @@ pub(crate) fn ensemble<'py>(
     let system = system.get().0;
     let (runs, matrices) =
         long_call::run_named(py, progress.0, &names(duration.0, period(&system)), |observer| {
-            let runs = ensemble_observed(&system, &settings, members, observer)?;
+            let runs = ensemble(&system, &settings, members, observer)?;
             let matrices = Matrices::of(&runs.curves, intervals)?;
             Ok((runs, matrices))
         })?;

@@ -1,6 +1,6 @@
 //! Low-period traps of motors.
 
-use bouncing_disk::{TrapVerdict, low_period_traps_observed};
+use bouncing_disk::{TrapVerdict, low_period_traps};
 use pyo3::prelude::*;
 
 use crate::arguments::{ProgressCallable, row};
@@ -62,7 +62,7 @@ pub(crate) fn low_period_traps<'py>(
         .chain(OF_MOTOR.map(|own| derived(own.library(), &["preload_accelerations", "motor"])))
         .collect();
     let found = long_call::run_named(py, progress.0, &names, |observer| {
-        low_period_traps_observed(&motor, &preloads, observer)
+        low_period_traps(&motor, &preloads, observer)
     })?;
     let row = |of: &dyn Fn(&TrapVerdict) -> f64| results::array(py, found.iter().map(of).collect());
     let counts = |of: &dyn Fn(&TrapVerdict) -> i64| results::array(py, found.iter().map(of).collect());
@@ -116,7 +116,7 @@ pub(crate) fn nearest_trap<'py>(
     let motor = motor.get().0;
     let names = [derived("peak_acceleration", &["motor", "relative_range"])];
     let found = long_call::run_named(py, progress.0, &names, |observer| {
-        motor.nearest_trap_observed(relative_range.0, observer)
+        motor.nearest_trap(relative_range.0, observer)
     })?;
     let Some(trap) = found else { return Ok(None) };
     let [impacts, periods, flights] = round(&trap.verdict);

@@ -5,7 +5,7 @@
 
 use bouncing_disk::core::{
     BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, ImpactMap,
-    PeriodicOrbit,
+    PeriodicOrbit, Unobserved,
 };
 use serde::Serialize;
 
@@ -115,7 +115,9 @@ impl Found {
         // Back through the fold, on whose other side are the saddles, and on to the doublings.
         for rising in [false, true] {
             let range = (low, STRIDE * forcing);
-            let Some(branch) = if_any(map.continued(orbit, &settings(range, rising)?))? else { continue };
+            let Some(branch) = if_any(map.continued(orbit, &settings(range, rising)?, &Unobserved))? else {
+                continue;
+            };
             let pieces = self.followed(branch, low, enough)?;
             if rising {
                 self.doublings(&pieces, low, enough)?;
@@ -137,7 +139,7 @@ impl Found {
             if range.0 >= range.1 {
                 break;
             }
-            let next = last.map_at(forcing)?.continued(&tip.orbit, &settings(range, true)?);
+            let next = last.map_at(forcing)?.continued(&tip.orbit, &settings(range, true)?, &Unobserved);
             let Some(next) = if_any(next)? else { break };
             pieces.push(next);
         }
@@ -156,12 +158,15 @@ impl Found {
             });
             let Some((piece, at, forcing)) = doubling else { break };
             let range = (low, (STRIDE * forcing).min(enough).max(forcing.next_up()));
-            let Some(branch) = if_any(piece.switched(at, &settings(range, true)?))? else { break };
+            let Some(branch) = if_any(piece.switched(at, &settings(range, true)?, &Unobserved))? else {
+                break;
+            };
             // Its first point lies beyond the doubling: what is between them belongs to it, too.
             if let [first, second, ..] = branch.points.as_slice() {
                 let back = second.parameter < first.parameter;
                 let map = branch.map_at(first.parameter)?;
-                if let Some(stem) = if_any(map.continued(&first.orbit, &settings(range, back)?))? {
+                if let Some(stem) = if_any(map.continued(&first.orbit, &settings(range, back)?, &Unobserved))?
+                {
                     self.add(&stem)?;
                 }
             }

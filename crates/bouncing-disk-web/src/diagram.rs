@@ -1,6 +1,8 @@
 //! Columns of orbit diagrams.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, is_settling, orbit_diagram, repeats_every};
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactState, Orbit, Unobserved, is_settling, orbit_diagram, repeats_every,
+};
 use bouncing_disk::{
     CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
 };
@@ -83,7 +85,7 @@ fn vertical(
         .map(|forcing| Ok::<_, Refusal>(map(*forcing, restitution)?.orbit(start, ChatterPolicy::Complete)));
     let orbits = orbits.collect::<Result<Vec<_>, _>>()?;
     let followed = |orbits: &[Orbit], left_out: usize| {
-        let columns = orbit_diagram(orbits, left_out, request.recorded)?;
+        let columns = orbit_diagram(orbits, left_out, request.recorded, &Unobserved)?;
         let columns = columns.into_iter().map(|states| {
             let speeds: Vec<f64> = states.iter().map(ImpactState::normalised_speed).collect();
             let impacts = states.into_iter().map(|state| (state, f64::NAN)).collect();

@@ -1,7 +1,7 @@
 //! The motion of the engine: samples for an animation, and the events.
 
-use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::Phase;
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{
     CollisionState, DiskState, EnergyLedger, Engine, Event, EventKind, EventRecord, InitialCondition,
     MAX_SAMPLES, Mode, PhaseSpan, PlatformState, Scales, SlipDirection, System,
@@ -52,7 +52,7 @@ pub(crate) fn answer(
     let (scales, begun) = (system.scales(), engine.time());
     let span = PhaseSpan { periods, remainder: 0.0 };
     let end = begun.after(span);
-    let snapshots = engine.clone().sample(span, samples as usize)?;
+    let snapshots = engine.clone().sample(span, samples as usize, &Unobserved)?;
     let mut records = Vec::new();
     let mut ledger = EnergyLedger::default();
     // The event after the end, and what follows the last one where nothing more happens, are not finished then.

@@ -1,5 +1,6 @@
 //! Motors by their data sheets.
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
     Error, Estimate, FitRefusal, FitSettings, IntervalEstimate, Motor, MotorParameters, OperatingPoint,
     OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
@@ -43,8 +44,8 @@ struct TrapJson {
 
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
-    let report = motor.report()?;
-    let trap = motor.nearest_trap(TRAP_RANGE)?.map(|trap| TrapJson {
+    let report = motor.report(&Unobserved)?;
+    let trap = motor.nearest_trap(TRAP_RANGE, &Unobserved)?.map(|trap| TrapJson {
         preload_acceleration: trap.preload_acceleration,
         caught: trap.relative_distance == 0.0,
         relative_distance: trap.relative_distance,
@@ -89,7 +90,7 @@ pub(crate) fn transient(
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals: points, seed, ..TransientSettings::default() };
     let runs = ensemble_members(&system, &settings, members)?;
-    let curves = transients(&runs).into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
+    let curves = transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::with_capacity(3 * times.len());
     for (place, time) in times.iter().enumerate() {
@@ -135,7 +136,7 @@ struct OperationsJson {
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let settings = settings(*relative_error, *most_impacts, *seed)?;
-    let operations = sheet.build()?.torque_speed_curve(load_torques, &settings)?;
+    let operations = sheet.build()?.torque_speed_curve(load_torques, &settings, &Unobserved)?;
     let mut numbers = Vec::with_capacity(10 * operations.len());
     let mut shortfalls = Vec::with_capacity(operations.len());
     for operation in &operations {
@@ -218,7 +219,7 @@ struct StallJson {
 
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let json = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?) {
+    let json = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
         Ok(stall) => StallJson {
             torque: Some(stall.torque.value),
             torque_error: Some(stall.torque.standard_error),

@@ -1,6 +1,8 @@
 //! The attractors of a map, and rows of their basins.
 
-use bouncing_disk::core::{Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid};
+use bouncing_disk::core::{
+    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Unobserved,
+};
 use serde::Serialize;
 
 use crate::refusal::Refusal;
@@ -38,7 +40,7 @@ impl SharedAttractors {
         let map = map(axial_forcing, restitution)?;
         let found = match self.0.take() {
             Some(found) if *found.map() == map => found,
-            _ => map.attractors(&AttractorSearch::default())?,
+            _ => map.attractors(&AttractorSearch::default(), &Unobserved)?,
         };
         Ok(self.0.insert(found))
     }
@@ -63,7 +65,7 @@ impl SharedAttractors {
             return Err(Refusal::out_of_range("rows", to as f64, "from the first to the number of speeds"));
         }
         let found = self.of(request.axial_forcing, request.restitution)?;
-        let basins = found.basins_of_rows(grid, from..to, BasinSettings::default())?;
+        let basins = found.basins_of_rows(grid, from..to, BasinSettings::default(), &Unobserved)?;
         Reply::new(&(), Vec::new(), basins.labels().to_vec())
     }
 }

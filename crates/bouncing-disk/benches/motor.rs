@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
-use bouncing_disk::core::Phase;
+use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::{
     Motor, OperatingSettings, System, TransientMember, TransientSettings, shared_transients, transient,
     transients,
@@ -29,7 +29,10 @@ fn w2(c: &mut Criterion) {
     group.bench_function("one_motor", |bencher| {
         bencher.iter(|| {
             seed += 1;
-            black_box(transient(&system, phase, &TransientSettings { seed, ..settings }).expect("no failure"))
+            black_box(
+                transient(&system, phase, &TransientSettings { seed, ..settings }, &Unobserved)
+                    .expect("no failure"),
+            )
         });
     });
     group.sample_size(10).throughput(Throughput::Elements(u64::from(MEMBER_DURATION * MEMBERS)));
@@ -49,7 +52,7 @@ fn w2(c: &mut Criterion) {
                         }
                     })
                     .collect();
-                black_box(pool.install(|| transients(&members)))
+                black_box(pool.install(|| transients(&members, &Unobserved)))
             });
         });
     }
@@ -96,7 +99,10 @@ fn torque_speed_curve(c: &mut Criterion) {
             bencher.iter(|| {
                 seed += 1;
                 let settings = OperatingSettings { seed, ..OperatingSettings::default() };
-                black_box(pool.install(|| motor.torque_speed_curve(&loads, &settings)).expect("no failure"))
+                black_box(
+                    pool.install(|| motor.torque_speed_curve(&loads, &settings, &Unobserved))
+                        .expect("no failure"),
+                )
             });
         });
     }

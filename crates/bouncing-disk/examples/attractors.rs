@@ -5,13 +5,15 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Vibration};
+use bouncing_disk::core::{
+    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Unobserved, Vibration,
+};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Fig. 7(b) of the paper, which has two attractors there.
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.486)?, 0.5)?;
     println!("no attractor has a faster impact than {:.3}", map.impact_speed_bound());
-    let found = map.attractors(&AttractorSearch::default())?;
+    let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     for attractor in found.all() {
         let (share, (low, high)) = (attractor.starts.value(), attractor.starts.interval());
         let what = match &attractor.kind {
@@ -27,9 +29,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // The window of Fig. 7.
     let grid = Grid::new(Axis::new(0.0, 1.0, 150)?, Axis::new(0.0, 5.0, 150)?)?;
-    let basins = found.basins(grid, BasinSettings::default())?;
+    let basins = found.basins(grid, BasinSettings::default(), &Unobserved)?;
     let entropy = basins.entropy(5)?;
     println!("basin entropy {:.3}, on the boundary {:.3?}", entropy.entropy, entropy.boundary_entropy);
-    println!("uncertain shares: {:?}", basins.boundary_scaling(&[1, 2, 4, 8])?.fit);
+    println!("uncertain shares: {:?}", basins.boundary_scaling(&[1, 2, 4, 8], &Unobserved)?.fit);
     Ok(())
 }

@@ -5,7 +5,7 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, KnownOrbit, Vibration,
+    ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, KnownOrbit, Unobserved, Vibration,
 };
 
 fn main() -> Result<(), Error> {
@@ -14,12 +14,12 @@ fn main() -> Result<(), Error> {
     // The orbit whose basin we want, and how near to it a start counts as caught.
     let start = map.period_one(1).expect("it exists from Gamma = 1/3 on");
     let orbit = map.refine(&[start])?;
-    let radius = orbit.trapping_radius(&map, 64).expect("the orbit attracts");
+    let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("the orbit attracts");
     let known = [KnownOrbit::new(orbit, radius)?];
 
     // Impact phases of one period, and the speeds that Fig. 7 shows.
     let grid = Grid::new(Axis::new(0.0, 1.0, 64)?, Axis::new(0.0, 5.0, 20)?)?;
-    let basins = map.basins(grid, &known, BasinSettings::default())?;
+    let basins = map.basins(grid, &known, BasinSettings::default(), &Unobserved)?;
     for row in (0..grid.speed().cells()).rev() {
         let text: String =
             basins.row(row).iter().map(|&label| if label == FIRST_ORBIT { '#' } else { '.' }).collect();

@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{Branch, Continuation, ContinuationParameter, ImpactMap, Vibration};
+use bouncing_disk::core::{Branch, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration};
 
 fn print(name: &str, branch: &Branch) {
     println!("{name}: {} points, then {:?}", branch.points.len(), branch.end);
@@ -21,12 +21,12 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     // Towards lower forcing: back to the fold, where the node and the saddle are born, and along the saddle.
     let falling = Continuation::new(ContinuationParameter::Forcing, (0.2, 0.7), false)?;
-    print("period 1, falling", &map.continued(&orbit, &falling)?);
+    print("period 1, falling", &map.continued(&orbit, &falling, &Unobserved)?);
     // Towards higher forcing: along the unstable orbit that no simulation shows.
     let rising = Continuation::new(ContinuationParameter::Forcing, (0.2, 0.7), true)?;
-    let branch = map.continued(&orbit, &rising)?;
+    let branch = map.continued(&orbit, &rising, &Unobserved)?;
     print("period 1, rising", &branch);
     // The branch that begins in its first bifurcation.
-    print("period 2", &branch.switched(0, &rising)?);
+    print("period 2", &branch.switched(0, &rising, &Unobserved)?);
     Ok(())
 }

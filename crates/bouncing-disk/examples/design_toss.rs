@@ -3,6 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example design_toss
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
 use bouncing_disk::{Error, Motor, TossConstraints, TossHalfUnits, TossObjective, best_toss};
@@ -28,7 +29,7 @@ fn main() -> Result<(), Error> {
         (TossObjective::Efficiency, "of the energy"),
         (TossObjective::TurnsPerToss, "turns"),
     ] {
-        let design = best_toss(&TossConstraints { objective, ..constraints })?;
+        let design = best_toss(&TossConstraints { objective, ..constraints }, &Unobserved)?;
         let digits = design.robustness(&half_units)?.digits;
         println!(
             "{objective:?}: phi_L = {:.3} pi, omega = {:.2} rad/s, theta = {:.3} pi, {:.2} m high",
@@ -44,7 +45,7 @@ fn main() -> Result<(), Error> {
     }
 
     let motor = Motor::paper_70_khz();
-    if let Some(trap) = motor.nearest_trap(0.1)? {
+    if let Some(trap) = motor.nearest_trap(0.1, &Unobserved)? {
         println!(
             "The motor of Table III: the nearest trap begins {:.2} % away, at {:.4} m/s^2: {}",
             1e2 * trap.relative_distance,

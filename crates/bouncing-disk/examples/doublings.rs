@@ -5,10 +5,10 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{doubling_cascade, feigenbaum_estimates};
+use bouncing_disk::core::{Unobserved, doubling_cascade, feigenbaum_estimates};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let cascade = doubling_cascade(0.5, 10)?;
+    let cascade = doubling_cascade(0.5, 10, &Unobserved)?;
     for doubling in &cascade {
         println!(
             "{:2}: period {:3} to {:4} at Gamma = {:.13} +- {:.0e}",

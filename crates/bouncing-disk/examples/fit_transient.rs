@@ -3,13 +3,14 @@
 //!     cargo run --release -p bouncing-disk --example fit_transient
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{Error, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientSettings, ensemble};
 
 fn main() -> Result<(), Error> {
     // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
     // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
-    let synthetic = ensemble(&System::motor(), &settings, 10)?.curves;
+    let synthetic = ensemble(&System::motor(), &settings, 10, &Unobserved)?.curves;
     let runs: Vec<MeasuredRun> = synthetic
         .into_iter()
         .zip(1..)
@@ -17,7 +18,7 @@ fn main() -> Result<(), Error> {
         .collect();
 
     // What is fitted is the mean over the runs; their scatter gives the 95 % intervals.
-    let fit = MeasuredSpeeds::new(runs.clone())?.fit(&FitSettings::default())?;
+    let fit = MeasuredSpeeds::new(runs.clone())?.fit(&FitSettings::default(), &Unobserved)?;
     println!("steady speed {:.3} rad/s", fit.steady_speed());
     println!("time constant {:.3} s", fit.time_constant());
     println!("stall acceleration, as the paper estimates it, {:.3} rad/s^2", fit.stall_acceleration());
@@ -28,7 +29,7 @@ fn main() -> Result<(), Error> {
         run.speeds.truncate(18);
         run
     });
-    match MeasuredSpeeds::new(short.collect())?.fit(&FitSettings::default()) {
+    match MeasuredSpeeds::new(short.collect())?.fit(&FitSettings::default(), &Unobserved) {
         Ok(fit) => println!("time constant {:.3} s", fit.time_constant()),
         Err(error) => println!("{error}"),
     }

@@ -6,14 +6,16 @@
 use std::error::Error;
 
 use bouncing_disk::core::{
-    AttractorSearch, BasinSettings, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, Vibration,
+    AttractorSearch, BasinSettings, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, Unobserved,
+    Vibration,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     let saddle = map.period_one_pair(1).expect("born at Gamma = 1/3").saddle;
     let saddle = saddle.orbit(&map)?.expect("an orbit of the map");
-    let stable = map.manifold(&saddle, ManifoldKind::Stable, &ManifoldSettings::new(30.0, 20_000)?)?;
+    let stable =
+        map.manifold(&saddle, ManifoldKind::Stable, &ManifoldSettings::new(30.0, 20_000)?, &Unobserved)?;
     for branch in &stable.branches {
         println!(
             "{:?}: length {:.3} in {} pieces, then {:?}",
@@ -25,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
 
     // Does the basin change there? A little slower and a little faster than every fourth impact on it.
-    let found = map.attractors(&AttractorSearch::default())?;
+    let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     let label = |state: &ImpactState, factor: f64| {
         found.basin_label(
             ImpactState::new(state.phase(), factor * state.velocity())?,

@@ -3,7 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example motor
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
-use bouncing_disk::core::Phase;
+use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::{Error, ExponentialFit, System, TransientSettings, ensemble, transient};
 
 fn main() -> Result<(), Error> {
@@ -12,8 +12,8 @@ fn main() -> Result<(), Error> {
     let settings = TransientSettings { duration: 8.0, intervals: 160, ..TransientSettings::default() };
 
     // One run: the mean speed in each of 160 intervals, and the curve that the paper fits to it.
-    let curve = transient(&motor, Phase::new(0.0)?, &settings)?;
-    let fit = ExponentialFit::new(&curve.times, &curve.speeds)?;
+    let curve = transient(&motor, Phase::new(0.0)?, &settings, &Unobserved)?;
+    let fit = ExponentialFit::new(&curve.times, &curve.speeds, &Unobserved)?;
     for i in [4, 19, 39, 79, 159] {
         println!(
             "{:5.3} s: {:5.2} rad/s, fitted {:5.2}",
@@ -24,7 +24,7 @@ fn main() -> Result<(), Error> {
     }
 
     // One run is one throw of the dice. What a motor does is the mean over many, with its error.
-    let motors = ensemble(&motor, &settings, 32)?;
+    let motors = ensemble(&motor, &settings, 32, &Unobserved)?;
     let (speed, stall) = (motors.steady_speed, motors.stall_acceleration);
     println!("steady speed {:.2} +- {:.2} rad/s", speed.mean, speed.standard_error);
     // After this time all but 1/e of the steady speed is there.

@@ -3,6 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example motor_from_json
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use std::error::Error;
 
 use bouncing_disk::Motor;
@@ -24,7 +25,7 @@ const DATA_SHEET: &str = r#"{
 
 fn main() -> Result<(), Box<dyn Error>> {
     let motor = Motor::from_json(DATA_SHEET)?;
-    println!("{}\n", motor.report()?);
+    println!("{}\n", motor.report(&Unobserved)?);
 
     // A preload in N that was given as an acceleration: legal, and told.
     let mistaken = Motor::from_json(&DATA_SHEET.replace("preload_force", "preload_acceleration"))?;

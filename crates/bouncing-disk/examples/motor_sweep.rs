@@ -3,6 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example motor_sweep
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{Error, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
 
 fn main() -> Result<(), Error> {
@@ -22,7 +23,7 @@ fn main() -> Result<(), Error> {
     // One vertical motion for each preload carries all loads.
     println!("{} cells in {} groups", sweep.cells(), sweep.groups().len());
 
-    let result = sweep.run()?;
+    let result = sweep.run(&Unobserved)?;
     let maps = [SweepQuantity::Speed, SweepQuantity::Efficiency].map(|quantity| result.matrix(quantity));
     print!("{:>12}", "load (uN m)");
     for load in &result.axes()[1].values {

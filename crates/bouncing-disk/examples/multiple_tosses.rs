@@ -3,14 +3,14 @@
 //!     cargo run --release -p bouncing-disk --example multiple_tosses
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
-use bouncing_disk::core::Phase;
+use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::{Error, InitialCondition, MultiTossSettings, OrbitClass, System, multi_toss};
 
 fn main() -> Result<(), Error> {
     let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
     for amplitude in [0.02, 0.05, 0.1, 0.2] {
         let hand = System::pizza_toss().with_platform(|hand| hand.amplitude = amplitude)?;
-        let orbit = multi_toss(hand, start, MultiTossSettings::default())?;
+        let orbit = multi_toss(hand, start, MultiTossSettings::default(), &Unobserved)?;
         let answer = match orbit.class {
             OrbitClass::AtRest => "stays on the hand".to_owned(),
             OrbitClass::Chattering { .. } => {

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Vibration, orbit_diagram};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration, orbit_diagram};
 
 fn main() -> Result<(), Error> {
     let restitution = 0.5;
@@ -24,7 +24,7 @@ fn main() -> Result<(), Error> {
     }
 
     // All of them at once: 512 impacts of each after 20,000 that are not looked at.
-    let columns = orbit_diagram(&orbits, 20_000, 512)?;
+    let columns = orbit_diagram(&orbits, 20_000, 512, &Unobserved)?;
     for (forcing, column) in forcings.iter().zip(&columns) {
         // Which millionths of a period the phases lie in: the floor keeps the last one below the whole.
         let phases: BTreeSet<i64> =

@@ -5,13 +5,13 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{ImpactMap, OrbitSearch, Vibration};
+use bouncing_disk::core::{ImpactMap, OrbitSearch, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Past the second period doubling.
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.535)?, 0.5)?;
     // At most four impacts in at most four periods of the platform.
-    let found = map.periodic_orbits(&OrbitSearch::new(4, 4)?)?;
+    let found = map.periodic_orbits(&OrbitSearch::new(4, 4)?, &Unobserved)?;
     println!("impacts periods  first phase  |multiplier|");
     for orbit in &found.orbits {
         let radius = orbit.multipliers().spectral_radius();

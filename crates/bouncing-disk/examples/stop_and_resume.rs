@@ -9,15 +9,16 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use bouncing_disk::Progress;
 use bouncing_disk::core::{
-    AttractorSearch, Axis, BasinRun, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap, Vibration,
+    AttractorSearch, Axis, BasinRun, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap, Unobserved,
+    Vibration,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    let found = map.attractors(&AttractorSearch::default())?;
+    let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     let grid = Grid::new(Axis::new(0.0, 1.0, 120)?, Axis::new(0.0, 5.0, 120)?)?;
     let settings = BasinSettings::default();
-    let whole = found.basins(grid, settings)?;
+    let whole = found.basins(grid, settings, &Unobserved)?;
 
     // The periodic attractors are what a run of basins needs to know. This observer stops it at its fourth call.
     let known: Vec<_> = found.known().cloned().collect();
@@ -39,8 +40,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("the same basins after it was stored: {}", run.into_basins()? == whole);
 
     // Rows may be made anywhere, in any order; attractors without a period are recognised, too.
-    let upper = found.basins_of_rows(grid, 60..120, settings)?;
-    let lower = found.basins_of_rows(grid, 0..60, settings)?;
+    let upper = found.basins_of_rows(grid, 60..120, settings, &Unobserved)?;
+    let lower = found.basins_of_rows(grid, 0..60, settings, &Unobserved)?;
     println!("the same basins from two halves: {}", Basins::stacked([lower, upper])? == whole);
     Ok(())
 }

@@ -3,6 +3,7 @@
 //!     cargo run --release -p bouncing-disk --example torque_speed
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::FRAC_PI_6;
 
 use bouncing_disk::{Error, Motor, OperatingSettings, Operation};
@@ -23,7 +24,7 @@ fn main() -> Result<(), Error> {
 
     // All loads ride on one vertical motion. Each number comes with its standard error.
     let loads = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2].map(|share| share * motor.largest_torque());
-    for operation in motor.torque_speed_curve(&loads, &settings)? {
+    for operation in motor.torque_speed_curve(&loads, &settings, &Unobserved)? {
         let load = 1e3 * operation.load_torque();
         match operation {
             Operation::Steady(point) => {
@@ -46,14 +47,14 @@ fn main() -> Result<(), Error> {
     }
 
     // The load that stops it, and the lag at which it turns fastest.
-    let stall = motor.stall_load(&settings)?;
+    let stall = motor.stall_load(&settings, &Unobserved)?;
     println!(
         "stalls at {:.4} +- {:.4} mN m, {:.2} mu m g a_e",
         1e3 * stall.torque.value,
         1e3 * stall.torque.standard_error,
         stall.share
     );
-    let best = motor.best_phase_lag(&settings)?;
+    let best = motor.best_phase_lag(&settings, &Unobserved)?;
     let [low, high] = best.good_from_to;
     println!(
         "fastest at a lag of {:.2} +- {:.2} rad: {:.2} rad/s, within 1 % of it from {low:.2} to {high:.2} rad",

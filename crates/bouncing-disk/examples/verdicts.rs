@@ -5,7 +5,7 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{ImpactMap, ImpactState, VerdictSettings, Vibration, verdicts};
+use bouncing_disk::core::{ImpactMap, ImpactState, Unobserved, VerdictSettings, Vibration, verdicts};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let forcings = [0.30, 0.40, 0.50, 0.535, 0.555, 0.70, 1.50, 2.73];
@@ -16,7 +16,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             Ok((ImpactMap::new(vibration, 0.5)?, ImpactState::from_normalised(1.2, 1.3)?))
         })
         .collect::<Result<Vec<_>, bouncing_disk::core::Error>>()?;
-    for (forcing, verdict) in forcings.iter().zip(verdicts(&starts, VerdictSettings::default())?) {
+    for (forcing, verdict) in forcings.iter().zip(verdicts(&starts, VerdictSettings::default(), &Unobserved)?)
+    {
         println!("Gamma = {forcing:5}: {verdict}");
     }
     Ok(())

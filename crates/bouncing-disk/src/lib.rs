@@ -101,9 +101,7 @@ pub use motor::data_sheet::parameters::MotorParameters;
 pub use motor::data_sheet::regime::MotorRegime;
 pub use motor::data_sheet::report::MotorReport;
 pub use motor::data_sheet::warning::MotorWarning;
-pub use motor::ensemble::{
-    MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members, ensemble_observed,
-};
+pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members};
 pub use motor::fit::{ExponentialFit, RampFit};
 pub use motor::fit_refusal::FitRefusal;
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
@@ -116,7 +114,7 @@ pub use motor::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
 pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
 pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
-pub use motor::operation::of_motor::{operations, operations_observed};
+pub use motor::operation::of_motor::operations;
 pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::spread::{InputSpread, InputTolerance};
@@ -133,9 +131,9 @@ pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
 pub use motor::parameter_fit::settings::ParameterFitSettings;
 pub use motor::sensitivity::global::ParameterRange;
 pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
-pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects, elementary_effects_observed};
+pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
 pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
-pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices, sobol_indices_observed};
+pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
 pub use motor::shared_orbit::transients::shared_transients;
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
 pub use motor::statistics::{
@@ -146,11 +144,11 @@ pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
 pub use motor::sweep::quantity::SweepQuantity;
 pub use motor::sweep::result::MotorSweepResult;
 pub use motor::sweep::run::MotorSweepRun;
-pub use motor::transient::{SpeedCurve, TransientSettings, transient, transient_observed};
+pub use motor::transient::{SpeedCurve, TransientSettings, transient};
 pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
-pub use motor::transients::{TransientMember, TransientsRun, transients, transients_observed};
+pub use motor::transients::{TransientMember, TransientsRun, transients};
 pub use motor::traps::ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
-pub use motor::traps::{TrapVerdict, low_period_traps, low_period_traps_observed};
+pub use motor::traps::{TrapVerdict, low_period_traps};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
@@ -171,11 +169,9 @@ pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
 pub use toss::design::{
-    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss, best_toss_observed,
+    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss,
 };
-pub use toss::multiple::{
-    MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss, multi_toss_observed,
-};
+pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use toss::period_one::period_one_rotary_speed;
 pub use toss::rotary_response::{RotaryOutcome, RotaryResponse, RotaryRound, rotary_response, rotary_round};
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};

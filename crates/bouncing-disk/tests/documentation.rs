@@ -7,7 +7,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Vibration, orbit_diagram, survival_times};
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration, orbit_diagram, survival_times,
+};
 
 /// Pages that nobody writes by hand.
 const GENERATED: [&str; 3] = ["docs/results.md", "docs/errata.md", "docs/performance.md"];
@@ -222,7 +224,7 @@ fn what_the_tutorial_says_of_crises_and_attractors_is_so() {
     let lifetimes = |forcing: f64, restitution: f64| {
         let map = map(forcing, restitution);
         let starts: Vec<_> = (1..=20).map(|k| start(&map, 5e-4 * f64::from(k))).collect();
-        survival_times(&starts, 100_000).expect("no failure")
+        survival_times(&starts, 100_000, &Unobserved).expect("no failure")
     };
     let tutorial = read("docs/tutorial.md");
     assert!(tutorial.contains("beyond the crisis (0.56 at restitution 0.5, 0.40 at 0.8)"));
@@ -236,7 +238,8 @@ fn what_the_tutorial_says_of_crises_and_attractors_is_so() {
     let said = "At restitution 0.8 and Γ = 0.3835 a start 1 % off the period-1 orbit ends on six phases, one 0.1 % off on two.";
     assert!(page.contains(said));
     let map = map(0.3835, 0.8);
-    let columns = orbit_diagram(&[start(&map, 0.01), start(&map, 0.001)], 20_000, 512).expect("no failure");
+    let columns = orbit_diagram(&[start(&map, 0.01), start(&map, 0.001)], 20_000, 512, &Unobserved)
+        .expect("no failure");
     let phases = columns.iter().map(|column| {
         column
             .iter()

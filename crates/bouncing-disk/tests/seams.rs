@@ -15,7 +15,7 @@ mod shards;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use bouncing_disk::core::{ChatterPolicy, Error as CoreError, Phase};
+use bouncing_disk::core::{ChatterPolicy, Error as CoreError, Phase, Unobserved};
 use bouncing_disk::{
     DimensionlessParameters, DimensionlessSystem, DiskParameters, Engine, Error, Event, EventRecord,
     InitialCondition, Mode, PlatformParameters, System, TransientMember, TransientSettings, transient,
@@ -280,8 +280,8 @@ fn transients_on_seams_are_those_of_single_motors() {
                 Some(TransientMember { system, phase, settings })
             })
             .collect();
-        for (member, together) in members.iter().zip(transients(&members)) {
-            let alone = transient(&member.system, member.phase, &member.settings);
+        for (member, together) in members.iter().zip(transients(&members, &Unobserved).expect("unobserved")) {
+            let alone = transient(&member.system, member.phase, &member.settings, &Unobserved);
             assert_eq!(together, alone, "{member:?}");
             done += u32::from(alone.is_ok());
         }

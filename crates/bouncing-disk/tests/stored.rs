@@ -188,7 +188,8 @@ fn tosses() {
     for axial_forcing in [0.25, 0.33, 0.45, 0.55] {
         let system =
             ForcingParameters { axial_forcing, angular_forcing: 2.0, phase_lag: 0.2, restitution: 0.5 };
-        let orbit = multi_toss(system.build().expect("legal"), start(), settings).expect("no failure");
+        let orbit =
+            multi_toss(system.build().expect("legal"), start(), settings, &Unobserved).expect("no failure");
         check(&orbit.class, &[]);
         for collision in orbit.collisions.iter().take(5) {
             check(
@@ -241,7 +242,7 @@ fn motors() {
     let mut run = TransientsRun::new(2);
     run.advance(&members, &Unobserved).expect("nobody stops it");
     check(&run, &[("/total", json!(1), "index of a finished item")]);
-    let runs = ensemble(&motor, &settings, 2).expect("no failure");
+    let runs = ensemble(&motor, &settings, 2, &Unobserved).expect("no failure");
     check(&runs.curves[0], &[("/times", json!([]), "number of points")]);
     check(&runs.steady_speed, &[("/deviation", json!(-1.0), "deviation")]);
     check(&runs.fits[0], &[("/time_constant", json!(0.0), "time_constant")]);

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
 use bouncing_disk::{
     ExponentialFit, RampFit, SpeedCurve, Spread, TransientMember, TransientSettings, transients,
 };
@@ -63,7 +63,7 @@ impl AlikeMotor {
     }
 
     fn of(motor: &MotorCase, curve: &SpeedCurve, duration: f64) -> Result<Self, ExperimentError> {
-        let exponential = ExponentialFit::new(&curve.times, &curve.speeds)?;
+        let exponential = ExponentialFit::new(&curve.times, &curve.speeds, &Unobserved)?;
         let ramp = RampFit::new(&curve.times, &curve.speeds)?;
         let top = motor.peak_angular_speed_rad_per_s;
         let (steady, constant, residual) = if exponential.residual < ramp.residual {
@@ -135,7 +135,7 @@ pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>,
             })
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let curves = transients(&members);
+    let curves = transients(&members, &Unobserved)?;
     motors
         .par_iter()
         .zip(curves)

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    self, Attractor, AttractorKind, AttractorSearch, BasinSettings, ChatterPolicy, ImpactMap, Vibration,
-    basin_fractions_over_observed,
+    self, Attractor, AttractorKind, AttractorSearch, BasinSettings, ChatterPolicy, ImpactMap, Unobserved,
+    Vibration, basin_fractions_over,
 };
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Figure, Legend, Marker, Panel, Raster, Rect, Scatter, Ticks,
@@ -114,17 +114,16 @@ impl Experiment for ExtraAttractors {
             let middle = |k: usize| from + (to - from) * (k as f64 + 0.5) / columns as f64;
             let axial_forcings: Vec<f64> = (0..columns).map(middle).collect();
             let observer = advancing(progress);
-            let over =
-                basin_fractions_over_observed(restitution, &axial_forcings, &search, REACH, &observer)?;
+            let over = basin_fractions_over(restitution, &axial_forcings, &search, REACH, &observer)?;
             let found = over.at.iter().map(|at| at.attractors.all().iter().map(found).collect()).collect();
             sweeps.push(Sweep { restitution, axial_forcings, found });
         }
         let map = ImpactMap::new(Vibration::from_axial_forcing(BASINS.0)?, RESTITUTION)?;
-        let attractors = map.attractors(&search)?;
+        let attractors = map.attractors(&search, &Unobserved)?;
         let top = map.impact_speed_bound() / PI;
         let grid = core::Grid::new(core::Axis::new(0.0, 1.0, cells)?, core::Axis::new(0.0, top, cells)?)?;
         let settings = BasinSettings { max_impacts: BASINS.1, ..BasinSettings::default() };
-        let basins = attractors.basins_observed(grid, settings, &sharing(progress, cells as u64))?;
+        let basins = attractors.basins(grid, settings, &sharing(progress, cells as u64))?;
         let letter = |label: &u8| char::from(b'a' + (*label).min(25));
         Ok(ExtraAttractorsData {
             sweeps,

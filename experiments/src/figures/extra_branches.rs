@@ -3,7 +3,7 @@
 use bouncing_disk::PAPER_CHATTER;
 use bouncing_disk::core::{
     BifurcationKind, Branch, ChatterPolicy, Continuation, ContinuationParameter, Error, ImpactMap, Launch,
-    Orbit, Vibration, follow_attractor, orbit_diagram,
+    Orbit, Unobserved, Vibration, follow_attractor, orbit_diagram,
 };
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
@@ -148,13 +148,15 @@ fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, Error> {
     let map = map(birth(restitution, k) + ABOVE_BIRTH, restitution)?;
     let Some(pair) = map.period_one_pair(k) else { return Ok(Vec::new()) };
     let Some(node) = pair.node.orbit(&map)? else { return Ok(Vec::new()) };
-    let mut all =
-        vec![(false, map.continued(&node, &way(false)?)?), (false, map.continued(&node, &way(true)?)?)];
+    let mut all = vec![
+        (false, map.continued(&node, &way(false)?, &Unobserved)?),
+        (false, map.continued(&node, &way(true)?, &Unobserved)?),
+    ];
     for _ in 0..DOUBLINGS[usize::from(k > 1)] {
         let last = &all[all.len() - 1].1;
         let doubling = last.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
         let Some(index) = doubling else { break };
-        all.push((true, last.switched(index, &way(true)?)?));
+        all.push((true, last.switched(index, &way(true)?, &Unobserved)?));
     }
     Ok(all)
 }
@@ -175,7 +177,7 @@ fn line(doubled: bool, branch: &Branch) -> BranchLine {
 /// The impacts of orbits at their forcings; a periodic orbit repeats them, and each is kept once.
 fn dots(orbits: Vec<(f64, Orbit)>, transient: usize, examined: usize) -> Result<Vec<Dot>, Error> {
     let (forcings, orbits): (Vec<f64>, Vec<Orbit>) = orbits.into_iter().unzip();
-    let diagram = orbit_diagram(&orbits, transient, examined)?;
+    let diagram = orbit_diagram(&orbits, transient, examined, &Unobserved)?;
     let column = |(forcing, states): (f64, Vec<bouncing_disk::core::ImpactState>)| {
         let mut phases: Vec<f64> =
             states.iter().map(|state| (state.phase().cycles() * 1e6).round() / 1e6).collect();

@@ -1,7 +1,7 @@
 //! Beyond the paper: the doubling cascade to many digits, and Feigenbaum's constants from it.
 
 use bouncing_disk::core::extended::{self, DoubleDouble};
-use bouncing_disk::core::{FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
+use bouncing_disk::core::{FeigenbaumEstimate, Unobserved, doubling_cascade, feigenbaum_estimates};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Ticks,
 };
@@ -101,8 +101,8 @@ impl Experiment for ExtraCascade {
 
 fn cascade(restitution: &str, count: usize) -> Result<Cascade, bouncing_disk::core::Error> {
     let exact: DoubleDouble = restitution.parse()?;
-    let found = extended::doubling_cascade(exact, count)?;
-    let in_doubles = doubling_cascade(exact.high(), count)?;
+    let found = extended::doubling_cascade(exact, count, &Unobserved)?;
+    let in_doubles = doubling_cascade(exact.high(), count, &Unobserved)?;
     let separation = |index: usize| (found[index].axial_forcing - found[index - 1].axial_forcing).high();
     let mut to_limit = separation(count - 1) / (PUBLISHED[0] - 1.0);
     let mut doublings = Vec::new();

@@ -80,10 +80,11 @@ impl Experiment for ExtraCrisis {
         let at = ImpactMap::new(Vibration::from_axial_forcing(crisis.forcing)?, restitution)?;
         let start = *tangency.orbit.get(tangency.orbit.len() / 2).ok_or_else(none)?;
         let (recorded, stable, unstable) = quality.choose((4_000, 30.0, 6.0), (40_000, 120.0, 16.0));
-        let attractor = orbit_diagram(&[at.orbit(start, ChatterPolicy::Complete)], 200, recorded)?;
+        let attractor =
+            orbit_diagram(&[at.orbit(start, ChatterPolicy::Complete)], 200, recorded, &Unobserved)?;
         let grown = |kind: ManifoldKind, arclength: f64| -> Result<Vec<Vec<Spot>>, ExperimentError> {
             let settings = ManifoldSettings::new(arclength, 100_000)?.with_resolution(0.03, 0.1)?;
-            Ok(lines(&at.manifold(&tangency.touched, kind, &settings)?, spot))
+            Ok(lines(&at.manifold(&tangency.touched, kind, &settings, &Unobserved)?, spot))
         };
         let (stable, unstable) =
             (grown(ManifoldKind::Stable, stable)?, grown(ManifoldKind::Unstable, unstable)?);
@@ -91,7 +92,7 @@ impl Experiment for ExtraCrisis {
         let (orbits, most_impacts, halvings) = quality.choose((60, 2_000_000, 12), (300, 20_000_000, 14));
         let beyond: Vec<f64> =
             std::iter::successors(Some(FARTHEST), |last| Some(0.5 * last)).take(halvings + 1).collect();
-        let lives = crisis.lives(&beyond, orbits, most_impacts)?;
+        let lives = crisis.lives(&beyond, orbits, most_impacts, &Unobserved)?;
         progress.advance(1);
         let spots = |states: &[ImpactState]| states.iter().map(|state| spot(*state)).collect();
         Ok(ExtraCrisisData {

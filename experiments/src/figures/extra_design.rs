@@ -1,5 +1,6 @@
 //! Beyond the paper: the best hand motion of a toss under constraints, and what is left of it where inputs are off.
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
 use bouncing_disk::{
@@ -80,7 +81,7 @@ impl Experiment for ExtraDesign {
             let angular_frequency = [frequency; 2];
             let constraints =
                 TossConstraints { friction: FRICTION, angular_frequency, highest_flight, ..table };
-            let design = best_toss(&constraints)?;
+            let design = best_toss(&constraints, &Unobserved)?;
             let robustness = design.robustness(&HALF_UNITS)?;
             progress.advance(1);
             Ok::<_, ExperimentError>((design, robustness))

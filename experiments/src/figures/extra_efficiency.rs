@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{Estimate, Motor, OperatingPoint, OperatingSettings, Operation, operations};
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Line, Marker, Panel, Raster, Rect, Rule,
@@ -86,7 +86,7 @@ impl Experiment for ExtraEfficiency {
         let cells = load_shares.iter().flat_map(|share| phase_lags_rad.iter().map(move |lag| (*lag, *share)));
         let cells: Vec<(f64, f64)> = cells.collect();
         let motors = cells.iter().map(|cell| at(&motor, *cell)).collect::<Result<Vec<_>, _>>()?;
-        let map = operations(&motors, &settings)?;
+        let map = operations(&motors, &settings, &Unobserved)?;
         progress.advance(1);
         let points: Vec<Option<&OperatingPoint>> = map.iter().map(Operation::point).collect();
         let matrix = |of: fn(&OperatingPoint) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
@@ -99,7 +99,7 @@ impl Experiment for ExtraEfficiency {
             .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
             .ok_or_else(|| ExperimentError::NoData { quantity: "best efficiency".to_owned() })?;
         let loads: Vec<f64> = (0..=fine).map(|k| share(k, fine) * motor.largest_torque()).collect();
-        let along_load = at(&motor, (lag, 0.0))?.torque_speed_curve(&loads, &settings)?;
+        let along_load = at(&motor, (lag, 0.0))?.torque_speed_curve(&loads, &settings, &Unobserved)?;
         progress.advance(1);
         Ok(ExtraEfficiencyData {
             power_ratios: matrix(|point| {

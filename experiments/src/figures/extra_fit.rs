@@ -1,5 +1,6 @@
 //! Beyond the paper: fits of synthetic transients with their intervals, and durations at which they are refused.
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::elementary::exp;
 use bouncing_disk::{Error, FitSettings, TransientFit};
 use bouncing_disk_plot::{
@@ -120,7 +121,11 @@ fn ensemble(times: &[f64], seed: u64) -> Vec<Vec<f64>> {
 
 fn fitted(times: &[f64], members: &[Vec<f64>], seed: u64) -> Result<TransientFit, Error> {
     let runs: Vec<(&[f64], &[f64])> = members.iter().map(|member| (times, member.as_slice())).collect();
-    TransientFit::of_measured(&runs, &FitSettings { from_rest: true, seed, ..FitSettings::default() })
+    TransientFit::of_measured(
+        &runs,
+        &FitSettings { from_rest: true, seed, ..FitSettings::default() },
+        &Unobserved,
+    )
 }
 
 fn duration(time_constants: f64, trials: u64) -> Result<Duration, ExperimentError> {

@@ -2,8 +2,8 @@
 
 use bouncing_disk::core::elementary::ln;
 use bouncing_disk::core::{
-    ChatterPolicy, CycleTrust, ImpactMap, ImpactState, Orbit, UndecidedReason, Verdict, VerdictSettings,
-    Vibration, orbit_diagram, verdicts_observed,
+    ChatterPolicy, CycleTrust, ImpactMap, ImpactState, Orbit, UndecidedReason, Unobserved, Verdict,
+    VerdictSettings, Vibration, orbit_diagram, verdicts,
 };
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel, Rule,
@@ -81,10 +81,10 @@ impl Experiment for ExtraLyapunov {
             starts.push((ImpactMap::new(Vibration::from_axial_forcing(forcing)?, RESTITUTION)?, state));
         }
         progress.start(starts.len() as u64, "orbits");
-        let verdicts = verdicts_observed(&starts, settings, &advancing(progress))?;
+        let verdicts = verdicts(&starts, settings, &advancing(progress))?;
         let orbits: Vec<Orbit> =
             starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
-        let diagram = orbit_diagram(&orbits, SKIPPED, drawn)?;
+        let diagram = orbit_diagram(&orbits, SKIPPED, drawn, &Unobserved)?;
         let column = |(((map, _), verdict), impacts): ((&(ImpactMap, _), _), Vec<ImpactState>)| {
             let (kind, exponent) = judged(&verdict);
             let impact_phase_cycles = impacts.iter().map(|impact| impact.phase().cycles()).collect();

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use bouncing_disk::core::{
     self, ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, ImpactState, KnownOrbit, Label,
-    ManifoldKind, ManifoldSettings, OrbitSearch, PeriodicOrbit, Stability, Vibration,
+    ManifoldKind, ManifoldSettings, OrbitSearch, PeriodicOrbit, Stability, Unobserved, Vibration,
 };
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Figure, Grid, Line, Margins, Marker, Panel, Raster, Rect, Scatter, Ticks,
@@ -80,14 +80,14 @@ fn basins(
     progress: &dyn Progress,
 ) -> Result<Basins, ExperimentError> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
-    let orbits = map.periodic_orbits(&OrbitSearch::new(4, 2)?.with_starts(64, 64)?)?.orbits;
+    let orbits = map.periodic_orbits(&OrbitSearch::new(4, 2)?.with_starts(64, 64)?, &Unobserved)?.orbits;
     let mut known = Vec::new();
     for orbit in orbits.iter().filter(|orbit| orbit.stability() == Stability::Stable) {
-        known.push(KnownOrbit::new(orbit.clone(), orbit.trapping_radius(&map, 64)?)?);
+        known.push(KnownOrbit::new(orbit.clone(), orbit.trapping_radius(&map, 64, &Unobserved)?)?);
     }
     let settings = BasinSettings { max_impacts: IMPACTS, ..BasinSettings::default() };
     let grid = core::Grid::new(core::Axis::new(0.0, 1.0, cells)?, core::Axis::new(0.0, WINDOW_TOP, cells)?)?;
-    let basins = map.basins_observed(grid, &known, settings, &advancing(progress))?;
+    let basins = map.basins(grid, &known, settings, &advancing(progress))?;
     let mut saddles: Vec<PeriodicOrbit> = Vec::new();
     if let Some(pair) = map.period_one_pair(1) {
         saddles.extend(pair.saddle.orbit(&map)?);
@@ -99,7 +99,7 @@ fn basins(
     let wanted = ManifoldSettings::new(arclength, 400_000)?.with_launch_speed(fastest)?;
     let mut manifolds = Vec::new();
     for saddle in &saddles {
-        manifolds.extend(lines(&map.manifold(saddle, ManifoldKind::Stable, &wanted)?, spot));
+        manifolds.extend(lines(&map.manifold(saddle, ManifoldKind::Stable, &wanted, &Unobserved)?, spot));
     }
     let digits: Vec<char> = basins.labels().iter().map(|label| digit(*label, &known)).collect();
     Ok(Basins {

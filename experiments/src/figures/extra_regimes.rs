@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_1_PI, TAU};
 
 use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Phase, Verdict, VerdictSettings, Vibration, verdicts_observed,
+    ChatterPolicy, ImpactMap, ImpactState, Phase, Verdict, VerdictSettings, Vibration, verdicts,
 };
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Line, Panel, Raster, Rect, Rule, Stroke, Ticks,
@@ -85,7 +85,7 @@ impl Experiment for ExtraRegimes {
             }
         }
         progress.start(starts.len() as u64, "cells");
-        let verdicts = verdicts_observed(&starts, settings, &advancing(progress))?;
+        let verdicts = verdicts(&starts, settings, &advancing(progress))?;
         let row = |row: &[Verdict]| row.iter().map(|verdict| char::from(b'0' + kind(verdict))).collect();
         Ok(ExtraRegimesData { columns, settings, rows: verdicts.chunks(columns).map(row).collect() })
     }

@@ -1,7 +1,7 @@
 //! Beyond the paper: speed and mechanical power of its motor against the load.
 
-use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{
     Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation,
     TransientFit, TransientSettings, ensemble,
@@ -82,14 +82,14 @@ impl Experiment for ExtraTorqueSpeed {
         let (largest_torque_n_m, count) = (motor.largest_torque(), quality.choose(16, 48));
         let share = |k: u32| LAST_SHARE * f64::from(k) / f64::from(count);
         let loads: Vec<f64> = (0..=count).map(|k| share(k) * largest_torque_n_m).collect();
-        let operations = motor.torque_speed_curve(&loads, &settings)?;
+        let operations = motor.torque_speed_curve(&loads, &settings, &Unobserved)?;
         progress.advance(1);
-        let stall_n_m = motor.stall_load(&settings)?.torque;
+        let stall_n_m = motor.stall_load(&settings, &Unobserved)?.torque;
         progress.advance(1);
         let (system, transients) = (motor.system(), quality.choose(12, 64));
         let duration = RISES * system.rise_time();
         let run_up = TransientSettings { duration, intervals: 240, ..TransientSettings::default() };
-        let runs = ensemble(system, &run_up, transients)?;
+        let runs = ensemble(system, &run_up, transients, &Unobserved)?;
         let estimate = TransientFit::new(&runs.curves, &FitSettings::default())?.stall_acceleration();
         let [value, low, high] =
             [estimate.value, estimate.low, estimate.high].map(|own| motor.inertia() * own);

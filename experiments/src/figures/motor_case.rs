@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{
     ChatteringCycle, DiskParameters, EXAMINED_IMPACTS, OrbitClass, PlatformParameters, Spread, System,
     TransientSettings, ensemble, unperturbed_orbit,
@@ -131,7 +131,7 @@ impl MotorCase {
             ..TransientSettings::default()
         };
         let motor = self.system()?;
-        let runs = ensemble(&motor, &settings, members)?;
+        let runs = ensemble(&motor, &settings, members, &Unobserved)?;
         let statistics =
             bouncing_disk::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
         Ok(statistics.into())

@@ -3,6 +3,7 @@
 //! The model's [`ImpulseTrain`] finds it; beside it stands what the balance of the normal impulse says
 //! ([`NormalImpulses`]).
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{ExponentialFit, ImpulseTrain, NormalImpulses, Spread};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -78,7 +79,7 @@ impl Stall {
                 let impulses = NormalImpulses::of(map, BALANCED_IMPACTS, smaller * relaunch_perturbation)?;
                 let balance = impulses.balance(case.phase_lag_rad);
                 let (times, speeds) = balance.transient(TRANSIENT_RISES, PREDICTED_POINTS);
-                let fit = ExponentialFit::new(&times, &speeds)?;
+                let fit = ExponentialFit::new(&times, &speeds, &Unobserved)?;
                 Ok((balance.net_share(0.0), fit.stall_acceleration()))
             })
             .collect::<Vec<Result<(f64, f64), ExperimentError>>>();

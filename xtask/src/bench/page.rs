@@ -66,7 +66,7 @@ fn digits(value: f64) -> String {
 mod tests {
     use bouncing_disk_core::{
         ATTACHED, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, UNDECIDED,
-        Vibration,
+        Unobserved, Vibration,
     };
 
     use super::super::record::tests::record;
@@ -103,8 +103,9 @@ mod tests {
     fn what_the_template_says_of_w3_is_true() {
         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
         let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-        let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
-        let radius = orbit.trapping_radius(&map, 64).expect("attracts");
+        let orbit =
+            map.settled_orbit(start, 4_000, 4, 1.0e-8, &Unobserved).expect("no failure").expect("settles");
+        let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("attracts");
         let says = |text: String| assert!(TEMPLATE.contains(&text), "{text}");
         says(format!("within {radius:.4} of"));
         for state in &orbit.states {
@@ -114,7 +115,7 @@ mod tests {
         let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal grid");
         let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
         let known = [KnownOrbit::new(orbit, radius).expect("legal")];
-        let basins = map.basins(grid, &known, settings).expect("no failure");
+        let basins = map.basins(grid, &known, settings, &Unobserved).expect("no failure");
         let count = |wanted| basins.labels().iter().filter(|label| **label == wanted).count();
         assert_eq!([count(ATTACHED), count(UNDECIDED)], [58_850, 0]);
         says("58,850 are attached, all others caught".to_owned());

@@ -142,7 +142,7 @@ impl GridJob for BasinsJob {
         self.window()?;
         // The search is a small part of the work, and has no part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
-        Ok(map(self.axial_forcing, self.restitution)?.attractors_observed(&self.search, &silent)?)
+        Ok(map(self.axial_forcing, self.restitution)?.attractors(&self.search, &silent)?)
     }
 
     fn compute(
@@ -159,7 +159,7 @@ impl GridJob for BasinsJob {
         let within = |Progress { done, total }| {
             observer.observe(Progress { done: done * own / total.max(1), total: own })
         };
-        let labelled = attractors.basins_of_rows_observed(self.window()?, rows, self.settings, &within)?;
+        let labelled = attractors.basins_of_rows(self.window()?, rows, self.settings, &within)?;
         Ok(labelled.labels().chunks(self.cells).map(hexadecimal).collect())
     }
 

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use bouncing_disk::{
-    OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss_observed, toss_trajectory,
+    OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
 };
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -128,7 +128,7 @@ pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
     }
     args.output.check(true, &args.system.inputs(), None)?;
     let constraints = args.constraints()?;
-    let design = best_toss_observed(&constraints, &context.watch("design"))?;
+    let design = best_toss(&constraints, &context.watch("design"))?;
     let system = design.system()?;
     let trajectory = toss_trajectory(&system, constraints.initial)?;
     let samples: Rc<[Sample]> = {

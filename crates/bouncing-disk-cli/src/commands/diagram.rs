@@ -7,7 +7,7 @@ use std::rc::Rc;
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, MAX_RECORDED, Orbit, orbit_diagram_observed};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, MAX_RECORDED, Orbit, orbit_diagram};
 use clap::Args;
 use serde::{Deserialize, Serialize};
 use serde_json::json;
@@ -227,7 +227,7 @@ impl GridJob for DiagramJob {
                 }
             }
         }
-        let found = orbit_diagram_observed(&orbits, self.transient, self.recorded, observer)?;
+        let found = orbit_diagram(&orbits, self.transient, self.recorded, observer)?;
         let mut columns = vec![vec![None; self.starts.len()]; rows.len()];
         for ((row, start), impacts) in places.into_iter().zip(found) {
             columns[row][start] = Some(Impacts::of(&impacts));

@@ -1,8 +1,6 @@
 //! `bouncing-disk doublings`: the period-doubling cascade.
 
-use bouncing_disk::core::{
-    CascadeDoubling, FeigenbaumEstimate, doubling_cascade_observed, feigenbaum_estimates,
-};
+use bouncing_disk::core::{CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
 use clap::Args;
 use serde::Serialize;
 
@@ -51,7 +49,7 @@ pub(crate) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure>
     }
     args.output.check(true, &args.map.inputs(), None)?;
     let job = Job { restitution: args.map.single_restitution()?, count: args.count };
-    let found = doubling_cascade_observed(job.restitution, job.count, &context.watch("doublings"))?;
+    let found = doubling_cascade(job.restitution, job.count, &context.watch("doublings"))?;
     let estimates = feigenbaum_estimates(&found);
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,

@@ -157,7 +157,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
         ..FitSettings::default()
     };
     let watcher = context.watch("fit");
-    let fit = speeds.fit_observed(&settings, &watcher)?;
+    let fit = speeds.fit(&settings, &watcher)?;
     drop(watcher);
     let mut list = Quantities::default();
     list.push("runs", speeds.runs().len(), "1");
@@ -225,7 +225,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     };
     let preload = RunPreload::Acceleration(motor.preload_acceleration());
     let transient = MeasuredTransient { preload, runs: speeds, speed_error: None };
-    let fit = ParameterFit::new_observed(
+    let fit = ParameterFit::new(
         &motor,
         std::slice::from_ref(&transient),
         &ranges,

@@ -71,7 +71,7 @@ pub(crate) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
             .with_starts(args.starts, args.starts)?,
     };
     let map = map(job.axial_forcing, job.restitution)?;
-    let found = map.periodic_orbits_observed(&job.search, &context.watch("orbits"))?;
+    let found = map.periodic_orbits(&job.search, &context.watch("orbits"))?;
     let report = Report {
         provenance: provenance("bouncing-disk orbits", &job)?,
         text: text(&found),

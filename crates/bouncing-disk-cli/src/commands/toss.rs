@@ -6,7 +6,7 @@ use std::rc::Rc;
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
     Engine, InitialCondition, InitialSpin, MultiTossSettings, OrbitClass, PhaseSpan, Snapshot, System,
-    TOSS_START, TossOrbit, TossPerformance, multi_toss_observed, single_toss, toss_trajectory,
+    TOSS_START, TossOrbit, TossPerformance, multi_toss, single_toss, toss_trajectory,
 };
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -165,8 +165,8 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
     let instants = instants(args.samples, args.periods) as usize;
-    let motion = engine.sample_observed(span, instants, &context.watch("motion of the toss"))?;
-    let orbit = multi_toss_observed(system, start, settings, &context.watch("toss"))?;
+    let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
+    let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
     let text = described(system, &orbit).to_text();
     report(system, args, samples(system, motion), text, vec![("orbit", stored(&orbit)?)])
 }

@@ -11,7 +11,7 @@ use crate::analysis::periodic::{PeriodicOrbit, Stability, distance};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{asin, sin_cos};
-use crate::observer::{Observer, Unobserved, Watch, WorkCount};
+use crate::observer::{Observer, Watch, WorkCount};
 use crate::platform::phase::Phase;
 
 /// The first radius that is tried, the last, and the smallest of the circles.
@@ -243,18 +243,12 @@ impl PeriodicOrbit {
     /// Of all others, as of an orbit with strong shear that traps no circle, it is half the radius of circles of 0.05, 0.025,
     /// ... rad from which 16 starts come back eight times nearer, however far they stray, or nearer without straying.
     ///
+    /// The items of `observer` are the starts, as many as there are at most.
+    ///
     /// # Errors
     /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of [`Self::proven_radius`] where
     /// samples find none, either.
-    pub fn trapping_radius(&self, map: &ImpactMap, samples: u32) -> Result<f64, Error> {
-        self.trapping_radius_observed(map, samples, &Unobserved)
-    }
-
-    /// [`Self::trapping_radius`] with an observer; the items are the starts, as many as there are at most.
-    ///
-    /// # Errors
-    /// Those of [`Self::trapping_radius`]; [`Error::Stopped`] if the observer breaks.
-    pub fn trapping_radius_observed(
+    pub fn trapping_radius(
         &self,
         map: &ImpactMap,
         samples: u32,
@@ -436,7 +430,7 @@ impl<'w> Search<'w> {
         let (mut last, mut farthest) = (from, from);
         for _ in 0..ROUNDS {
             self.work.spend(period)?;
-            let Ok(next) = self.map.iterate(state, period) else { return Ok(false) };
+            let Ok(next) = self.map.steps(state, period) else { return Ok(false) };
             state = next;
             last = distance(state, centre, self.scale);
             farthest = farthest.max(last);
@@ -453,6 +447,7 @@ mod tests {
     use super::*;
     use crate::analysis::basin::{Axis, BasinSettings, Grid, KnownOrbit};
     use crate::numerics::random::SplitMix64;
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
     use crate::testing::StopAfter;
 
@@ -468,7 +463,7 @@ mod tests {
 
     fn settled(map: &ImpactMap, phase: f64, speed: f64) -> PeriodicOrbit {
         let start = ImpactState::from_normalised(phase, speed).expect("legal");
-        map.settled_orbit(start, 4_000, 64, 1.0e-8).expect("no failure").expect("settles")
+        map.settled_orbit(start, 4_000, 64, 1.0e-8, &Unobserved).expect("no failure").expect("settles")
     }
 
     #[test]
@@ -476,7 +471,9 @@ mod tests {
         let doubling = ImpactMap::first_doubling_forcing(0.5);
         for forcing in [0.5, doubling + 1e-4, doubling + 1e-12, doubling, 1.0 / 3.0] {
             let map = map(forcing, 0.5);
-            for radius in [node(&map, 1).trapping_radius(&map, 64), node(&map, 1).proven_radius(&map)] {
+            for radius in
+                [node(&map, 1).trapping_radius(&map, 64, &Unobserved), node(&map, 1).proven_radius(&map)]
+            {
                 assert!(matches!(radius, Err(Error::NotAttracting { .. })), "{forcing}: {radius:?}");
             }
         }
@@ -498,7 +495,7 @@ mod tests {
             let pair = map.period_one_pair(k).expect("exists");
             let Some(orbit) = pair.node.orbit(&map).expect("no failure") else { continue };
             let radius = orbit.proven_radius(&map).expect("attracts");
-            assert!(orbit.trapping_radius(&map, 16).expect("attracts") >= radius);
+            assert!(orbit.trapping_radius(&map, 16, &Unobserved).expect("attracts") >= radius);
             narrowest = narrowest.min(radius);
             let p = map.vibration().peak_acceleration();
             for sample in 0..20 {
@@ -521,7 +518,7 @@ mod tests {
     fn a_fast_orbit_has_the_radius_that_its_attractor_has() {
         let map = map(0.9, 0.8);
         let orbit = node(&map, 8);
-        let (radius, proven) = (orbit.trapping_radius(&map, 64), orbit.proven_radius(&map));
+        let (radius, proven) = (orbit.trapping_radius(&map, 64, &Unobserved), orbit.proven_radius(&map));
         assert_eq!(radius, Ok(0.025));
         assert!(proven.as_ref().is_ok_and(|proven| *proven > 1e-5), "{proven:?}");
     }
@@ -531,7 +528,7 @@ mod tests {
     fn the_ends_of_a_window_have_smaller_radii() {
         let radius = |forcing| {
             let map = map(forcing, 0.5);
-            node(&map, 1).trapping_radius(&map, 64).expect("attracts")
+            node(&map, 1).trapping_radius(&map, 64, &Unobserved).expect("attracts")
         };
         let wide = radius(0.4);
         for above in [1e-3, 1e-6, 1e-9] {
@@ -548,8 +545,8 @@ mod tests {
         let map = map(0.486, 0.5);
         let orbit = settled(&map, 0.0660 * TAU, 0.3170);
         assert_eq!(orbit.period(), 4);
-        assert!(orbit.trapping_radius(&map, 64).is_ok_and(|radius| radius > 1e-5));
-        assert!(node(&map, 1).trapping_radius(&map, 64).is_ok_and(|radius| radius > 0.1));
+        assert!(orbit.trapping_radius(&map, 64, &Unobserved).is_ok_and(|radius| radius > 1e-5));
+        assert!(node(&map, 1).trapping_radius(&map, 64, &Unobserved).is_ok_and(|radius| radius > 0.1));
     }
 
     #[test]
@@ -559,11 +556,11 @@ mod tests {
         for axial_forcing in [0.45, 0.5] {
             let map = map(axial_forcing, 0.5);
             let orbit = settled(&map, 0.8, 1.3);
-            let radius = orbit.trapping_radius(&map, 64).expect("attracts");
+            let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("attracts");
             assert!(radius > 0.3, "{radius}");
             let labels = |radius| {
                 let known = [KnownOrbit::new(orbit.clone(), radius).expect("legal")];
-                map.basins(grid, &known, BasinSettings::default()).expect("no failure")
+                map.basins(grid, &known, BasinSettings::default(), &Unobserved).expect("no failure")
             };
             assert_eq!(labels(radius), labels(0.003), "Gamma {axial_forcing}");
         }
@@ -573,11 +570,11 @@ mod tests {
     fn searches_of_a_radius_can_be_stopped_and_end_with_all_starts() {
         let map = map(0.45, 0.5);
         let orbit = node(&map, 1);
-        let stopped = orbit.trapping_radius_observed(&map, u32::MAX, &StopAfter::calls(3));
+        let stopped = orbit.trapping_radius(&map, u32::MAX, &StopAfter::calls(3));
         assert!(matches!(stopped, Err(Error::Stopped { done: 1..16_400, .. })), "{stopped:?}");
         let most = StopAfter::calls(u64::MAX);
-        let radius = orbit.trapping_radius_observed(&map, 64, &most);
-        assert_eq!(radius, orbit.trapping_radius(&map, 64));
+        let radius = orbit.trapping_radius(&map, 64, &most);
+        assert_eq!(radius, orbit.trapping_radius(&map, 64, &Unobserved));
         // Fourteen halvings, and seventeen wider circles with four times as many starts.
         assert_eq!((most.last().done, most.last().total), (5_248, 5_248));
     }

@@ -14,7 +14,7 @@ use crate::analysis::verdict::{RestCycle, UndecidedReason};
 use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::fraction::Fraction;
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::read_checked;
 use cells::VisitedCells;
 use settings::AttractorSearch;
@@ -352,12 +352,15 @@ impl ImpactMap {
     /// upper end of the [interval](Fraction::interval) of none of the starts; and an orbit that has not come to
     /// rest for [`AttractorSearch::impacts`] may yet.
     ///
+    /// The items of `observer` are the starts, each of which counts when it has been looked at and when its
+    /// attractor is known.
+    ///
     /// ```
-    /// use bouncing_disk_core::{AttractorKind, AttractorSearch, ImpactMap, Vibration};
+    /// use bouncing_disk_core::{AttractorKind, AttractorSearch, ImpactMap, Unobserved, Vibration};
     ///
     /// // Where the paper has two attractors there are three: rest, period 1, and an orbit of four impacts.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.486)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     /// let periods: Vec<usize> = found.known().map(|known| known.orbit().period()).collect();
     /// assert_eq!((found.all().len(), periods), (3, vec![1, 4]));
     /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -366,20 +369,7 @@ impl ImpactMap {
     /// # Errors
     /// [`Error::TooLarge`] for more than 250 attractors beside the disk at rest; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
-    pub fn attractors(&self, search: &AttractorSearch) -> Result<Attractors, Error> {
-        self.attractors_observed(search, &Unobserved)
-    }
-
-    /// [`Self::attractors`] with an observer; the items are the starts, each of which counts when it has been
-    /// looked at and when its attractor is known.
-    ///
-    /// # Errors
-    /// Those of [`Self::attractors`]; [`Error::Stopped`] if the observer breaks.
-    pub fn attractors_observed(
-        &self,
-        search: &AttractorSearch,
-        observer: &dyn Observer,
-    ) -> Result<Attractors, Error> {
+    pub fn attractors(&self, search: &AttractorSearch, observer: &dyn Observer) -> Result<Attractors, Error> {
         find::find(self, search, observer)
     }
 }

@@ -14,7 +14,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::fraction::Fraction;
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::read_checked;
 
 pub use run::BasinRun;
@@ -394,19 +394,13 @@ impl ImpactMap {
     ///
     /// The labels are the same for any number of threads.
     ///
+    /// The items of `observer` are the rows. A [`BasinRun`] keeps the finished ones of a call that is
+    /// stopped.
+    ///
     /// # Errors
     /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or
     /// than there is memory for; those of [`crate::Vibration::first_impact`].
-    pub fn basins(&self, grid: Grid, known: &[KnownOrbit], settings: BasinSettings) -> Result<Basins, Error> {
-        self.basins_observed(grid, known, settings, &Unobserved)
-    }
-
-    /// [`Self::basins`] with an observer; the items are the rows. A [`BasinRun`] keeps the finished ones of a
-    /// call that is stopped.
-    ///
-    /// # Errors
-    /// Those of [`Self::basins`]; [`Error::Stopped`] if the observer breaks.
-    pub fn basins_observed(
+    pub fn basins(
         &self,
         grid: Grid,
         known: &[KnownOrbit],
@@ -431,6 +425,7 @@ fn flights_of_label(known: &[KnownOrbit]) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
 
     fn map() -> ImpactMap {
@@ -512,7 +507,7 @@ mod tests {
         let fast = Grid::new(ordinary, axis(0.0, Grid::MAX_SPEED, 3)).expect("legal");
         for policy in [ChatterPolicy::Complete, crate::testing::PAPER_POLICY] {
             let settings = BasinSettings { max_impacts: 3, policy };
-            let error = map().basins(fast, &[], settings).expect_err("too fast");
+            let error = map().basins(fast, &[], settings, &Unobserved).expect_err("too fast");
             assert!(matches!(error, Error::FlightTooLong { .. }), "{error}");
         }
     }
@@ -521,7 +516,7 @@ mod tests {
     fn a_grid_that_fills_the_memory_is_refused_with_its_size() {
         let side = axis(0.0, 1.0, 100_000);
         let grid = Grid::new(side, side).expect("legal");
-        let error = map().basins(grid, &[], BasinSettings::default()).expect_err("too large");
+        let error = map().basins(grid, &[], BasinSettings::default(), &Unobserved).expect_err("too large");
         let expected = Error::TooLarge { what: "cells of a grid", count: 10_000_000_000, limit: MAX_CELLS };
         assert_eq!(error, expected);
     }

@@ -9,7 +9,7 @@ use self::branch::{FlipPoint, first_flip, next_flip, rounding};
 use super::periodic::MAX_PERIOD;
 use crate::error::{Error, within};
 use crate::numerics::real::Real;
-use crate::observer::{Observer, Unobserved, Watch};
+use crate::observer::{Observer, Watch};
 
 /// The largest number of doublings: the last one is that of the orbit of period [`MAX_PERIOD`].
 pub const MAX_DOUBLINGS: usize = 13;
@@ -56,10 +56,12 @@ impl core::fmt::Display for CascadeDoubling {
 /// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
 /// `extended::doubling_cascade` (feature `extended`) has sixteen more.
 ///
-/// ```
-/// use bouncing_disk_core::{ImpactMap, doubling_cascade};
+/// The items of `observer` are the doublings.
 ///
-/// let cascade = doubling_cascade(0.5, 4)?;
+/// ```
+/// use bouncing_disk_core::{ImpactMap, Unobserved, doubling_cascade};
+///
+/// let cascade = doubling_cascade(0.5, 4, &Unobserved)?;
 /// assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-15);
 /// assert_eq!(cascade[3].period, 8);
 /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -68,15 +70,7 @@ impl core::fmt::Display for CascadeDoubling {
 /// # Errors
 /// [`Error::OutOfRange`] for the restitution or the count; [`Error::NotSettled`] if a branch is lost;
 /// [`Error::EarlierImpact`] if a branch ends because its orbit meets the platform earlier.
-pub fn doubling_cascade(restitution: f64, count: usize) -> Result<Vec<CascadeDoubling>, Error> {
-    doubling_cascade_observed(restitution, count, &Unobserved)
-}
-
-/// [`doubling_cascade`] with an observer; the items are the doublings.
-///
-/// # Errors
-/// Those of [`doubling_cascade`]; [`Error::Stopped`] if the observer breaks.
-pub fn doubling_cascade_observed(
+pub fn doubling_cascade(
     restitution: f64,
     count: usize,
     observer: &dyn Observer,

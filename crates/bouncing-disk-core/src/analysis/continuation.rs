@@ -5,7 +5,7 @@ use crate::analysis::closing::{Closing, ContinuationParameter};
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit, Stability};
 use crate::error::{Error, finite, within};
 use crate::map::impact_map::ImpactMap;
-use crate::observer::{Observer, Unobserved, Watch};
+use crate::observer::{Observer, Watch};
 use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
@@ -264,14 +264,18 @@ impl Branch {
     ///
     /// A long continuation is stopped and gone on with in this way, some points at a time.
     ///
+    /// The items of `observer` are the points that are allowed.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{Branch, Continuation, ContinuationParameter, ImpactMap, Vibration};
+    /// # use bouncing_disk_core::{
+    /// #     Branch, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration,
+    /// # };
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), false)?;
-    /// let begun = map.continued(&orbit, &whole.with_steps(0.01, 0.05, 10)?)?;
-    /// let extended = begun.extended(whole.max_points())?;
-    /// assert_eq!(extended, map.continued(&orbit, &whole)?);
+    /// let begun = map.continued(&orbit, &whole.with_steps(0.01, 0.05, 10)?, &Unobserved)?;
+    /// let extended = begun.extended(whole.max_points(), &Unobserved)?;
+    /// assert_eq!(extended, map.continued(&orbit, &whole, &Unobserved)?);
     /// assert_eq!((begun.points.len(), begun.tip.is_some(), extended.tip), (10, true, None));
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
@@ -279,15 +283,7 @@ impl Branch {
     /// # Errors
     /// [`Error::OutOfRange`] for the number of points; [`Error::Unfitting`] where the tip is that of another
     /// branch.
-    pub fn extended(&self, points: usize) -> Result<Self, Error> {
-        self.extended_observed(points, &Unobserved)
-    }
-
-    /// [`Self::extended`] with an observer; the items are the points that are allowed.
-    ///
-    /// # Errors
-    /// Those of [`Self::extended`]; [`Error::Stopped`] if the observer breaks.
-    pub fn extended_observed(&self, points: usize, observer: &dyn Observer) -> Result<Self, Error> {
+    pub fn extended(&self, points: usize, observer: &dyn Observer) -> Result<Self, Error> {
         within("points of a branch", points as f64, 2.0, Continuation::MAX_POINTS as f64, "[2, 1000000]")?;
         let Some(tip) = &self.tip else { return Ok(self.clone()) };
         if points <= self.points.len() {
@@ -305,18 +301,12 @@ impl Branch {
     /// must be a doubling. Its first point is the one after the doubling; `rising` of the settings has no meaning,
     /// as it goes to either side.
     ///
+    /// The items of `observer` are the points that are allowed.
+    ///
     /// # Errors
     /// [`Error::NotOfKind`] if there is no such bifurcation or it is no doubling; [`Error::NoBranch`] if
     /// no doubled orbit is found; those of [`ImpactMap::continued`].
-    pub fn switched(&self, index: usize, settings: &Continuation) -> Result<Self, Error> {
-        self.switched_observed(index, settings, &Unobserved)
-    }
-
-    /// [`Self::switched`] with an observer; the items are the points that are allowed.
-    ///
-    /// # Errors
-    /// Those of [`Self::switched`]; [`Error::Stopped`] if the observer breaks.
-    pub fn switched_observed(
+    pub fn switched(
         &self,
         index: usize,
         settings: &Continuation,
@@ -345,12 +335,16 @@ impl ImpactMap {
     /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
     /// within one step are not seen: [`Continuation::with_steps`].
     ///
+    /// The items of `observer` are the points that are allowed.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{BifurcationKind, Continuation, ContinuationParameter, ImpactMap, Vibration};
+    /// # use bouncing_disk_core::{
+    /// #     BifurcationKind, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration,
+    /// # };
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued(&orbit, &rising)?;
+    /// let branch = map.continued(&orbit, &rising, &Unobserved)?;
     /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
     /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
     /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -359,15 +353,7 @@ impl ImpactMap {
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
     /// [`Error::NoBranch`] if `orbit` is none of this map, or not an isolated one: start beside a fold or a birth, not on it.
-    pub fn continued(&self, orbit: &PeriodicOrbit, settings: &Continuation) -> Result<Branch, Error> {
-        self.continued_observed(orbit, settings, &Unobserved)
-    }
-
-    /// [`Self::continued`] with an observer; the items are the points that are allowed.
-    ///
-    /// # Errors
-    /// Those of [`Self::continued`]; [`Error::Stopped`] if the observer breaks.
-    pub fn continued_observed(
+    pub fn continued(
         &self,
         orbit: &PeriodicOrbit,
         settings: &Continuation,

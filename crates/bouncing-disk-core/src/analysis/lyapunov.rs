@@ -12,7 +12,7 @@ use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::read_checked;
 
 /// The growth of a small perturbation along an orbit of the impact map, one derivative after the other.
@@ -186,21 +186,11 @@ struct Followed {
 /// over `impacts` impacts after `transient` ones. `None` where the disk comes to rest (the motion after a rest does not
 /// depend on the one before) or grazes the platform (the derivative is unbounded there).
 ///
+/// The items of `observer` are the orbits.
+///
 /// # Errors
 /// Those of [`sweep`](crate::sweep()).
 pub fn lyapunov_exponents(
-    starts: &[(ImpactMap, ImpactState)],
-    transient: usize,
-    impacts: usize,
-) -> Result<Vec<Option<f64>>, Error> {
-    lyapunov_exponents_observed(starts, transient, impacts, &Unobserved)
-}
-
-/// [`lyapunov_exponents`] with an observer; the items are the orbits.
-///
-/// # Errors
-/// Those of [`lyapunov_exponents`]; [`Error::Stopped`] if the observer breaks.
-pub fn lyapunov_exponents_observed(
     starts: &[(ImpactMap, ImpactState)],
     transient: usize,
     impacts: usize,

@@ -4,7 +4,7 @@
 use crate::analysis::periodic::{Multipliers, PeriodicOrbit};
 use crate::error::{Error, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::{Observer, Unobserved, Watch};
+use crate::observer::{Observer, Watch};
 use crate::read_checked;
 
 pub(super) mod grower;
@@ -212,13 +212,15 @@ impl ImpactMap {
     /// jumps ([`PieceEnd`]). A point that is inserted is mapped all the way from the first piece, so that no
     /// error of interpolation grows.
     ///
+    /// The items of `observer` are the points that are allowed, of all branches.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, ManifoldKind, ManifoldSettings, Vibration};
+    /// # use bouncing_disk_core::{ImpactMap, ManifoldKind, ManifoldSettings, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let saddle = map.period_one_pair(1).expect("it exists").saddle.orbit(&map)?.expect("an orbit");
     /// let settings = ManifoldSettings::new(5.0, 1_000)?;
     /// // One branch of the unstable manifold ends in the orbit that attracts.
-    /// let manifold = map.manifold(&saddle, ManifoldKind::Unstable, &settings)?;
+    /// let manifold = map.manifold(&saddle, ManifoldKind::Unstable, &settings, &Unobserved)?;
     /// let node = map.period_one(1).expect("it exists");
     /// let near = |state: &bouncing_disk_core::ImpactState| {
     ///     (state.phase().angle() - node.phase().angle()).abs() < 0.01
@@ -234,19 +236,6 @@ impl ImpactMap {
     /// [`Error::NotSettled`] if it is no orbit of this map; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn manifold(
-        &self,
-        orbit: &PeriodicOrbit,
-        kind: ManifoldKind,
-        settings: &ManifoldSettings,
-    ) -> Result<Manifold, Error> {
-        self.manifold_observed(orbit, kind, settings, &Unobserved)
-    }
-
-    /// [`Self::manifold`] with an observer; the items are the points that are allowed, of all branches.
-    ///
-    /// # Errors
-    /// Those of [`Self::manifold`]; [`Error::Stopped`] if the observer breaks.
-    pub fn manifold_observed(
         &self,
         orbit: &PeriodicOrbit,
         kind: ManifoldKind,

@@ -9,7 +9,7 @@ use crate::error::{Error, finite, not_negative, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
-use crate::observer::{Observer, Tick, Unobserved, Watch};
+use crate::observer::{Observer, Tick, Watch};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
@@ -491,24 +491,12 @@ impl ImpactMap {
     /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
     /// shows no period.
     ///
+    /// The items of `observer` are the impacts of the transient, of the search of the period and of the
+    /// refinement, as many as there are at most.
+    ///
     /// # Errors
     /// Those of [`Self::refine`] and [`Self::period_of`].
     pub fn settled_orbit(
-        &self,
-        state: ImpactState,
-        transient: usize,
-        longest: usize,
-        tolerance: f64,
-    ) -> Result<Option<PeriodicOrbit>, Error> {
-        self.settled_orbit_observed(state, transient, longest, tolerance, &Unobserved)
-    }
-
-    /// [`Self::settled_orbit`] with an observer; the items are the impacts of the transient, of the search of
-    /// the period and of the refinement, as many as there are at most.
-    ///
-    /// # Errors
-    /// Those of [`Self::settled_orbit`]; [`Error::Stopped`] if the observer breaks.
-    pub fn settled_orbit_observed(
         &self,
         state: ImpactState,
         transient: usize,
@@ -568,6 +556,7 @@ impl PeriodicOrbit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
     use crate::testing::StopAfter;
 
@@ -575,11 +564,11 @@ mod tests {
     fn a_settling_orbit_can_be_stopped() {
         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
         let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-        let stopped = map.settled_orbit_observed(start, usize::MAX, 4, 1e-8, &StopAfter::calls(4));
+        let stopped = map.settled_orbit(start, usize::MAX, 4, 1e-8, &StopAfter::calls(4));
         assert_eq!(stopped, Err(Error::Stopped { done: 3 * 8_192, total: u64::MAX }));
         let all = StopAfter::calls(u64::MAX);
-        let orbit = map.settled_orbit_observed(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
-        assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8));
+        let orbit = map.settled_orbit(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
+        assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8, &Unobserved));
         assert_eq!((all.last().done, all.asked()), (20_212, 4));
     }
 }

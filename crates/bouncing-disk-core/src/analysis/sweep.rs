@@ -12,13 +12,11 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, not_negative};
 use crate::flight::impact::Impact;
 use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
-pub use orbit_diagram::{
-    MAX_RECORDED, orbit_diagram, orbit_diagram_observed, survival_times, survival_times_observed,
-};
+pub use orbit_diagram::{MAX_RECORDED, orbit_diagram, survival_times};
 pub use run::{PartialResults, SweepRun};
 pub use settling::{is_settling, repeats_every};
 
@@ -107,11 +105,14 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
 /// change a bit.
 ///
 /// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer
-/// of [`sweep_observed`] breaks.
+/// of [`sweep`] breaks.
+///
+/// The items of `observer` are the orbits. A [`SweepRun`] keeps the finished ones of a call that is
+/// stopped.
 ///
 /// ```
 /// use core::ops::ControlFlow;
-/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepEvent, Vibration, sweep};
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepEvent, Unobserved, Vibration, sweep};
 ///
 /// // How many impacts, up to a hundred, before a disk comes to rest, against the forcing.
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;
@@ -127,7 +128,7 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
 ///         ControlFlow::Continue(())
 ///     }
 ///     _ => ControlFlow::Break(()),
-/// })?;
+/// }, &Unobserved)?;
 /// assert!(lives[0] < 100 && lives[150] == 100);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
@@ -135,19 +136,6 @@ fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
 /// # Errors
 /// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`]).
 pub fn sweep<S: Send>(
-    orbits: &[Orbit],
-    start: impl Fn(usize) -> S + Sync,
-    visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
-) -> Result<Vec<S>, Error> {
-    sweep_observed(orbits, start, visit, &Unobserved)
-}
-
-/// [`sweep`] with an observer; the items are the orbits. A [`SweepRun`] keeps the finished ones of a call
-/// that is stopped.
-///
-/// # Errors
-/// Those of [`sweep`]; [`Error::Stopped`] if the observer breaks.
-pub fn sweep_observed<S: Send>(
     orbits: &[Orbit],
     start: impl Fn(usize) -> S + Sync,
     visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,

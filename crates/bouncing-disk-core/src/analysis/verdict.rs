@@ -325,7 +325,7 @@ impl ImpactMap {
     /// # Errors
     /// Those of [`verdicts`].
     pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
-        let mut verdicts = verdicts(&[(*self, state)], settings)?;
+        let mut verdicts = verdicts(&[(*self, state)], settings, &Unobserved)?;
         verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
     }
 }
@@ -334,8 +334,12 @@ impl ImpactMap {
 /// with the bits of
 /// [`ImpactMap::verdict`].
 ///
+/// The items of `observer` are the orbits. [`each_verdict`] keeps what a call that is stopped has found.
+///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, ImpactState, Verdict, VerdictSettings, Vibration, verdicts};
+/// use bouncing_disk_core::{
+///     ImpactMap, ImpactState, Unobserved, Verdict, VerdictSettings, Vibration, verdicts,
+/// };
 ///
 /// // From order to chaos: what a disk does against the forcing.
 /// let start = ImpactState::from_normalised(1.2, 1.3)?;
@@ -345,7 +349,7 @@ impl ImpactMap {
 ///         Ok((ImpactMap::new(vibration, 0.5)?, start))
 ///     })
 ///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
-/// let verdicts = verdicts(&starts, VerdictSettings::default())?;
+/// let verdicts = verdicts(&starts, VerdictSettings::default(), &Unobserved)?;
 /// assert!(matches!(verdicts[0], Verdict::AtRest { .. }));
 /// assert!(matches!(verdicts[10], Verdict::Periodic { .. }));
 /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -354,18 +358,6 @@ impl ImpactMap {
 /// # Errors
 /// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep()).
 pub fn verdicts(
-    starts: &[(ImpactMap, ImpactState)],
-    settings: VerdictSettings,
-) -> Result<Vec<Verdict>, Error> {
-    verdicts_observed(starts, settings, &Unobserved)
-}
-
-/// [`verdicts`] with an observer; the items are the orbits. [`each_verdict`] keeps what a call that is stopped
-/// has found.
-///
-/// # Errors
-/// Those of [`verdicts`]; [`Error::Stopped`] if the observer breaks.
-pub fn verdicts_observed(
     starts: &[(ImpactMap, ImpactState)],
     settings: VerdictSettings,
     observer: &dyn Observer,

@@ -5,7 +5,7 @@ use crate::analysis::cascade::feigenbaum::{FeigenbaumEstimate, estimates};
 use crate::analysis::cascade::flip_points;
 use crate::error::Error;
 use crate::numerics::double_double::DoubleDouble;
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 
 /// A period doubling of the cascade that starts from the orbit with one impact per period of the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,10 +48,13 @@ const UNSURE_MARGIN: f64 = 1.0e-9;
 ///
 /// The restitution has the digits that it is given: read a decimal one from a text, as `0.1` is none.
 ///
+/// The items of `observer` are the doublings.
+///
 /// ```
+/// # use bouncing_disk_core::Unobserved;
 /// use bouncing_disk_core::extended::doubling_cascade;
 ///
-/// let cascade = doubling_cascade("0.5".parse()?, 3)?;
+/// let cascade = doubling_cascade("0.5".parse()?, 3, &Unobserved)?;
 /// assert_eq!(format!("{:.25}", cascade[2].axial_forcing), "0.5401020860760663669196152");
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
@@ -59,15 +62,7 @@ const UNSURE_MARGIN: f64 = 1.0e-9;
 /// # Errors
 /// Those of [`doubling_cascade`](crate::doubling_cascade); [`Error::NotSettled`] with the margin where an
 /// orbit of the cascade comes so near to an earlier impact that doubles cannot exclude it.
-pub fn doubling_cascade(restitution: DoubleDouble, count: usize) -> Result<Vec<ExtendedDoubling>, Error> {
-    doubling_cascade_observed(restitution, count, &Unobserved)
-}
-
-/// [`doubling_cascade`] with an observer; the items are the doublings.
-///
-/// # Errors
-/// Those of [`doubling_cascade`]; [`Error::Stopped`] if the observer breaks.
-pub fn doubling_cascade_observed(
+pub fn doubling_cascade(
     restitution: DoubleDouble,
     count: usize,
     observer: &dyn Observer,
@@ -112,9 +107,10 @@ pub fn first_doubling_forcing(restitution: DoubleDouble) -> DoubleDouble {
 /// on.
 ///
 /// ```
+/// # use bouncing_disk_core::Unobserved;
 /// use bouncing_disk_core::extended::{doubling_cascade, feigenbaum_estimates};
 ///
-/// let estimates = feigenbaum_estimates(&doubling_cascade("0.5".parse()?, 8)?);
+/// let estimates = feigenbaum_estimates(&doubling_cascade("0.5".parse()?, 8, &Unobserved)?);
 /// assert_eq!(estimates.len(), 2);
 /// assert!((estimates[1].alpha - 2.502_907_875).abs() <= estimates[1].alpha_error);
 /// # Ok::<(), bouncing_disk_core::Error>(())

@@ -163,12 +163,12 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The map of a disk with this law of restitution on a vibrating platform.
     ///
     /// ```
-    /// use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, TangentGrowth, Vibration};
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, TangentGrowth, Unobserved, Vibration};
     ///
     /// // The largest Lyapunov exponent of an orbit under a law that depends on the speed.
     /// let law = KuwabaraKono::new(0.5, 3.0)?;
     /// let map = ImpactMap::with_law(Vibration::from_axial_forcing(0.55)?, law);
-    /// let mut state = map.iterate(ImpactState::from_normalised(0.8, 1.3)?, 1_000)?;
+    /// let mut state = map.iterate(ImpactState::from_normalised(0.8, 1.3)?, 1_000, &Unobserved)?;
     /// let mut growth = TangentGrowth::default();
     /// for _ in 0..1_000 {
     ///     let (impact, derivative) = map.step_with_derivative(state)?;
@@ -211,35 +211,22 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         self.vibration.impact_after(state.phase, self.rebound_speed(state.velocity)?)
     }
 
-    /// The impact that is so many [steps](Self::step) after the one in `state`, which itself is 0 steps after: the same bits as
-    /// one step after the other, and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
+    /// The impact that is so many [steps](Self::step) after the one in `state`: the same bits as one step after the
+    /// other, and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
+    /// The items of `observer` are the impacts.
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
+    /// # use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
     /// let start = ImpactState::from_normalised(0.8, 1.3)?;
-    /// let settled = map.iterate(start, 10_000)?;
-    /// assert_eq!(map.iterate(start, 10_001)?, map.step(settled)?.into());
+    /// let settled = map.iterate(start, 10_000, &Unobserved)?;
+    /// assert_eq!(map.iterate(start, 10_001, &Unobserved)?, map.step(settled)?.into());
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
     ///
     /// # Errors
     /// That of the first step that fails (see [`Self::step`]).
-    #[inline]
-    pub fn iterate(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
-        for _ in 0..impacts {
-            let speed = self.rebound_speed(state.velocity)?;
-            state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
-        }
-        Ok(state)
-    }
-
-    /// [`Self::iterate`] with an observer; the items are the impacts.
-    ///
-    /// # Errors
-    /// Those of [`Self::iterate`]; [`Error::Stopped`] if the observer breaks. Who wants to go on from there
-    /// iterates in parts.
-    pub fn iterate_observed(
+    pub fn iterate(
         &self,
         mut state: ImpactState,
         impacts: u64,
@@ -250,11 +237,21 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         let mut left = impacts;
         while left > 0 {
             let part = left.min(FLIGHTS_BETWEEN_CALLS);
-            state = self.iterate(state, part)?;
+            state = self.steps(state, part)?;
             left -= part;
             work.finish(part)?;
         }
         watch.end();
+        Ok(state)
+    }
+
+    /// Some steps that nobody watches.
+    #[inline]
+    pub(crate) fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
+        for _ in 0..impacts {
+            let speed = self.rebound_speed(state.velocity)?;
+            state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
+        }
         Ok(state)
     }
 

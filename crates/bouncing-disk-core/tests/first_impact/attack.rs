@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use bouncing_disk_core::{
     Axis, BasinSettings, ChatterPolicy, Error, Flights, Grid, Impact, ImpactMap, ImpactState, InstructionSet,
-    KnownOrbit, Launch, Orbit, OrbitEvent, Phase, SweepEvent, Vibration, sweep,
+    KnownOrbit, Launch, Orbit, OrbitEvent, Phase, SweepEvent, Unobserved, Vibration, sweep,
 };
 
 use crate::launches::{self, Case, SplitMix};
@@ -456,6 +456,7 @@ fn orbits_on_seams_keep_time_and_sweeps_show_them() {
                 }
                 if events.len() < EVENTS { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             },
+            &Unobserved,
         );
         assert_eq!(swept.unwrap(), expected);
     }
@@ -481,7 +482,7 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
         let fastest = 4.0 / (1.0 + map.restitution());
         let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();
         let grid = Grid::new(phase, speed).unwrap();
-        let Ok(basins) = map.basins(grid, &known, settings) else {
+        let Ok(basins) = map.basins(grid, &known, settings, &Unobserved) else {
             continue;
         };
         for row in 0..17 {

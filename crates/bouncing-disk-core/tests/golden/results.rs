@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit, Label,
-    OrbitBatch, OrbitEvent, Phase, Vibration, elementary,
+    OrbitBatch, OrbitEvent, Phase, Unobserved, Vibration, elementary,
 };
 
 use bouncing_disk_core::numerics::digest::Digest;
@@ -244,8 +244,9 @@ pub(crate) fn basin_labels() -> Vec<String> {
     let vibration = Vibration::from_axial_forcing(0.5).expect("legal");
     let map = ImpactMap::new(vibration, RESTITUTION).expect("legal");
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let orbit = map.settled_orbit(start, 4_000, 4, 1.0e-8).expect("no failure").expect("settles");
-    let radius = orbit.trapping_radius(&map, 64).expect("it attracts");
+    let orbit =
+        map.settled_orbit(start, 4_000, 4, 1.0e-8, &Unobserved).expect("no failure").expect("settles");
+    let radius = orbit.trapping_radius(&map, 64, &Unobserved).expect("it attracts");
     let known = [KnownOrbit::new(orbit, radius).expect("legal")];
     let axis = |high| Axis::new(0.0, high, CELLS).expect("legal");
     let grid = Grid::new(axis(1.0), axis(2.0)).expect("legal");
@@ -261,7 +262,7 @@ pub(crate) fn basin_labels() -> Vec<String> {
     let mut digest = Digest::new();
     digest.bytes(&one_by_one);
     let mut lines = one("basin labels", digest, 0x7cd3_49bf_9543_3cca);
-    let together = map.basins(grid, &known, settings).expect("no failure");
+    let together = map.basins(grid, &known, settings, &Unobserved).expect("no failure");
     if together.labels() != one_by_one {
         lines.push("labels in lockstep differ from those one by one".to_owned());
     }

@@ -165,6 +165,7 @@ impl Trajectory {
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk_core::Unobserved;
     use bouncing_disk_core::{ChatterPolicy, Phase};
 
     use proptest::prelude::*;
@@ -242,7 +243,7 @@ mod tests {
             assert_eq!(motion.end(), until);
             assert!(motion.check().is_ok() && motion.ledger().relative_closure() < 1e-12);
             let last = motion.at(until).unwrap();
-            assert_eq!(engine.clone().sample(span, 2).unwrap()[1], last);
+            assert_eq!(engine.clone().sample(span, 2, &Unobserved).unwrap()[1], last);
             let found = last.disk.angular_speed * scales.angular_speed;
             assert!((found - end).abs() <= 1e-12 * end.abs(), "{friction} {load} {speed}: {found} {end}");
             motion.records().len()

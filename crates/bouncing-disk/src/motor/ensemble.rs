@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Phase, Unobserved, Watch, WorkCount, read_checked};
+use bouncing_disk_core::{Observer, Phase, Watch, WorkCount, read_checked};
 
 use crate::error::{Error, check, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;
@@ -128,27 +128,14 @@ pub fn ensemble_members(
 /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
 /// from `settings.seed` ([`ensemble_members`]). The result is the same for any number of threads.
 ///
+/// The items of `observer` are the members, counted once when their transients are computed, and once more
+/// when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for each
+/// interval.  To keep the finished members of a call that is stopped, compute the [`ensemble_members`] with
+/// a [`TransientsRun`] and give its results to [`TransientEnsemble::of_results`].
+///
 /// # Errors
 /// Those of [`ensemble_members`] and [`transient`](crate::transient()).
 pub fn ensemble(
-    system: &System,
-    settings: &TransientSettings,
-    members: usize,
-) -> Result<TransientEnsemble, Error> {
-    ensemble_observed(system, settings, members, &Unobserved)
-}
-
-/// [`ensemble`](ensemble()) with an observer; the items are the members, counted once when their transients are
-/// computed, and once more when they are fitted. The fit of one curve is not interrupted: it takes some 10
-/// microseconds for each interval.
-///
-/// To keep the finished members of a call that is stopped, compute the [`ensemble_members`] with a [`TransientsRun`]
-/// and give its results to [`TransientEnsemble::of_results`].
-///
-/// # Errors
-/// Those of [`ensemble`](ensemble()); an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
-pub fn ensemble_observed(
     system: &System,
     settings: &TransientSettings,
     members: usize,
@@ -157,25 +144,18 @@ pub fn ensemble_observed(
     let members = ensemble_members(system, settings, members)?;
     let mut run = TransientsRun::new(members.len());
     run.advance(&members, observer)?;
-    TransientEnsemble::of_results_observed(run.into_results()?, observer)
+    TransientEnsemble::of_results(run.into_results()?, observer)
 }
 
 impl TransientEnsemble {
     /// The ensemble of the transients of all members: see [`TransientsRun`].
     ///
+    /// The items of `observer` are the fits.
+    ///
     /// # Errors
     /// The first error of a member, in their order; [`Error::OutOfRange`] for no member; those of
     /// [`ExponentialFit::new`].
-    pub fn of_results(results: Vec<Result<SpeedCurve, Error>>) -> Result<Self, Error> {
-        Self::of_results_observed(results, &Unobserved)
-    }
-
-    /// [`Self::of_results`] with an observer; the items are the fits.
-    ///
-    /// # Errors
-    /// Those of [`Self::of_results`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped))
-    /// if the observer breaks.
-    pub fn of_results_observed(
+    pub fn of_results(
         results: Vec<Result<SpeedCurve, Error>>,
         observer: &dyn Observer,
     ) -> Result<Self, Error> {
@@ -219,6 +199,7 @@ impl TransientEnsemble {
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk_core::Unobserved;
     use std::ops::ControlFlow;
 
     use bouncing_disk_core::{ChatterPolicy, Progress};
@@ -278,12 +259,13 @@ mod tests {
         let system = motor(1e-8, 0.0);
         let settings =
             TransientSettings { duration: 0.2, intervals: 20, seed: 1, ..TransientSettings::default() };
-        let all = ensemble(&system, &settings, 4).expect("no failure");
+        let all = ensemble(&system, &settings, 4, &Unobserved).expect("no failure");
         let seeds = [1, 2, 3, 4].map(|counted| SplitMix64::new(counted).next_number());
         for (k, curve) in all.curves.iter().enumerate() {
             let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
             let own = |seed: u64| {
-                crate::transient(&system, phase, &TransientSettings { seed, ..settings }).expect("no failure")
+                crate::transient(&system, phase, &TransientSettings { seed, ..settings }, &Unobserved)
+                    .expect("no failure")
             };
             assert_eq!(*curve, own(seeds[k]), "{k}");
             assert_ne!(*curve, own(seeds[k ^ 1]), "the seed matters");
@@ -362,7 +344,7 @@ mod tests {
                     relaunch_perturbation,
                     ..TransientSettings::default()
                 };
-                let runs = ensemble(&system, &settings, 16).expect("no failure");
+                let runs = ensemble(&system, &settings, 16, &Unobserved).expect("no failure");
                 let means: Vec<f64> =
                     runs.curves.iter().map(|curve| curve.mean_over_last(0.6).expect("legal")).collect();
                 let spread = Spread::of(&means).expect("finite");
@@ -391,16 +373,16 @@ mod tests {
             stops += 1;
         }
         let results = run.into_results().expect("done");
-        let in_parts = TransientEnsemble::of_results(results.clone()).expect("fitted");
-        assert_eq!(Ok(in_parts), ensemble(&system, &settings, 5));
+        let in_parts = TransientEnsemble::of_results(results.clone(), &Unobserved).expect("fitted");
+        assert_eq!(Ok(in_parts), ensemble(&system, &settings, 5, &Unobserved));
         for stopped in [
-            TransientEnsemble::of_results_observed(results, &stop_at(0)),
-            ensemble_observed(&system, &settings, 5, &stop_at(0)),
+            TransientEnsemble::of_results(results, &stop_at(0)),
+            ensemble(&system, &settings, 5, &stop_at(0)),
         ] {
             let expected = bouncing_disk_core::Error::Stopped { done: 0, total: 5 };
             assert_eq!(stopped, Err(Error::Core(expected)));
         }
-        assert!(TransientEnsemble::of_results(Vec::new()).is_err());
+        assert!(TransientEnsemble::of_results(Vec::new(), &Unobserved).is_err());
     }
 
     #[test]
@@ -409,7 +391,7 @@ mod tests {
         let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-            pool.install(|| ensemble(&system, &settings, 5)).expect("no failure")
+            pool.install(|| ensemble(&system, &settings, 5, &Unobserved)).expect("no failure")
         };
         let all = run(1);
         assert_eq!(all, run(2));
@@ -426,9 +408,9 @@ mod tests {
             TransientSettings { intervals: 2, ..TransientSettings::default() },
             TransientSettings { relaunch_perturbation: -1.0, ..TransientSettings::default() },
         ] {
-            assert!(matches!(ensemble(&system, &settings, 2), Err(Error::OutOfRange { .. })));
+            assert!(matches!(ensemble(&system, &settings, 2, &Unobserved), Err(Error::OutOfRange { .. })));
         }
-        assert!(ensemble(&system, &TransientSettings::default(), 0).is_err());
+        assert!(ensemble(&system, &TransientSettings::default(), 0, &Unobserved).is_err());
     }
 
     #[test]
@@ -436,7 +418,7 @@ mod tests {
         let system = motor(1e-8, 0.0);
         for (members, intervals) in [(usize::MAX, 600), (MAX_MEMBERS + 1, 3), (MAX_MEMBERS, 1_000_000)] {
             let settings = TransientSettings { intervals, ..TransientSettings::default() };
-            let error = ensemble(&system, &settings, members).expect_err("too many");
+            let error = ensemble(&system, &settings, members, &Unobserved).expect_err("too many");
             let asked = if intervals > 600 { members * intervals } else { members };
             assert!(
                 matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { count, .. }) if count == asked as u64),

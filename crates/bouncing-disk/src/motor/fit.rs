@@ -53,19 +53,12 @@ impl ExponentialFit {
     /// The model is linear in the steady speed, so the search is over the time constant alone (variable
     /// projection), in its logarithm, from a tenth of the shortest to a hundred times the longest time.
     ///
+    /// A fit to a million points takes seconds. The one item of `observer` is the fit.
+    ///
     /// # Errors
     /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
     /// numbers that are not finite; for a result that a double cannot hold.
-    pub fn new(times: &[f64], speeds: &[f64]) -> Result<Self, Error> {
-        Self::new_observed(times, speeds, &Unobserved)
-    }
-
-    /// [`Self::new`] with an observer: a fit to a million points takes seconds. The one item is the fit.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-    /// breaks.
-    pub fn new_observed(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
+    pub fn new(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
         observed(observer, |work| Self::counted(times, speeds, work))
     }
 
@@ -289,7 +282,7 @@ mod tests {
             let times: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();
             let truth = ExponentialFit { steady_speed: steady, time_constant: constant, residual: 0.0 };
             let speeds: Vec<f64> = times.iter().map(|&time| truth.speed(time)).collect();
-            let fit = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            let fit = ExponentialFit::new(&times, &speeds, &Unobserved).expect("legal curve");
             // The residual is flat at its minimum: half of the digits of the time constant are lost.
             assert!((fit.time_constant / constant - 1.0).abs() < 1e-5, "{fit:?}");
             assert!((fit.steady_speed / steady - 1.0).abs() < 1e-5, "{fit:?}");
@@ -318,7 +311,7 @@ mod tests {
                     5.0 * exponential(time / saturation) + scatter * f64::from(i * 37 % 11) - scatter
                 })
                 .collect();
-            let curve = ExponentialFit::new(&times, &speeds).expect("legal curve");
+            let curve = ExponentialFit::new(&times, &speeds, &Unobserved).expect("legal curve");
             let ramp = RampFit::new(&times, &speeds).expect("legal curve");
             let of_curve = |steady: f64, constant: f64| {
                 misfit(&times, &speeds, |time| steady * (1.0 - exp(-time / constant)))
@@ -345,13 +338,15 @@ mod tests {
     #[test]
     fn time_constants_lie_between_a_tenth_of_the_first_and_a_hundred_times_the_last_time() {
         let times = [0.0, 0.5, 1.0, 2.0, 4.0];
-        let straight = ExponentialFit::new(&times, &times).expect("legal curve");
+        let straight = ExponentialFit::new(&times, &times, &Unobserved).expect("legal curve");
         assert!((straight.time_constant / 400.0 - 1.0).abs() < 1e-6, "{straight:?}");
-        let at_once = ExponentialFit::new(&times, &[0.0, 7.0, 7.0, 7.0, 7.0]).expect("legal curve");
+        let at_once =
+            ExponentialFit::new(&times, &[0.0, 7.0, 7.0, 7.0, 7.0], &Unobserved).expect("legal curve");
         assert!((at_once.time_constant / 0.05 - 1.0).abs() < 1e-6, "{at_once:?}");
         assert!((at_once.steady_speed - 7.0).abs() < 1e-3);
         // A disk that does not turn.
-        let still = ExponentialFit::new(&times[..3], &[0.0; 3]).expect("three points are enough");
+        let still =
+            ExponentialFit::new(&times[..3], &[0.0; 3], &Unobserved).expect("three points are enough");
         assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
     }
 
@@ -370,10 +365,10 @@ mod tests {
                 let go_on = asked.fetch_add(1, Ordering::Relaxed) + 1 < calls;
                 if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
-            (ExponentialFit::new_observed(&times, &speeds, &observer), asked.into_inner())
+            (ExponentialFit::new(&times, &speeds, &observer), asked.into_inner())
         };
         let (whole, asked) = fits(u64::MAX);
-        assert_eq!(whole, ExponentialFit::new(&times, &speeds));
+        assert_eq!(whole, ExponentialFit::new(&times, &speeds, &Unobserved));
         assert!(asked > 100, "{asked}");
         for calls in [1, 2, 50, asked - 1] {
             let stopped = Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total: 1 });
@@ -390,14 +385,14 @@ mod tests {
             ([0.0, 1.0, f64::NAN], f64::NAN),
             ([f64::NAN, 1.0, 2.0], f64::NAN),
         ] {
-            match ExponentialFit::new(&times, &[1.0; 3]) {
+            match ExponentialFit::new(&times, &[1.0; 3], &Unobserved) {
                 Err(Error::OutOfRange { field: "times of the speed curve", value, .. }) => {
                     assert_eq!(value.to_bits(), bad.to_bits(), "{times:?}");
                 }
                 other => panic!("{times:?}: {other:?}"),
             }
         }
-        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[1.0; 3]).is_ok());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[1.0; 3], &Unobserved).is_ok());
     }
 
     #[test]
@@ -418,16 +413,16 @@ mod tests {
         let speeds: Vec<f64> = times.iter().map(|&time| ramp.speed(time)).collect();
         let fit = RampFit::new(&times, &speeds).expect("legal curve");
         assert!((fit.rise_time - 2.1).abs() < 1e-4 && (fit.steady_speed - 17.0).abs() < 1e-4, "{fit:?}");
-        let other = ExponentialFit::new(&times, &speeds).expect("legal curve");
+        let other = ExponentialFit::new(&times, &speeds, &Unobserved).expect("legal curve");
         assert!(fit.residual < 1e-3 * other.residual);
     }
 
     #[test]
     fn illegal_curves_are_named() {
-        assert!(ExponentialFit::new(&[0.0, 1.0], &[0.0, 1.0]).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 2.0]).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, 1.0]).is_err());
-        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0]).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0], &[0.0, 1.0], &Unobserved).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 1.0], &[0.0, 1.0, 2.0], &Unobserved).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, 1.0], &Unobserved).is_err());
+        assert!(ExponentialFit::new(&[0.0, 1.0, 2.0], &[0.0, f64::NAN, 1.0], &Unobserved).is_err());
     }
 
     fn curve(steady: f64, constant: f64, times: &[f64]) -> Vec<f64> {
@@ -449,7 +444,8 @@ mod tests {
             (1e200, 1e-300),
         ] {
             let times: Vec<f64> = ordinary.iter().map(|value| value * time).collect();
-            let fit = ExponentialFit::new(&times, &curve(20.0 * speed, 0.6 * time, &times)).expect("legal");
+            let fit = ExponentialFit::new(&times, &curve(20.0 * speed, 0.6 * time, &times), &Unobserved)
+                .expect("legal");
             assert!((fit.time_constant / (0.6 * time) - 1.0).abs() < 1e-5, "{time} {speed}: {fit:?}");
             assert!((fit.steady_speed / (20.0 * speed) - 1.0).abs() < 1e-5, "{time} {speed}: {fit:?}");
             assert!(fit.residual < 1e-5 * (20.0 * speed).abs(), "{time} {speed}: {fit:?}");
@@ -461,7 +457,7 @@ mod tests {
         let mut times: Vec<f64> = (0..=200).map(|i| f64::from(i) * 0.02).collect();
         for first in [5e-324, 1e-308, 1e-200, 1e-30] {
             times[0] = first;
-            let fit = ExponentialFit::new(&times, &curve(20.0, 0.6, &times)).expect("legal");
+            let fit = ExponentialFit::new(&times, &curve(20.0, 0.6, &times), &Unobserved).expect("legal");
             assert!((fit.time_constant / 0.6 - 1.0).abs() < 1e-5, "{first}: {fit:?}");
             assert!((fit.steady_speed / 20.0 - 1.0).abs() < 1e-5, "{first}: {fit:?}");
         }
@@ -471,13 +467,13 @@ mod tests {
     fn a_fit_that_no_double_holds_is_refused() {
         // Straight lines: the constant ends at a hundred times the longest time.
         let line = |last: f64| [0.25, 0.5, 0.75, 1.0].map(|share| share * last);
-        let error = ExponentialFit::new(&line(1.7e308), &line(1.0)).expect_err("too long");
+        let error = ExponentialFit::new(&line(1.7e308), &line(1.0), &Unobserved).expect_err("too long");
         assert!(matches!(error, Error::OutOfRange { field: "fitted time (s)", .. }), "{error}");
-        let error = ExponentialFit::new(&line(1.0), &line(1.7e308)).expect_err("too fast");
+        let error = ExponentialFit::new(&line(1.0), &line(1.7e308), &Unobserved).expect_err("too fast");
         assert!(matches!(error, Error::OutOfRange { field: "fitted steady speed (rad/s)", .. }), "{error}");
         for fit in [
-            ExponentialFit::new(&[0.0, 5e-324, 1e-323], &[0.0, 1.0, 1.0]),
-            ExponentialFit::new(&[1.0, 2.0, 3.0], &[0.0; 3]),
+            ExponentialFit::new(&[0.0, 5e-324, 1e-323], &[0.0, 1.0, 1.0], &Unobserved),
+            ExponentialFit::new(&[1.0, 2.0, 3.0], &[0.0; 3], &Unobserved),
         ] {
             assert!(fit.is_err() || fit.is_ok_and(|fit| fit.time_constant > 0.0 && !fit.residual.is_nan()));
         }

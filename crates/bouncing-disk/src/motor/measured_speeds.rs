@@ -6,7 +6,7 @@ pub(crate) mod csv_file;
 pub(crate) mod error;
 pub(crate) mod units;
 
-use bouncing_disk_core::{Observer, Unobserved};
+use bouncing_disk_core::Observer;
 
 use self::units::{SpeedUnit, TimeUnit};
 use crate::error::{Error, check, within_limit};
@@ -30,6 +30,7 @@ pub struct MeasuredRun {
 /// Measured speeds of one motor, in one run or several.
 ///
 /// ```
+/// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::core::elementary::exp;
 /// use bouncing_disk::{FitSettings, MeasuredRun, MeasuredSpeeds};
 ///
@@ -37,7 +38,7 @@ pub struct MeasuredRun {
 /// let times: Vec<f64> = (0..200).map(|i| 0.02 * f64::from(i)).collect();
 /// let speeds = times.iter().map(|time| 200.0 * (1.0 - exp(-time / 0.5))).map(|speed| speed.round() / 10.0);
 /// let measured = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, speeds: speeds.collect(), times }])?;
-/// let fit = measured.fit(&FitSettings::default())?;
+/// let fit = measured.fit(&FitSettings::default(), &Unobserved)?;
 /// assert!((fit.time_constant().value - 0.5).abs() < 1e-3);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
@@ -82,25 +83,14 @@ impl MeasuredSpeeds {
 
     /// Steady speed and time constant with intervals, of all runs together ([`TransientFit::of_measured`]).
     ///
-    /// # Errors
-    /// Those of [`TransientFit::of_measured`].
-    pub fn fit(&self, settings: &FitSettings) -> Result<TransientFit, Error> {
-        self.fit_observed(settings, &Unobserved)
-    }
-
-    /// [`Self::fit`] with an observer; the items are the resampled curves, once for each form.
+    /// The items of `observer` are the resampled curves, once for each form.
     ///
     /// # Errors
-    /// Those of [`Self::fit`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn fit_observed(
-        &self,
-        settings: &FitSettings,
-        observer: &dyn Observer,
-    ) -> Result<TransientFit, Error> {
+    /// Those of [`TransientFit::of_measured`].
+    pub fn fit(&self, settings: &FitSettings, observer: &dyn Observer) -> Result<TransientFit, Error> {
         let runs: Vec<_> =
             self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
-        TransientFit::of_measured_observed(&runs, settings, observer)
+        TransientFit::of_measured(&runs, settings, observer)
     }
 
     /// The friction with its interval from each run, all of which are braking curves of this rotor.

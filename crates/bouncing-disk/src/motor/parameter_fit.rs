@@ -18,7 +18,7 @@ mod weights;
 mod windows;
 
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
-use bouncing_disk_core::{Observer, Unobserved, Watch};
+use bouncing_disk_core::{Observer, Watch};
 use nalgebra::DVector;
 
 use self::bootstrap::{percentile, resampled_places};
@@ -55,7 +55,7 @@ const AT_END: f64 = 1.0e-6;
 /// Parameters of a motor that were fitted to its transients.
 ///
 /// ```
-/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::core::{Phase, Unobserved};
 /// use bouncing_disk::{
 ///     FitParameter, MeasuredRun, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit, ParameterFitSettings,
 ///     FitRange, RunPreload, TransientSettings, transient,
@@ -65,7 +65,7 @@ const AT_END: f64 = 1.0e-6;
 /// let sheet = Motor::paper_70_khz();
 /// let built = sheet.with(|sheet| sheet.friction = 0.2)?;
 /// let settings = TransientSettings { duration: 2.0, intervals: 200, ..TransientSettings::default() };
-/// let curve = transient(built.system(), Phase::new(1.0)?, &settings)?;
+/// let curve = transient(built.system(), Phase::new(1.0)?, &settings, &Unobserved)?;
 /// let run = MeasuredRun { member: 0, times: curve.times, speeds: curve.speeds };
 /// let measured = MeasuredTransient {
 ///     preload: RunPreload::Acceleration(9.8),
@@ -133,6 +133,8 @@ impl ParameterFit {
     /// Fits the parameters that have a range to the transients, which may be at different preloads. All else
     /// is that of the data sheet, also the load; its preload is not used.
     ///
+    /// The items of `observer` are the evaluations that the search may spend.
+    ///
     /// # Errors
     /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
     /// times that do not count from the switch-on, a parameter at the end of its range, a search that found no end, a model
@@ -140,20 +142,6 @@ impl ParameterFit {
     /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
     /// and a range that is illegal or does not hold the data sheet's value.
     pub fn new(
-        nominal: &Motor,
-        transients: &[MeasuredTransient],
-        ranges: &[FitRange],
-        settings: &ParameterFitSettings,
-    ) -> Result<Self, Error> {
-        Self::new_observed(nominal, transients, ranges, settings, &Unobserved)
-    }
-
-    /// [`Self::new`] with an observer; the items are the evaluations that the search may spend.
-    ///
-    /// # Errors
-    /// Those of [`Self::new`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn new_observed(
         nominal: &Motor,
         transients: &[MeasuredTransient],
         ranges: &[FitRange],

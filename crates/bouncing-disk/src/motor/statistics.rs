@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use crate::error::Error;
 use crate::motion::initial_condition::InitialCondition;
@@ -41,7 +41,7 @@ pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitC
         ..MultiTossSettings::default()
     };
     let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
-    Ok(multi_toss(*motor, start, settings)?.class)
+    Ok(multi_toss(*motor, start, settings, &Unobserved)?.class)
 }
 
 /// Which curve a stall acceleration was read from.
@@ -155,7 +155,7 @@ mod tests {
             intervals: 240,
             ..TransientSettings::default()
         };
-        let runs = ensemble(motor, &settings, members).expect("no failure");
+        let runs = ensemble(motor, &settings, members, &Unobserved).expect("no failure");
         MotorStatistics::of(motor, &runs, settings.duration, settings.policy).expect("no failure")
     }
 

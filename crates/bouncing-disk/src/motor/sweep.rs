@@ -12,7 +12,7 @@ pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;
 
-use bouncing_disk_core::{Observer, Unobserved, read_checked};
+use bouncing_disk_core::{Observer, read_checked};
 
 use self::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 use self::result::MotorSweepResult;
@@ -37,6 +37,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// alone. The results are the same bits for any number of threads and however often a run was stopped.
 ///
 /// ```
+/// use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
 ///
 /// let motor = Motor::paper_70_khz();
@@ -51,7 +52,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// )?;
 /// // They share the vertical motion.
 /// assert_eq!((sweep.cells(), sweep.groups().len()), (6, 1));
-/// let speeds = sweep.run()?.matrix(SweepQuantity::Speed);
+/// let speeds = sweep.run(&Unobserved)?.matrix(SweepQuantity::Speed);
 /// assert!(speeds[0][0] > speeds[0][1] && speeds[0][1] < speeds[1][1]);
 /// // The last load is more than the smaller friction can hold: there is no speed.
 /// assert_eq!(speeds[0][2], None);
@@ -146,19 +147,12 @@ impl MotorSweep {
 
     /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
     ///
-    /// # Errors
-    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
-    pub fn run(&self) -> Result<MotorSweepResult, Error> {
-        self.run_observed(&Unobserved)
-    }
-
-    /// [`Self::run`] with an observer; the items are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
+    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
     /// finished.
     ///
     /// # Errors
-    /// Those of [`Self::run`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-    /// breaks.
-    pub fn run_observed(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
+    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
+    pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
         let mut run = MotorSweepRun::new(self);
         run.advance(self, observer)?;
         run.into_result(self)

@@ -123,7 +123,7 @@ impl SpeedCurve {
     /// # Errors
     /// Those of [`ExponentialFit::new`].
     pub fn fit(&self) -> Result<ExponentialFit, Error> {
-        ExponentialFit::new(&self.times, &self.speeds)
+        ExponentialFit::new(&self.times, &self.speeds, &Unobserved)
     }
 
     /// [`transient`](crate::transient()) as a part of a longer call.
@@ -160,19 +160,12 @@ read_checked!(SpeedCurve as UncheckedCurve {
 
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///
+/// The items of `observer` are the intervals of the curve.
+///
 /// # Errors
 /// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the core where there is no
 /// memory for the curve; the errors of the flights.
-pub fn transient(system: &System, phase: Phase, settings: &TransientSettings) -> Result<SpeedCurve, Error> {
-    transient_observed(system, phase, settings, &Unobserved)
-}
-
-/// [`transient`] with an observer; the items are the intervals of the curve.
-///
-/// # Errors
-/// Those of [`transient`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
-pub fn transient_observed(
+pub fn transient(
     system: &System,
     phase: Phase,
     settings: &TransientSettings,
@@ -473,6 +466,7 @@ mod tests {
                 &testing::motor(1e-8, 0.0),
                 phase,
                 &TransientSettings { duration, intervals, ..Default::default() },
+                &Unobserved,
             )
         };
         for duration in [5e-324, 1e-310, 1e-300, 1e-21] {
@@ -564,11 +558,11 @@ mod tests {
         };
         let settings = TransientSettings { duration: 1.0, intervals: 8, ..TransientSettings::default() };
         let phase = Phase::new(4.0).expect("finite");
-        let sticking = transient(&motor(1.0, 0.0), phase, &settings).expect("no failure");
+        let sticking = transient(&motor(1.0, 0.0), phase, &settings, &Unobserved).expect("no failure");
         // Over 8750 periods nothing is left but the ends of the interval.
         assert!(sticking.speeds[1..].iter().all(|speed| speed.abs() < 1e-8), "{:?}", sticking.speeds);
         // Friction takes mu g a_e/a_g^2 = 30.9 rad/s^2 from a load of 50.
-        let sliding = transient(&motor(0.1, 50.0), phase, &settings).expect("no failure");
+        let sliding = transient(&motor(0.1, 50.0), phase, &settings, &Unobserved).expect("no failure");
         let slowing = 50.0 - motor(0.1, 50.0).disk().friction_acceleration();
         for (time, speed) in sliding.times.iter().zip(&sliding.speeds) {
             assert!((speed + slowing * time).abs() < 1e-3, "{time} {speed} {slowing}");

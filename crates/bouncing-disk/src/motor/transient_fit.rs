@@ -134,16 +134,17 @@ pub struct RiseEstimate {
 /// rest ([`Self::zero_time`]), not which of the two it was.
 ///
 /// ```
+/// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::{Error, FitRefusal, FitSettings, System, TransientFit, TransientSettings, ensemble};
 ///
 /// let motor = System::motor();
 /// let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
-/// let fit = TransientFit::new(&ensemble(&motor, &settings, 8)?.curves, &FitSettings::default())?;
+/// let fit = TransientFit::new(&ensemble(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default())?;
 /// assert!(fit.steady_speed().low > 15.0 && fit.steady_speed().high < 23.0);
 ///
 /// // Too short for any statement: the speed still rises at the end.
 /// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
-/// let refused = TransientFit::new(&ensemble(&motor, &settings, 8)?.curves, &FitSettings::default());
+/// let refused = TransientFit::new(&ensemble(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
 /// assert!(matches!(refused, Err(Error::FitRefused { .. })));
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
@@ -237,19 +238,12 @@ impl TransientFit {
     /// intervals by its residuals, whose noise may be correlated and vary along the curve, of at least [`LEAST_MEMBERS`]
     /// with intervals by their scatter.
     ///
+    /// The items of `observer` are the resampled curves, once for each form.
+    ///
     /// # Errors
     /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from rest and the
     /// runs deny it.
-    pub fn of_measured(runs: &[(&[f64], &[f64])], settings: &FitSettings) -> Result<Self, Error> {
-        Self::of_measured_observed(runs, settings, &Unobserved)
-    }
-
-    /// [`Self::of_measured`] with an observer; the items are the resampled curves, once for each form.
-    ///
-    /// # Errors
-    /// Those of [`Self::of_measured`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-    /// breaks.
-    pub fn of_measured_observed(
+    pub fn of_measured(
         runs: &[(&[f64], &[f64])],
         settings: &FitSettings,
         observer: &dyn Observer,

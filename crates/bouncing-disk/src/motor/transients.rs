@@ -3,8 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bouncing_disk_core::{
-    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Unobserved, Watch,
-    WorkCount,
+    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Watch, WorkCount,
 };
 
 use super::rotors::{Carry, Rotors};
@@ -46,8 +45,10 @@ impl TransientMember {
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
 ///
+/// The items of `observer` are the members. A [`TransientsRun`] keeps the finished ones of a call that is stopped.
+///
 /// ```
-/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::core::{Phase, Unobserved};
 /// use bouncing_disk::{System, TransientMember, TransientSettings, transient, transients};
 ///
 /// // The motor of Table III at a hundred preloads (m/s^2), 5 ms each.
@@ -61,27 +62,15 @@ impl TransientMember {
 ///         })
 ///     })
 ///     .collect::<Result<Vec<_>, bouncing_disk::Error>>()?;
-/// let curves = transients(&members);
-/// let alone = transient(&members[7].system, members[7].phase, &members[7].settings);
+/// let curves = transients(&members, &Unobserved)?;
+/// let alone = transient(&members[7].system, members[7].phase, &members[7].settings, &Unobserved);
 /// assert_eq!(curves[7], alone);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
-#[must_use]
-pub fn transients(members: &[TransientMember]) -> Vec<Result<SpeedCurve, Error>> {
-    let mut run = TransientsRun::new(members.len());
-    // Nobody stops it, and the errors of the members are among the results: it is done.
-    match run.advance(members, &Unobserved).and_then(|()| run.into_results()) {
-        Ok(results) => results,
-        Err(error) => vec![Err(error); members.len()],
-    }
-}
-
-/// [`transients`] with an observer; the items are the members. A [`TransientsRun`] keeps the finished ones of
-/// a call that is stopped.
 ///
 /// # Errors
-/// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
-pub fn transients_observed(
+/// Only that of the core if the observer breaks.
+pub fn transients(
     members: &[TransientMember],
     observer: &dyn Observer,
 ) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
@@ -99,7 +88,7 @@ pub fn transients_observed(
 /// ```
 /// use std::ops::ControlFlow;
 ///
-/// use bouncing_disk::core::Progress;
+/// use bouncing_disk::core::{Progress, Unobserved};
 /// use bouncing_disk::{
 ///     System, TransientEnsemble, TransientSettings, TransientsRun, ensemble, ensemble_members,
 /// };
@@ -112,7 +101,7 @@ pub fn transients_observed(
 ///     eprint!("\r{} of {} members", progress.done, progress.total);
 ///     ControlFlow::Continue(())
 /// })?;
-/// assert_eq!(TransientEnsemble::of_results(run.into_results()?)?, ensemble(&motor, &settings, 8)?);
+/// assert_eq!(TransientEnsemble::of_results(run.into_results()?, &Unobserved)?, ensemble(&motor, &settings, 8, &Unobserved)?);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

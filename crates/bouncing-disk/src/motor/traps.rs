@@ -109,16 +109,22 @@ fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<Chatt
     Ok(excursion.and_then(|excursion| excursion.cycle))
 }
 
+/// A motor is built in about the time of so many flights.
+const FLIGHTS_OF_BUILDING: u64 = 8;
+
 /// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. Other alternatives of the
 /// data sheet are replaced by the acceleration.
 ///
+/// The items of `observer` are the preloads.
+///
 /// ```
+/// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::{Motor, low_period_traps};
 ///
 /// let motor = Motor::paper_70_khz();
 /// // Gamma is 12.51 in the middle of these: a flight of twelve and a half periods lands softly.
 /// let soft = motor.system().platform().peak_acceleration() / (12.51 * std::f64::consts::PI);
-/// let verdicts = low_period_traps(&motor, &[0.97 * soft, soft, 1.03 * soft])?;
+/// let verdicts = low_period_traps(&motor, &[0.97 * soft, soft, 1.03 * soft], &Unobserved)?;
 /// let trapped: Vec<bool> = verdicts.iter().map(|verdict| verdict.is_trap).collect();
 /// assert_eq!(trapped, [false, true, false]);
 /// # Ok::<(), bouncing_disk::Error>(())
@@ -126,19 +132,7 @@ fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<Chatt
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for a preload that is not positive; the errors of the flights.
-pub fn low_period_traps(motor: &Motor, preloads: &[f64]) -> Result<Vec<TrapVerdict>, Error> {
-    low_period_traps_observed(motor, preloads, &Unobserved)
-}
-
-/// A motor is built in about the time of so many flights.
-const FLIGHTS_OF_BUILDING: u64 = 8;
-
-/// [`low_period_traps`] with an observer; the items are the preloads.
-///
-/// # Errors
-/// Those of [`low_period_traps`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-/// the observer breaks.
-pub fn low_period_traps_observed(
+pub fn low_period_traps(
     motor: &Motor,
     preloads: &[f64],
     observer: &dyn Observer,

@@ -35,7 +35,7 @@ fn provenance(
 }
 
 impl MotorSweep {
-    /// [`Self::run_observed`] with a [`Journal`]: each group of cells ([`Self::groups`]) is appended when it is
+    /// [`Self::run`] with a [`Journal`]: each group of cells ([`Self::groups`]) is appended when it is
     /// finished, and those that an earlier call has appended, in a process that was stopped or killed at any time, are
     /// taken from there. The result is that of one call without a journal, bit for bit. The items of the observer
     /// are the cells.
@@ -65,7 +65,7 @@ impl MotorSweep {
     /// assert!(matches!(stopped, Err(StorageError::Model(_))));
     ///
     /// // It goes on where it was.
-    /// assert_eq!(sweep.run_with_journal(&path, &Unobserved)?, sweep.run()?);
+    /// assert_eq!(sweep.run_with_journal(&path, &Unobserved)?, sweep.run(&Unobserved)?);
     /// # std::fs::remove_file(&path).expect("removable");
     /// # Ok::<(), StorageError>(())
     /// ```

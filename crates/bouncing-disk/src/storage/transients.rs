@@ -30,7 +30,7 @@ use crate::motor::transients::{TransientMember, TransientsRun};
 /// use std::ops::ControlFlow;
 /// use std::sync::atomic::{AtomicU32, Ordering};
 ///
-/// use bouncing_disk::core::Progress;
+/// use bouncing_disk::core::{Progress, Unobserved};
 /// use bouncing_disk::{
 ///     JOURNAL, Provenance, StorageError, System, TransientSettings, ensemble_members, transients,
 ///     transients_with_journal,
@@ -59,7 +59,7 @@ use crate::motor::transients::{TransientMember, TransientsRun};
 /// // It goes on where it was.
 /// let go_on = |_: Progress| ControlFlow::Continue(());
 /// let curves = transients_with_journal(&path, &key, &members, &go_on)?;
-/// assert_eq!(curves, transients(&members));
+/// assert_eq!(curves, transients(&members, &Unobserved)?);
 /// # std::fs::remove_file(&path).expect("removable");
 /// # Ok::<(), StorageError>(())
 /// ```

@@ -11,7 +11,7 @@ mod search;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk_core::elementary::{acos, tan};
-use bouncing_disk_core::{Observer, Unobserved, Watch};
+use bouncing_disk_core::{Observer, Watch};
 
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;
@@ -208,7 +208,10 @@ impl TossDesign {
 /// The hand motion that is best under these constraints: its frequency, its amplitude angle and its phase
 /// lag.
 ///
+/// The items of `observer` are steps of the search.
+///
 /// ```
+/// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::{TossConstraints, best_toss};
 ///
 /// // The dough of Table I, on hands whose flour makes the friction uncertain, no higher than half a metre.
@@ -218,7 +221,7 @@ impl TossDesign {
 ///     highest_flight: Some(0.5),
 ///     ..TossConstraints::pizza_toss()
 /// };
-/// let design = best_toss(&constraints)?;
+/// let design = best_toss(&constraints, &Unobserved)?;
 /// assert!(design.value > 15.0 && design.flight_height < 0.5 + 1e-9);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
@@ -226,19 +229,7 @@ impl TossDesign {
 /// # Errors
 /// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none
 /// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
-pub fn best_toss(constraints: &TossConstraints) -> Result<TossDesign, Error> {
-    best_toss_observed(constraints, &Unobserved)
-}
-
-/// [`best_toss`] with an observer; the items are steps of the search.
-///
-/// # Errors
-/// Those of [`best_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
-pub fn best_toss_observed(
-    constraints: &TossConstraints,
-    observer: &dyn Observer,
-) -> Result<TossDesign, Error> {
+pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Result<TossDesign, Error> {
     constraints.check()?;
     let watch = Watch::begin(observer, 0, search::STAGES)?;
     let found = search(constraints, &watch)?;

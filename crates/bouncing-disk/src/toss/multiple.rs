@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
     ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer, Stability,
-    TangentGrowth, Unobserved, Watch, WorkCount, read_checked,
+    TangentGrowth, Watch, WorkCount, read_checked,
 };
 
 use crate::error::{Error, check, not_negative, room_for};
@@ -150,23 +150,12 @@ pub struct TossOrbit {
 
 /// Follows a motion through its transient and says what it has settled on.
 ///
+/// The items of `observer` are the impacts, of the transient and examined.
+///
 /// # Errors
 /// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
 /// memory for; those of [`Collisions`].
 pub fn multi_toss(
-    system: impl Into<DimensionlessSystem>,
-    start: InitialCondition,
-    settings: MultiTossSettings,
-) -> Result<TossOrbit, Error> {
-    multi_toss_observed(system, start, settings, &Unobserved)
-}
-
-/// [`multi_toss`] with an observer; the items are the impacts, of the transient and examined.
-///
-/// # Errors
-/// Those of [`multi_toss`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
-pub fn multi_toss_observed(
     system: impl Into<DimensionlessSystem>,
     start: InitialCondition,
     settings: MultiTossSettings,
@@ -355,6 +344,7 @@ fn growth_rate(
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk_core::Unobserved;
     use std::f64::consts::PI;
     use std::ops::ControlFlow;
 
@@ -387,7 +377,9 @@ mod tests {
             [(0.36, 100.0, 0.0), (0.42, 1.0, -0.26 * PI), (0.45, 30.0, 2.0)]
         {
             let system = system(forcing, angular_forcing, lag);
-            let orbit = multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default()).unwrap();
+            let orbit =
+                multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default(), &Unobserved)
+                    .unwrap();
             let OrbitClass::Periodic { period, platform_periods, vertical, rotary } = orbit.class else {
                 panic!("{:?}", orbit.class)
             };
@@ -406,7 +398,7 @@ mod tests {
         for policy in [ChatterPolicy::Complete, crate::PAPER_CHATTER] {
             let system = system(0.48, 1.0, 0.0);
             let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
-            let orbit = multi_toss(system, from_rest(&system), settings).unwrap();
+            let orbit = multi_toss(system, from_rest(&system), settings, &Unobserved).unwrap();
             let OrbitClass::Chattering(cycle) = orbit.class else { panic!("{:?}", orbit.class) };
             assert!(cycle.is_single_toss());
             assert_eq!(cycle.long_flights, 1);
@@ -423,14 +415,15 @@ mod tests {
             relative_speed: 2.1,
             angular_speed: 0.0,
         };
-        let orbit = multi_toss(chaotic, start, MultiTossSettings::default()).unwrap();
+        let orbit = multi_toss(chaotic, start, MultiTossSettings::default(), &Unobserved).unwrap();
         let OrbitClass::Chaotic { lyapunov_exponent } = orbit.class else { panic!("{:?}", orbit.class) };
         assert!(lyapunov_exponent.impacts == 1_023, "{lyapunov_exponent:?}");
         assert!((0.1..1.0).contains(&lyapunov_exponent.exponent), "{lyapunov_exponent:?}");
         let gentle = system_of(0.3);
-        let orbit = multi_toss(gentle, from_rest(&gentle), MultiTossSettings::default()).unwrap();
+        let orbit =
+            multi_toss(gentle, from_rest(&gentle), MultiTossSettings::default(), &Unobserved).unwrap();
         assert_eq!(orbit.class, OrbitClass::AtRest);
-        let orbit = multi_toss(gentle, start, MultiTossSettings::default()).unwrap();
+        let orbit = multi_toss(gentle, start, MultiTossSettings::default(), &Unobserved).unwrap();
         assert_eq!(orbit.class, OrbitClass::AtRest);
     }
 
@@ -446,9 +439,9 @@ mod tests {
                 let early = calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) < at;
                 if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             };
-            multi_toss_observed(system, start, settings, &observer)
+            multi_toss(system, start, settings, &observer)
         };
-        let whole = multi_toss(system, start, settings).unwrap();
+        let whole = multi_toss(system, start, settings, &Unobserved).unwrap();
         assert!(matches!(whole.class, OrbitClass::Chaotic { .. }));
         for at in 0..100 {
             match stopped(at) {
@@ -477,15 +470,21 @@ mod tests {
             MultiTossSettings { longest_period: 0, ..Default::default() },
             MultiTossSettings { tolerance: f64::NAN, ..Default::default() },
         ] {
-            assert!(matches!(multi_toss(system, start, settings), Err(Error::OutOfRange { .. })));
+            assert!(matches!(
+                multi_toss(system, start, settings, &Unobserved),
+                Err(Error::OutOfRange { .. })
+            ));
         }
         for examined_impacts in [MAX_EXAMINED + 1, usize::MAX] {
             let settings = MultiTossSettings { examined_impacts, ..Default::default() };
-            let error = multi_toss(system, start, settings).unwrap_err();
+            let error = multi_toss(system, start, settings, &Unobserved).unwrap_err();
             assert!(error.to_string().contains(&examined_impacts.to_string()), "{error}");
         }
         let endless = MultiTossSettings { longest_period: usize::MAX, ..Default::default() };
-        assert_eq!(multi_toss(system, start, endless), multi_toss(system, start, Default::default()));
+        assert_eq!(
+            multi_toss(system, start, endless, &Unobserved),
+            multi_toss(system, start, Default::default(), &Unobserved)
+        );
         let state = CollisionState {
             phase: Phase::new(0.0).unwrap(),
             axial_impact_velocity: 1.0,
@@ -571,7 +570,9 @@ mod tests {
                 restitution,
             };
             let system = forcing.build().unwrap();
-            let orbit = multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default()).unwrap();
+            let orbit =
+                multi_toss(system, period_one(&system, 0.0), MultiTossSettings::default(), &Unobserved)
+                    .unwrap();
             let OrbitClass::Undecided { lyapunov_exponent: Some(exponent), .. } = orbit.class else {
                 panic!("{:?}", orbit.class)
             };

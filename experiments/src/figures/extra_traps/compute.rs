@@ -1,5 +1,6 @@
 //! The computation of the figure.
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
 use bouncing_disk::{Motor, MotorRegime, TrapVerdict, low_period_traps};
@@ -63,7 +64,7 @@ fn middles([from, to]: [f64; 2], count: usize) -> Vec<f64> {
 fn verdicts(motor: &Motor, forcings: impl Iterator<Item = f64>) -> Result<Vec<TrapVerdict>, ExperimentError> {
     let peak = motor.system().platform().peak_acceleration();
     let preloads: Vec<f64> = forcings.map(|forcing| peak / (PI * forcing)).collect();
-    Ok(low_period_traps(motor, &preloads)?)
+    Ok(low_period_traps(motor, &preloads, &Unobserved)?)
 }
 
 /// The rows of a map, in parallel and in their order.
@@ -126,7 +127,7 @@ fn checked(motor: &Motor, motors: usize) -> Result<Checked, ExperimentError> {
     let found: Vec<Result<(bool, bool), ExperimentError>> = cases
         .par_iter()
         .map(|motor| {
-            let regime = motor.report()?.regime;
+            let regime = motor.report(&Unobserved)?.regime;
             Ok((motor.trap_verdict()?.is_trap, matches!(regime, MotorRegime::LowPeriodChattering(_))))
         })
         .collect();
@@ -149,7 +150,7 @@ fn shares(motor: &Motor, motors: usize) -> Result<Vec<TrappedShare>, ExperimentE
         .map(|amplitude_m| {
             let motor = motor.with(|sheet| sheet.amplitude = amplitude_m)?;
             let peak = motor.system().platform().peak_acceleration();
-            let trapped = low_period_traps(&motor, &preloads)?;
+            let trapped = low_period_traps(&motor, &preloads, &Unobserved)?;
             Ok(TrappedShare {
                 amplitude_m,
                 preloads_m_per_s2: ends,

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Vibration, sweep};
+use bouncing_disk::core::{
+    ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Unobserved, Vibration, sweep,
+};
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, TossOrbit,
     multi_toss,
@@ -53,6 +55,7 @@ pub(super) fn cycles(
             }
             _ => ControlFlow::Break(()),
         },
+        &Unobserved,
     )?;
     for (index, (cycle, rests)) in leaving.into_iter().zip(walked) {
         cycles[index] = rests.then_some(cycle);
@@ -67,7 +70,7 @@ pub(super) fn from_rest(system: &DimensionlessSystem) -> Result<InitialCondition
 }
 
 fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
-    multi_toss(*system, from_rest(system)?, settings).map_err(ExperimentError::model)
+    multi_toss(*system, from_rest(system)?, settings, &Unobserved).map_err(ExperimentError::model)
 }
 
 /// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    Followed, ImpactState, Launch, doubling_cascade, follow_attractor, lyapunov_exponents, orbit_diagram,
+    Followed, ImpactState, Launch, Unobserved, doubling_cascade, follow_attractor, lyapunov_exponents,
+    orbit_diagram,
 };
 use bouncing_disk::{ChatteringCycle, MultiTossSettings, PAPER_CHATTER};
 use rayon::prelude::*;
@@ -121,7 +122,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
 /// Γ and the Lyapunov exponent of each orbit that has one.
 fn exponents(chaotic: &[&Followed]) -> Result<Vec<(f64, f64)>, ExperimentError> {
     let orbits: Vec<_> = chaotic.iter().map(|at| (at.map, at.state)).collect();
-    let growths = lyapunov_exponents(&orbits, 0, GROWTH_IMPACTS)?;
+    let growths = lyapunov_exponents(&orbits, 0, GROWTH_IMPACTS, &Unobserved)?;
     Ok(chaotic.iter().zip(growths).filter_map(|(at, growth)| Some((at.axial_forcing, growth?))).collect())
 }
 
@@ -203,7 +204,7 @@ impl Searches {
         let others = || -> Result<_, ExperimentError> {
             let single_tosses = chattering::single_tosses(cycles, section, settings.policy)?;
             progress.advance(1);
-            let doublings = doubling_cascade(inputs.restitution, 7)?;
+            let doublings = doubling_cascade(inputs.restitution, 7, &Unobserved)?;
             progress.advance(1);
             let below = walk.iter().rev().find(|at| at.axial_forcing <= explored::ZOOM.0);
             let zoom = explored::zoom(below.map_or(*first, |at| at.state), inputs, quality)?;
@@ -250,7 +251,7 @@ fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, Experiment
     let mut period = None;
     if let Some(leaves) = map.vibration().separation_phase() {
         let orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, PAPER_CHATTER);
-        let settled = orbit_diagram(&[orbit], SETTLING, 1)?;
+        let settled = orbit_diagram(&[orbit], SETTLING, 1, &Unobserved)?;
         if let Some(state) = settled.first().and_then(|states| states.first()) {
             period = map.period_of(*state, LONGEST_PERIOD, REPEATS_WITHIN)?;
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use bouncing_disk::core::{
-    ImpactState, Launch, Orbit, Phase, follow_attractor, orbit_diagram, survival_times,
+    ImpactState, Launch, Orbit, Phase, Unobserved, follow_attractor, orbit_diagram, survival_times,
 };
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
@@ -94,7 +94,7 @@ fn orbit_from_rest(axial_forcing: f64, inputs: Inputs) -> Result<Orbit, Experime
 
 /// The impacts of some orbits, as many of each.
 fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, ExperimentError> {
-    orbit_diagram(orbits, 0, impacts).map_err(ExperimentError::model)
+    orbit_diagram(orbits, 0, impacts, &Unobserved).map_err(ExperimentError::model)
 }
 
 /// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while, and how many of them did.
@@ -109,14 +109,14 @@ fn saddle(
         .take(SADDLE_STARTS)
         .map(|state| map.orbit(*state, bouncing_disk::PAPER_CHATTER))
         .collect();
-    let lives = survival_times(&orbits, SADDLE_LIFE)?;
+    let lives = survival_times(&orbits, SADDLE_LIFE, &Unobserved)?;
     let stay: Vec<Orbit> = orbits
         .into_iter()
         .zip(lives)
         .filter(|(_, lived)| *lived >= SADDLE_LIFE)
         .map(|(orbit, _)| orbit)
         .collect();
-    let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS)?;
+    let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS, &Unobserved)?;
     Ok((Cells::of(&states.concat(), CELLS), stay.len()))
 }
 
@@ -134,7 +134,7 @@ pub(super) fn explored(
     };
     let (before, after) = (crisis - BESIDE, crisis + BESIDE);
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
-    let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING)?;
+    let beside = orbit_diagram(&[orbit_at(before)?, orbit_at(after)?], 100, VISITING, &Unobserved)?;
     let chattering = recorded(&[orbit_from_rest(before, inputs)?], VISITING)?;
     let union: Vec<ImpactState> = beside[0].iter().chain(&chattering[0]).copied().collect();
     let after = visited(after, &beside[1]);
@@ -231,7 +231,7 @@ pub(super) fn best_lags(
                     restitution: inputs.restitution,
                 }
                 .build()?;
-                let orbit = multi_toss(system, start(&system, state)?, settings)?;
+                let orbit = multi_toss(system, start(&system, state)?, settings, &Unobserved)?;
                 let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
                 if speed > best.speed {
                     let period = match orbit.class {
@@ -287,7 +287,7 @@ pub(super) fn one_impact_decides(
             .build()?;
             let angular_speed = system.twist_speed();
             let start = InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed };
-            let orbit = multi_toss(system, start, settings)?;
+            let orbit = multi_toss(system, start, settings, &Unobserved)?;
             Ok(Some(BestLag {
                 axial_forcing,
                 angular_forcing: LARGE_ANGULAR_FORCING,

@@ -1,7 +1,7 @@
 //! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, follow_attractor, survival_times};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved, follow_attractor, survival_times};
 
 use super::data::Merging;
 use super::inputs::{Inputs, map};
@@ -27,7 +27,7 @@ pub(super) fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactSta
     let map = map(SAFE_FORCING, restitution)?;
     let mut states = Vec::new();
     while states.len() < STARTS {
-        match map.state_after(state, 1_000, ChatterPolicy::Complete)? {
+        match map.state_after(state, 1_000, ChatterPolicy::Complete, &Unobserved)? {
             Some(next) => states.push(next),
             None => break,
         }
@@ -51,7 +51,7 @@ fn orbits(forcings: &[f64], starts: &[ImpactState], restitution: f64) -> Result<
 fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
     bracket_of_width(SAFE_FORCING, LOST_FORCING, BRACKET, |forcing| {
         let orbits = orbits(&[forcing], starts, restitution)?;
-        let lives = survival_times(&orbits, impacts)?;
+        let lives = survival_times(&orbits, impacts, &Unobserved)?;
         Ok(lives.into_iter().all(|lived| lived == impacts))
     })
 }
@@ -70,7 +70,7 @@ pub(super) fn merging(
     );
     let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
     let forcings: Vec<f64> = (0..16).map(|i| 0.5600 + 0.0001 * f64::from(i)).collect();
-    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10)?;
+    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10, &Unobserved)?;
     let mean_life_impacts = forcings
         .into_iter()
         .zip(lives.chunks(starts.len().max(1)))

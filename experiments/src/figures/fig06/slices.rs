@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::Followed;
+use bouncing_disk::core::{Followed, Unobserved};
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
     multi_toss,
@@ -27,7 +27,7 @@ pub(super) fn followed_slice(
             relative_speed: -system.restitution() * followed.state.velocity(),
             angular_speed: system.platform_angular_speed(phase),
         };
-        multi_toss(*system, start, settings)
+        multi_toss(*system, start, settings, &Unobserved)
     };
     let linear = tosses(&systems.linear)?;
     if matches!(linear.class, OrbitClass::Chattering { .. } | OrbitClass::AtRest) {

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::{
     Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Launch, Multipliers,
-    OrbitEvent, Phase, UNDECIDED, Vibration, survival_times,
+    OrbitEvent, Phase, UNDECIDED, Unobserved, Vibration, survival_times,
 };
 
 use super::data::{Other, Panel, Shares, Spot};
@@ -54,17 +54,17 @@ enum Route {
 fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     let Some(period_one) = map.period_one(1) else { return Ok(Route::Gone) };
     let orbit = map.refine(&[period_one])?;
-    if let Ok(radius) = orbit.trapping_radius(map, 64) {
+    if let Ok(radius) = orbit.trapping_radius(map, 64, &Unobserved) {
         return KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model);
     }
     // Beyond the first doubling: leave the saddle along the phase.
     let beside = Phase::new(period_one.phase().angle() + 1.0e-3)?;
     let beside = ImpactState::new(beside, period_one.velocity())?;
-    let survivor = map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete)?;
+    let survivor = map.state_after(beside, LONGEST as usize, ChatterPolicy::Complete, &Unobserved)?;
     let Some(state) = survivor else { return Ok(Route::Gone) };
-    let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8)?;
-    let periodic =
-        settled.and_then(|orbit| orbit.trapping_radius(map, 64).ok().map(|radius| (orbit, radius)));
+    let settled = map.settled_orbit(state, 0, LONGEST_PERIOD, 1.0e-8, &Unobserved)?;
+    let periodic = settled
+        .and_then(|orbit| orbit.trapping_radius(map, 64, &Unobserved).ok().map(|radius| (orbit, radius)));
     let Some((orbit, radius)) = periodic else { return Ok(Route::Chaotic(state)) };
     KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model)
 }
@@ -75,12 +75,12 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };
     let mut known = vec![first.clone()];
     'search: while known.len() < 4 {
-        let basins = map.basins(grid, &known, settings)?;
+        let basins = map.basins(grid, &known, settings, &Unobserved)?;
         for (index, _) in basins.labels().iter().enumerate().filter(|(_, label)| **label == UNDECIDED) {
             let from = start(&grid, index / COARSE, index % COARSE)?;
-            let settled = map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8)?;
+            let settled = map.settled_orbit(from, 4_000, LONGEST_PERIOD, 1.0e-8, &Unobserved)?;
             if let Some(orbit) = settled
-                && let Ok(radius) = orbit.trapping_radius(map, 64)
+                && let Ok(radius) = orbit.trapping_radius(map, 64, &Unobserved)
             {
                 known.push(KnownOrbit::new(orbit, radius)?);
                 continue 'search;
@@ -130,7 +130,7 @@ pub(super) fn panel(
         Route::Gone => (Vec::new(), LONGEST, STILL_OPEN),
     };
     let settings = BasinSettings { max_impacts, policy: ChatterPolicy::Complete };
-    let basins = map.basins_observed(grid(top, side, side)?, &known, settings, &advancing(progress))?;
+    let basins = map.basins(grid(top, side, side)?, &known, settings, &advancing(progress))?;
     let kinds: Vec<u8> = basins.labels().iter().map(|label| kind(*label, open)).collect();
     let share = |kind: u8| kinds.iter().filter(|own| **own == kind).count() as f64 / kinds.len() as f64;
     let attractor = match route {
@@ -190,7 +190,7 @@ pub(super) fn decay(map: &ImpactMap, top: f64, side: usize) -> Result<Vec<(u32, 
     let orbits = (0..side * side)
         .map(|index| Ok(map.orbit(start(&grid, index / side, index % side)?, ChatterPolicy::Complete)))
         .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let lives = survival_times(&orbits, most as usize)?;
+    let lives = survival_times(&orbits, most as usize, &Unobserved)?;
     let share = |count: u32| {
         lives.iter().filter(|lived| **lived >= count as usize).count() as f64 / lives.len() as f64
     };

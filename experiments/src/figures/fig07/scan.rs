@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use bouncing_disk::core::{
     ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Launch, Phase, UNDECIDED,
-    follow_attractor, survival_times,
+    Unobserved, follow_attractor, survival_times,
 };
 use rayon::prelude::*;
 
@@ -50,13 +50,13 @@ pub(super) fn along_window(
             let mut known = Vec::new();
             if let Some(state) = map.period_one(1) {
                 let orbit = map.refine(&[state])?;
-                if let Ok(radius) = orbit.trapping_radius(&map, 64) {
+                if let Ok(radius) = orbit.trapping_radius(&map, 64, &Unobserved) {
                     known.push(KnownOrbit::new(orbit, radius)?);
                 }
             }
             let highest = TOPS[TOPS.len() - 1];
             let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid(highest as f64, rows, columns)?, &known, settings)?;
+            let basins = map.basins(grid(highest as f64, rows, columns)?, &known, settings, &Unobserved)?;
             let shares = TOPS
                 .iter()
                 .map(|top| {
@@ -91,12 +91,13 @@ pub(super) fn beyond(
             let map = map(axial_forcing, section.restitution)?;
             let grid = grid(top, side, side)?;
             let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid, &[], settings)?;
+            let basins = map.basins(grid, &[], settings, &Unobserved)?;
             let open = |label: &u8| *label == UNDECIDED;
             let mut period = None;
             if let Some(index) = basins.labels().iter().position(open) {
                 let from = start(&grid, index / side, index % side)?;
-                let survivor = map.state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete)?;
+                let survivor =
+                    map.state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete, &Unobserved)?;
                 if let Some(state) = survivor {
                     period = map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?;
                 }
@@ -132,7 +133,7 @@ pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, Expe
                 }
             }
             let longest = LONGEST_BEYOND as usize;
-            let lives = survival_times(&orbits, longest)?;
+            let lives = survival_times(&orbits, longest, &Unobserved)?;
             Ok(Rest {
                 axial_forcing,
                 starts: orbits.len(),

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use bouncing_disk::core::numerics::roots::bisected_bracket;
-use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit};
+use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit, Unobserved};
 
 use super::data::{CurvePoint, Windows};
 use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
@@ -37,15 +37,14 @@ impl Cells {
         let mut known = Vec::new();
         if let Some(state) = map.period_one(1) {
             let orbit = map.refine(&[state])?;
-            if let Ok(radius) = orbit.trapping_radius(&map, 64) {
+            if let Ok(radius) = orbit.trapping_radius(&map, 64, &Unobserved) {
                 let first = KnownOrbit::new(orbit, radius)?;
                 known = others(&map, &first)?;
                 known.insert(0, first);
             }
         }
         let settings = BasinSettings { max_impacts: 20_000, policy: ChatterPolicy::Complete };
-        let basins =
-            map.basins_observed(grid(LARGEST_TOP, rows, columns)?, &known, settings, &advancing(progress))?;
+        let basins = map.basins(grid(LARGEST_TOP, rows, columns)?, &known, settings, &advancing(progress))?;
         let kinds = basins.labels().iter().map(|label| kind(*label, STILL_OPEN)).collect();
         Ok(Self { kinds, columns })
     }

@@ -1,6 +1,7 @@
 //! A user's transient speed curves beside those of Fig. 10, as the paper's panels (d)-(f) show its three trials.
 
 use bouncing_disk::ExponentialFit;
+use bouncing_disk::core::Unobserved;
 
 use super::data::Trial;
 use crate::experiment::ExperimentError;
@@ -36,7 +37,7 @@ pub(super) fn trials(series: &Series) -> Result<Vec<Trial>, ExperimentError> {
     let fitted = series.trials::<3>().into_iter().map(|(trial, rows)| {
         let (time_s, angular_speed_rad_per_s): (Vec<f64>, Vec<f64>) =
             rows.into_iter().map(|[_, time, speed]| (time, speed)).unzip();
-        let fit = ExponentialFit::new(&time_s, &angular_speed_rad_per_s)
+        let fit = ExponentialFit::new(&time_s, &angular_speed_rad_per_s, &Unobserved)
             .map_err(|error| series.unusable(Some(trial), error))?;
         let first_s = time_s.iter().copied().find(|time| *time > 0.0).unwrap_or_default();
         let last_s = time_s.last().copied().unwrap_or_default();

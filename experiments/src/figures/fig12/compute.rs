@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase};
+use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase, Unobserved};
 use bouncing_disk::{
     CollisionEvent, Collisions, Engine, InitialCondition, LONG_FLIGHT, NormalImpulses, PhasedImpulse,
     RampFit, Trajectory, TransientSettings, transient,
@@ -258,7 +258,7 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
         ..TransientSettings::default()
     };
     let phase = Phase::new(1.5 * PI)?;
-    let curve = transient(&motor.system()?, phase, &settings)?;
+    let curve = transient(&motor.system()?, phase, &settings, &Unobserved)?;
     let exponential = curve.fit()?;
     let ramp = RampFit::new(&curve.times, &curve.speeds)?;
     let last = curve.mean_over_last(0.2)?;

@@ -1,5 +1,6 @@
 //! The computation of Fig. 13.
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use bouncing_disk::core::elementary::{ln, pow};
@@ -128,7 +129,7 @@ fn values(parameter: Parameter, amplitudes: &[f64; 3], quality: Quality) -> Vec<
 fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
     let levels = impulses.balance(case.phase_lag_rad);
     let (times, speeds) = levels.transient(RISES, 240);
-    let fit = ExponentialFit::new(&times, &speeds).ok();
+    let fit = ExponentialFit::new(&times, &speeds, &Unobserved).ok();
     let stall = fit
         .filter(|fit| fit.time_constant < 0.5 * RISES && fit.residual < 0.25 * fit.steady_speed.abs())
         .map(|fit| case.largest_acceleration() * fit.stall_acceleration());

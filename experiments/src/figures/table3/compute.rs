@@ -1,5 +1,6 @@
 //! What is computed for Table III.
 
+use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
 use bouncing_disk::{Estimate, InputSpread, InputTolerance, Motor, OperatingSettings, TransientSettings};
@@ -67,13 +68,16 @@ fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
         })
     };
     let Estimate { value, standard_error } = motor.no_load_speed(&settings)?;
-    let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance)?;
+    let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved)?;
     let inertia = motor.mass() * case.gyration_radius_m * case.gyration_radius_m;
     Ok(Speed {
         speed_rad_per_s: value,
         standard_error_rad_per_s: standard_error,
         over_inputs_rad_per_s: over_inputs(speeds.into_iter().next().flatten(), 1.0)?,
-        stall_over_inputs_rad_per_s2: over_inputs(motor.stall_spread(&settings, &tolerance)?, inertia)?,
+        stall_over_inputs_rad_per_s2: over_inputs(
+            motor.stall_spread(&settings, &tolerance, &Unobserved)?,
+            inertia,
+        )?,
     })
 }
 

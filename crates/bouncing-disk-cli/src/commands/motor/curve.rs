@@ -70,12 +70,12 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
     };
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
-    let found = motor.torque_speed_curve_observed(&loads, &settings, &context.watch("motor curve"))?;
+    let found = motor.torque_speed_curve(&loads, &settings, &context.watch("motor curve"))?;
     let tolerance = args.spread.tolerance();
     let spreads = match &tolerance {
         Some(tolerance) => {
             let watch = context.watch("motor curve: spread");
-            motor.speed_spreads_observed(&loads, &settings, tolerance, &watch)?
+            motor.speed_spreads(&loads, &settings, tolerance, &watch)?
         }
         None => vec![None; loads.len()],
     };

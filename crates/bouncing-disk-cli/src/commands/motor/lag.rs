@@ -27,7 +27,7 @@ pub(crate) struct LagArgs {
 /// Runs the command.
 pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
     let Some(job) = args.operation.job(context)? else { return Ok(()) };
-    let best = job.motor.best_phase_lag_observed(&job.settings, &context.watch("motor phase-lag"))?;
+    let best = job.motor.best_phase_lag(&job.settings, &context.watch("motor phase-lag"))?;
     let mut list = Quantities::default();
     list.push("best_phase_lag", best.phase_lag.value, "rad");
     list.push("best_phase_lag_error", best.phase_lag.standard_error, "rad");

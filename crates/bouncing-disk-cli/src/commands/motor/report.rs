@@ -44,7 +44,7 @@ pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
     args.output.check(false, &args.motor.inputs(), None)?;
     // The warnings are part of the report.
     let motor = args.motor.motor(true)?;
-    let report = motor.report_observed(&context.watch("motor report"))?;
+    let report = motor.report(&context.watch("motor report"))?;
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");
     list.push("angular_forcing", report.angular_forcing, "1");

@@ -1,5 +1,6 @@
 //! How a steady operation is computed, and of which motor.
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
 use clap::Args;
 use serde::Serialize;
@@ -69,7 +70,7 @@ impl SpreadArgs {
 
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
-    let regime = motor.report()?.regime;
+    let regime = motor.report(&Unobserved)?.regime;
     let note = "the errors hold at exactly these inputs, the spread over their tolerances";
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }

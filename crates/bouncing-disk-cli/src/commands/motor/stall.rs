@@ -40,11 +40,10 @@ struct Job {
 /// Runs the command.
 pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
     let Some(job) = args.operation.job(context)? else { return Ok(()) };
-    let stall = job.motor.stall_load_observed(&job.settings, &context.watch("motor stall"))?;
+    let stall = job.motor.stall_load(&job.settings, &context.watch("motor stall"))?;
     let tolerance = args.spread.tolerance();
     let watch = context.watch("motor stall: spread");
-    let spread =
-        tolerance.map(|tolerance| job.motor.stall_spread_observed(&job.settings, &tolerance, &watch));
+    let spread = tolerance.map(|tolerance| job.motor.stall_spread(&job.settings, &tolerance, &watch));
     let spread = spread.transpose()?.flatten();
     let mut list = Quantities::default();
     list.push("stall_torque", stall.torque.value, "N m");

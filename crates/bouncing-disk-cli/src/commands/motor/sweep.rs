@@ -6,7 +6,7 @@ use std::str::FromStr;
 use bouncing_disk::core::PartialResults;
 use bouncing_disk::{
     Motor, MotorField, MotorSweep, MotorSweepRun, Observer, OperatingSettings, Operation, SweepAxis,
-    SweepQuantity, operations_observed,
+    SweepQuantity, operations,
 };
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
@@ -177,7 +177,7 @@ impl GridJob for SweepJob {
         let group = |row: usize| {
             let cells = sweep.groups()[row].iter();
             let motors = cells.map(|cell| sweep.motor_of(*cell)).collect::<Result<Vec<_>, _>>()?;
-            operations_observed(&motors, sweep.settings(), observer)
+            operations(&motors, sweep.settings(), observer)
         };
         Ok(rows.into_par_iter().map(group).collect::<Result<_, bouncing_disk::Error>>()?)
     }

@@ -1,10 +1,11 @@
 //! `bouncing-disk motor transient`: the run-up of a motor from rest.
 
+use bouncing_disk::core::Unobserved;
 use std::ops::Range as Rows;
 
 use bouncing_disk::{
     FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
-    TransientMember, TransientSettings, ensemble_members, transients_observed,
+    TransientMember, TransientSettings, ensemble_members, transients,
 };
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -114,13 +115,13 @@ impl GridJob for TransientJob {
         rows: Rows<usize>,
         observer: &dyn Observer,
     ) -> Result<Vec<SpeedCurve>, Failure> {
-        let curves = transients_observed(&members[rows], observer)?;
+        let curves = transients(&members[rows], observer)?;
         Ok(curves.into_iter().collect::<Result<_, _>>()?)
     }
 
     fn report(self, _: Vec<TransientMember>, rows: Vec<SpeedCurve>) -> Result<Report, Failure> {
         let fit = (rows.len() >= LEAST_MEMBERS).then(|| TransientFit::new(&rows, &FitSettings::default()));
-        let ensemble = TransientEnsemble::of_results(rows.into_iter().map(Ok).collect())?;
+        let ensemble = TransientEnsemble::of_results(rows.into_iter().map(Ok).collect(), &Unobserved)?;
         let mut list = Quantities::default();
         list.push("members", ensemble.curves.len(), "1");
         list.push("duration", self.settings.duration, "s");

@@ -54,7 +54,7 @@ pub(super) fn run(args: &TrapsArgs, context: Context) -> Result<(), Failure> {
     let preload_from_to = [args.from.unwrap_or(0.9 * own), args.to.unwrap_or(1.1 * own)];
     let [from, to] = preload_from_to.map(|force| force / mass);
     let watch = context.watch("motor traps");
-    let traps = motor.trap_ranges_observed([from, to], args.least_width, &settings, &watch)?;
+    let traps = motor.trap_ranges([from, to], args.least_width, &settings, &watch)?;
     let mut table = Table::new(&[
         ("preload_from", "N"),
         ("preload_to", "N"),

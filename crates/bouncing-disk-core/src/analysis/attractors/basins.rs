@@ -6,7 +6,7 @@ use super::cells::VisitedCells;
 use super::follow::SHARE_IN_CELLS;
 use super::{Attractors, label_of};
 use crate::analysis::basin::{ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED};
-use crate::analysis::sweep::{SweepEvent, sweep_observed};
+use crate::analysis::sweep::{SweepEvent, sweep};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::observer::{Observer, Progress, Unobserved};
@@ -104,7 +104,7 @@ impl<'a> Labels<'a> {
         }
         let orbits: Vec<_> =
             open.iter().map(|index| self.map.orbit(starts[*index], self.settings.policy)).collect();
-        let followed = sweep_observed(
+        let followed = sweep(
             &orbits,
             |_| OnItsWay { impacts: 0, hits: vec![0; self.cells.len()], label: None },
             |own, event| self.see(own, event),
@@ -177,15 +177,18 @@ impl Attractors {
     /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it is
     /// the same in every window and for every number of threads.
     ///
+    /// The items of `observer` are the rows, each of which counts twice where there are attractors that are
+    /// known by their cells.
+    ///
     /// ```
     /// use bouncing_disk_core::{
-    ///     AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, Vibration,
+    ///     AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, Unobserved, Vibration,
     /// };
     ///
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     /// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 3.0, 60)?)?;
-    /// let basins = found.basins(grid, BasinSettings::default())?;
+    /// let basins = found.basins(grid, BasinSettings::default(), &Unobserved)?;
     /// let (low, high) = basins.share(FIRST_ORBIT).interval();
     /// assert!(low > 0.1 && high < 0.5);
     /// # Ok::<(), bouncing_disk_core::Error>(())
@@ -193,16 +196,7 @@ impl Attractors {
     ///
     /// # Errors
     /// Those of [`ImpactMap::basins`].
-    pub fn basins(&self, grid: Grid, settings: BasinSettings) -> Result<Basins, Error> {
-        self.basins_observed(grid, settings, &Unobserved)
-    }
-
-    /// [`Self::basins`] with an observer; the items are the rows, each of which counts twice where there are
-    /// attractors that are known by their cells.
-    ///
-    /// # Errors
-    /// Those of [`Self::basins`]; [`Error::Stopped`] if the observer breaks.
-    pub fn basins_observed(
+    pub fn basins(
         &self,
         grid: Grid,
         settings: BasinSettings,
@@ -211,7 +205,7 @@ impl Attractors {
         let labelling = Labels::new(self, settings);
         let rows = grid.speed().cells() as u64;
         if labelling.cells.is_empty() {
-            return self.map.basins_observed(grid, &labelling.known, settings, observer);
+            return self.map.basins(grid, &labelling.known, settings, observer);
         }
         let whole = |progress: Progress| observer.observe(Progress { total: 2 * rows, ..progress });
         let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
@@ -231,33 +225,24 @@ impl Attractors {
     /// Some rows of [`Self::basins`], with the very same labels. A grid that takes long is computed some rows at a
     /// time, on one machine or many, and put together by [`Basins::stacked`].
     ///
+    /// The items of `observer` are these rows, each of which counts twice where there are attractors that
+    /// are known by their cells.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{AttractorSearch, Axis, Basins, BasinSettings, Grid, ImpactMap, Vibration};
+    /// # use bouncing_disk_core::{
+    /// #     AttractorSearch, Axis, BasinSettings, Basins, Grid, ImpactMap, Unobserved, Vibration,
+    /// # };
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());
-    /// let parts = [found.basins_of_rows(grid, 0..7, settings)?, found.basins_of_rows(grid, 7..20, settings)?];
-    /// assert_eq!(Basins::stacked(parts)?, found.basins(grid, settings)?);
+    /// let parts = [found.basins_of_rows(grid, 0..7, settings, &Unobserved)?, found.basins_of_rows(grid, 7..20, settings, &Unobserved)?];
+    /// assert_eq!(Basins::stacked(parts)?, found.basins(grid, settings, &Unobserved)?);
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
     ///
     /// # Errors
     /// [`Error::Unfitting`] for rows that the grid has not, or none; those of [`Self::basins`].
     pub fn basins_of_rows(
-        &self,
-        grid: Grid,
-        rows: Range<usize>,
-        settings: BasinSettings,
-    ) -> Result<Basins, Error> {
-        self.basins_of_rows_observed(grid, rows, settings, &Unobserved)
-    }
-
-    /// [`Self::basins_of_rows`] with an observer; the items are these rows, each of which counts twice where there are
-    /// attractors that are known by their cells.
-    ///
-    /// # Errors
-    /// Those of [`Self::basins_of_rows`]; [`Error::Stopped`] if the observer breaks.
-    pub fn basins_of_rows_observed(
         &self,
         grid: Grid,
         rows: Range<usize>,

@@ -288,7 +288,7 @@ impl<'a> Finder<'a> {
         }
         if let Some(orbits) = self.search.orbits() {
             let part = self.part();
-            for orbit in part.whole(map.periodic_orbits_observed(&orbits, &part))?.orbits {
+            for orbit in part.whole(map.periodic_orbits(&orbits, &part))?.orbits {
                 self.add_candidate(orbit);
             }
         }
@@ -353,7 +353,7 @@ impl<'a> Finder<'a> {
         let mut all = vec![attractor(AttractorKind::Rest(after), self.rests)?];
         let part = self.part();
         for Periodic { orbit, starts } in self.periodic {
-            let radius = part.whole(orbit.trapping_radius_observed(self.map, SAMPLES, &part));
+            let radius = part.whole(orbit.trapping_radius(self.map, SAMPLES, &part));
             let kind = match radius {
                 Ok(radius) => AttractorKind::Periodic(KnownOrbit::new(orbit, radius)?),
                 Err(Error::NotAttracting { .. }) => AttractorKind::Marginal(orbit),

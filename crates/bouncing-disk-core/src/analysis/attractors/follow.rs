@@ -4,7 +4,7 @@ use core::ops::ControlFlow;
 
 use super::cells::{CellMarks, VisitedCells};
 use super::{Attractors, Recurrence};
-use crate::analysis::sweep::{SweepEvent, sweep_observed};
+use crate::analysis::sweep::{SweepEvent, sweep};
 use crate::analysis::verdict::witness::Witness;
 use crate::analysis::verdict::{Verdict, VerdictSettings};
 use crate::chatter::policy::ChatterPolicy;
@@ -34,7 +34,7 @@ pub(super) fn first_look(
     observer: &dyn Observer,
 ) -> Result<Vec<Seen>, Error> {
     let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
-    let seen = sweep_observed(
+    let seen = sweep(
         &orbits,
         |index| (Witness::new((*map, starts[index]), settings), false),
         |(witness, rests), event| match event {
@@ -74,7 +74,7 @@ pub(super) fn long_look(
     observer: &dyn Observer,
 ) -> Result<(Seen, Recurrence), Error> {
     let top = map.impact_speed_bound();
-    let mut recorders = sweep_observed(
+    let mut recorders = sweep(
         &[map.orbit(start, ChatterPolicy::Complete)],
         |_| Recorder {
             witness: Witness::new((*map, start), settings),
@@ -125,7 +125,7 @@ pub(super) fn come_back(
     observer: &dyn Observer,
 ) -> Result<Vec<Option<bool>>, Error> {
     let orbits: Vec<_> = starts.iter().map(|start| map.orbit(*start, ChatterPolicy::Complete)).collect();
-    let seen = sweep_observed(
+    let seen = sweep(
         &orbits,
         |_| (0_u64, 0_u64),
         |(impacts, hits), event| {

@@ -5,7 +5,7 @@ use super::{Attractor, AttractorKind, Attractors};
 use crate::analysis::periodic::{PeriodicOrbit, phase_difference};
 use crate::error::{Error, within};
 use crate::map::impact_map::ImpactMap;
-use crate::observer::{Observer, Progress, Unobserved, Watch};
+use crate::observer::{Observer, Progress, Watch};
 use crate::platform::vibration::Vibration;
 use crate::read_checked;
 
@@ -171,12 +171,14 @@ pub(super) fn matched(
 /// `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that is nobody's vanishes. An orbit
 /// that doubles its period goes on as the doubled one, next to which it lies.
 ///
+/// The items of `observer` are the forcings.
+///
 /// ```
-/// use bouncing_disk_core::{AttractorSearch, basin_fractions_over};
+/// use bouncing_disk_core::{AttractorSearch, Unobserved, basin_fractions_over};
 ///
 /// // The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest.
 /// let search = AttractorSearch::default().with_starts(200)?;
-/// let over = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3)?;
+/// let over = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3, &Unobserved)?;
 /// assert_eq!(over.followed.len(), 2);
 /// assert_eq!((over.followed[1].appears, over.followed[1].vanishes), (1, 2));
 /// let shares: Vec<_> = over.over(1).map(|(_, own)| own.map(|own| own.starts.value())).collect();
@@ -192,23 +194,10 @@ pub fn basin_fractions_over(
     forcings: &[f64],
     search: &AttractorSearch,
     reach: f64,
-) -> Result<BasinFractions, Error> {
-    basin_fractions_over_observed(restitution, forcings, search, reach, &Unobserved)
-}
-
-/// [`basin_fractions_over`] with an observer; the items are the forcings.
-///
-/// # Errors
-/// Those of [`basin_fractions_over`]; [`Error::Stopped`] if the observer breaks.
-pub fn basin_fractions_over_observed(
-    restitution: f64,
-    forcings: &[f64],
-    search: &AttractorSearch,
-    reach: f64,
     observer: &dyn Observer,
 ) -> Result<BasinFractions, Error> {
     let none = BasinFractions { restitution, at: Vec::new(), followed: Vec::new() };
-    none.extended_observed(forcings, search, reach, observer)
+    none.extended(forcings, search, reach, observer)
 }
 
 impl BasinFractions {
@@ -217,26 +206,20 @@ impl BasinFractions {
     ///
     /// A long list of forcings is stopped and gone on with in this way, some forcings at a time.
     ///
+    /// The items of `observer` are the forcings that are added.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{AttractorSearch, basin_fractions_over};
+    /// # use bouncing_disk_core::{AttractorSearch, Unobserved, basin_fractions_over};
     /// # let search = AttractorSearch::default().with_starts(200)?;
-    /// let begun = basin_fractions_over(0.5, &[0.32, 0.36], &search, 0.3)?;
-    /// let whole = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3)?;
-    /// assert_eq!(begun.extended(&[0.40], &search, 0.3)?, whole);
+    /// let begun = basin_fractions_over(0.5, &[0.32, 0.36], &search, 0.3, &Unobserved)?;
+    /// let whole = basin_fractions_over(0.5, &[0.32, 0.36, 0.40], &search, 0.3, &Unobserved)?;
+    /// assert_eq!(begun.extended(&[0.40], &search, 0.3, &Unobserved)?, whole);
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
     ///
     /// # Errors
     /// Those of [`basin_fractions_over`]; [`Error::TooLarge`] for more than [`MAX_FORCINGS`] in all.
-    pub fn extended(&self, forcings: &[f64], search: &AttractorSearch, reach: f64) -> Result<Self, Error> {
-        self.extended_observed(forcings, search, reach, &Unobserved)
-    }
-
-    /// [`Self::extended`] with an observer; the items are the forcings that are added.
-    ///
-    /// # Errors
-    /// Those of [`Self::extended`]; [`Error::Stopped`] if the observer breaks.
-    pub fn extended_observed(
+    pub fn extended(
         &self,
         forcings: &[f64],
         search: &AttractorSearch,
@@ -258,7 +241,7 @@ impl BasinFractions {
             self.at.last().map_or_else(Vec::new, |at| at.attractors.all().iter().map(places).collect());
         for (index, (map, forcing)) in maps.iter().zip(forcings).enumerate() {
             let part = |_: Progress| observer.observe(Progress { done: index as u64, total });
-            let attractors = map.attractors_observed(search, &part).map_err(|error| match error {
+            let attractors = map.attractors(search, &part).map_err(|error| match error {
                 Error::Stopped { .. } => Error::Stopped { done: index as u64, total },
                 other => other,
             })?;

@@ -1,3 +1,4 @@
+use crate::observer::Unobserved;
 use core::f64::consts::PI;
 
 use super::*;
@@ -17,7 +18,7 @@ fn quick(starts: u32) -> AttractorSearch {
 }
 
 fn found(axial_forcing: f64, restitution: f64, starts: u32) -> Attractors {
-    map(axial_forcing, restitution).attractors(&quick(starts)).expect("no failure")
+    map(axial_forcing, restitution).attractors(&quick(starts), &Unobserved).expect("no failure")
 }
 
 fn periods(found: &Attractors) -> Vec<(usize, u64)> {
@@ -110,7 +111,7 @@ fn without_starts_there_are_the_candidates() {
     assert_eq!(longest, (1..20).filter(stable).collect::<Vec<_>>());
     assert!(nodes.all().iter().all(|own| own.starts.of() == 0 && own.starts.interval() == (0.0, 1.0)));
     let search = quick(0).with_orbits(OrbitSearch::new(2, 2).ok());
-    let two = map(0.5, 0.5).attractors(&search).expect("no failure");
+    let two = map(0.5, 0.5).attractors(&search, &Unobserved).expect("no failure");
     assert_eq!(periods(&two), [(2, 2)]);
 }
 
@@ -181,8 +182,8 @@ fn labels_are_the_same_in_every_window_and_for_one_start() {
             Grid::new(Axis::new(0.0, 1.0, 25).expect("legal"), Axis::new(low, high, cells).expect("legal"))
                 .expect("legal")
         };
-        let wide = own.basins(grid(0.0, 4.0, 32), settings).expect("no failure");
-        let narrow = own.basins(grid(1.0, 3.0, 16), settings).expect("no failure");
+        let wide = own.basins(grid(0.0, 4.0, 32), settings, &Unobserved).expect("no failure");
+        let narrow = own.basins(grid(1.0, 3.0, 16), settings, &Unobserved).expect("no failure");
         assert_eq!(&wide.labels()[8 * 25..24 * 25], narrow.labels());
         for number in 0..own.all().len() {
             let label = own.label(number).expect("exists");
@@ -233,7 +234,7 @@ fn any_number_of_threads_finds_the_same() {
         let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
         let all = || {
             let own = found(forcing, 0.5, 200);
-            let basins = own.basins(grid, settings).expect("no failure");
+            let basins = own.basins(grid, settings, &Unobserved).expect("no failure");
             (own, basins)
         };
         assert_eq!(pool(1).install(all), pool(5).install(all), "Gamma {forcing}");
@@ -245,11 +246,11 @@ fn a_search_and_its_basins_can_be_stopped() {
     let search = quick(400);
     let map = map(0.55, 0.5);
     let all = StopAfter::calls(u64::MAX);
-    let own = map.attractors_observed(&search, &all).expect("nobody stops it");
-    assert_eq!(own, map.attractors(&search).expect("no failure"));
+    let own = map.attractors(&search, &all).expect("nobody stops it");
+    assert_eq!(own, map.attractors(&search, &Unobserved).expect("no failure"));
     assert_eq!((all.last().done, all.last().total), (800, 800));
     for calls in [1, 2, all.asked() / 2] {
-        let stopped = map.attractors_observed(&search, &StopAfter::calls(calls));
+        let stopped = map.attractors(&search, &StopAfter::calls(calls));
         assert!(
             matches!(stopped, Err(Error::Stopped { done, total: 800 }) if done <= 800),
             "{calls}: {stopped:?}"
@@ -259,7 +260,7 @@ fn a_search_and_its_basins_can_be_stopped() {
         .expect("legal");
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
     let all = StopAfter::calls(u64::MAX);
-    own.basins_observed(grid, settings, &all).expect("nobody stops it");
+    own.basins(grid, settings, &all).expect("nobody stops it");
     assert_eq!((all.last().done, all.last().total), (100, 100));
     // How often an observer is asked depends on the threads; here it stops in the second half.
     let second_half = |most: u64| {
@@ -271,9 +272,9 @@ fn a_search_and_its_basins_can_be_stopped() {
             }
         }
     };
-    let stopped = map.attractors_observed(&search, &second_half(401));
+    let stopped = map.attractors(&search, &second_half(401));
     assert!(matches!(stopped, Err(Error::Stopped { done: 401.., total: 800 })), "{stopped:?}");
-    let stopped = own.basins_observed(grid, settings, &second_half(50));
+    let stopped = own.basins(grid, settings, &second_half(50));
     assert!(matches!(stopped, Err(Error::Stopped { done: 50, total: 100 })), "{stopped:?}");
     let forcings = [0.5, 0.51, 0.52];
     let stopped = basin_fractions(&forcings, &StopAfter::calls(5));
@@ -281,7 +282,7 @@ fn a_search_and_its_basins_can_be_stopped() {
 }
 
 fn basin_fractions(forcings: &[f64], observer: &dyn Observer) -> Result<over_forcing::BasinFractions, Error> {
-    over_forcing::basin_fractions_over_observed(0.5, forcings, &quick(200), 0.3, observer)
+    over_forcing::basin_fractions_over(0.5, forcings, &quick(200), 0.3, observer)
 }
 
 /// Period 1 from 1/3 on, its doubling to period 2, which goes on, and the orbit of four impacts from 0.4841 to 0.4883
@@ -306,16 +307,19 @@ fn attractors_are_followed_over_the_forcing() {
     // Cut anywhere, stored and gone on with: the very same.
     for cut in 0..=forcings.len() {
         let begun = stored(&basin_fractions(&forcings[..cut], &Unobserved).expect("no failure"));
-        let extended = begun.extended(&forcings[cut..], &quick(200), 0.3).expect("no failure");
+        let extended = begun.extended(&forcings[cut..], &quick(200), 0.3, &Unobserved).expect("no failure");
         assert_eq!(extended, over, "cut at {cut}");
     }
     // Nothing is within no reach, and there is nothing over no forcing.
-    let apart = over_forcing::basin_fractions_over(0.5, &[0.4, 0.41], &quick(50), 0.0).expect("no failure");
+    let apart = over_forcing::basin_fractions_over(0.5, &[0.4, 0.41], &quick(50), 0.0, &Unobserved)
+        .expect("no failure");
     assert_eq!(apart.followed.len(), 3);
-    let none = over_forcing::basin_fractions_over(0.5, &[], &quick(50), 0.3).expect("no failure");
+    let none =
+        over_forcing::basin_fractions_over(0.5, &[], &quick(50), 0.3, &Unobserved).expect("no failure");
     assert!(none.at.is_empty() && none.followed.is_empty());
     for (forcing, restitution, reach) in [(-1.0, 0.5, 0.3), (0.4, 1.0, 0.3), (0.4, 0.5, f64::NAN)] {
-        let refused = over_forcing::basin_fractions_over(restitution, &[forcing], &quick(5), reach);
+        let refused =
+            over_forcing::basin_fractions_over(restitution, &[forcing], &quick(5), reach, &Unobserved);
         assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{refused:?}");
     }
 }
@@ -383,7 +387,8 @@ fn stored_attractors_that_do_not_fit_are_refused() {
 #[cfg(feature = "serde")]
 #[test]
 fn stored_shares_of_another_map_are_refused() {
-    let over = over_forcing::basin_fractions_over(0.5, &[0.32, 0.36], &quick(50), 0.3).expect("no failure");
+    let over = over_forcing::basin_fractions_over(0.5, &[0.32, 0.36], &quick(50), 0.3, &Unobserved)
+        .expect("no failure");
     let text = serde_json::to_value(&over).expect("writes");
     let changed = |change: &dyn Fn(&mut serde_json::Value)| {
         let mut wrong = text.clone();
@@ -404,8 +409,8 @@ fn rows_are_those_of_the_whole_grid() {
         let axis = |high, cells| Axis::new(0.0, high, cells).expect("legal");
         let grid = Grid::new(axis(1.0, 15), axis(4.0, 9)).expect("legal");
         let settings = BasinSettings { max_impacts: 300, ..BasinSettings::default() };
-        let whole = own.basins(grid, settings).expect("no failure");
-        let rows = |rows| own.basins_of_rows(grid, rows, settings);
+        let whole = own.basins(grid, settings, &Unobserved).expect("no failure");
+        let rows = |rows| own.basins_of_rows(grid, rows, settings, &Unobserved);
         for cut in 1..9 {
             let parts = [rows(0..cut).expect("no failure"), rows(cut..9).expect("no failure")];
             assert_eq!(Basins::stacked(parts).expect("fit"), whole, "Gamma {forcing}: cut at {cut}");
@@ -416,7 +421,7 @@ fn rows_are_those_of_the_whole_grid() {
         #[expect(clippy::reversed_empty_ranges, reason = "a user may give one")]
         let reversed = rows(5..3);
         assert!(matches!(reversed, Err(Error::Unfitting { .. })));
-        let stopped = own.basins_of_rows_observed(grid, 2..9, settings, &StopAfter::calls(1));
+        let stopped = own.basins_of_rows(grid, 2..9, settings, &StopAfter::calls(1));
         assert!(matches!(stopped, Err(Error::Stopped { total: 7 | 14, .. })), "{stopped:?}");
     }
     let of = |columns: usize| Basins::of_labels(vec![ATTACHED; 2 * columns], columns).expect("legal");

@@ -7,7 +7,7 @@ use super::{Basins, Label};
 use crate::error::{Error, within};
 use crate::numerics::elementary::ln;
 use crate::numerics::fraction::Fraction;
-use crate::observer::{Observer, Unobserved, Watch};
+use crate::observer::{Observer, Watch};
 
 /// The fewest distances that a power law is fitted to.
 const FEWEST: usize = 3;
@@ -78,17 +78,19 @@ impl Basins {
     /// (1, 2, 4, 8, ... or 1, 3, 9, ...), the same for each of them. Undecided cells count as a basin of their
     /// own.
     ///
+    /// The items of `observer` are the rows of cells that count, once for each distance.
+    ///
     /// ```
     /// use bouncing_disk_core::{
-    ///     AttractorSearch, Axis, BasinSettings, BoundaryFit, Grid, ImpactMap, Vibration,
+    ///     AttractorSearch, Axis, BasinSettings, BoundaryFit, Grid, ImpactMap, Unobserved, Vibration,
     /// };
     ///
     /// // The basin of the period-1 orbit just beyond its birth has a smooth boundary.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
-    /// let found = map.attractors(&AttractorSearch::default())?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     /// let settings = BasinSettings { max_impacts: 20_000, ..BasinSettings::default() };
     /// let grid = Grid::new(Axis::new(0.0, 1.0, 120)?, Axis::new(0.0, 3.0, 120)?)?;
-    /// let scaling = found.basins(grid, settings)?.boundary_scaling(&[1, 2, 4])?;
+    /// let scaling = found.basins(grid, settings, &Unobserved)?.boundary_scaling(&[1, 2, 4], &Unobserved)?;
     /// assert!(matches!(scaling.fit, BoundaryFit::PowerLaw { dimension, .. } if dimension < 1.2));
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```
@@ -96,16 +98,7 @@ impl Basins {
     /// # Errors
     /// [`Error::OutOfRange`] for distances that do not rise from 1 at least, and where no cell is far enough
     /// from the edges.
-    pub fn boundary_scaling(&self, distances: &[usize]) -> Result<BoundaryScaling, Error> {
-        self.boundary_scaling_observed(distances, &Unobserved)
-    }
-
-    /// [`Self::boundary_scaling`] with an observer; the items are the rows of cells that count, once for each
-    /// distance.
-    ///
-    /// # Errors
-    /// Those of [`Self::boundary_scaling`]; [`Error::Stopped`] if the observer breaks.
-    pub fn boundary_scaling_observed(
+    pub fn boundary_scaling(
         &self,
         distances: &[usize],
         observer: &dyn Observer,
@@ -197,6 +190,7 @@ fn fit(points: &[(f64, f64)]) -> BoundaryFit {
 mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
+    use crate::observer::Unobserved;
 
     fn basins(columns: usize, rows: usize, label: impl Fn(usize, usize) -> Label) -> Basins {
         let cells = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
@@ -204,7 +198,7 @@ mod tests {
     }
 
     fn dimension(basins: &Basins, distances: &[usize]) -> (f64, f64) {
-        match basins.boundary_scaling(distances).expect("fits").fit {
+        match basins.boundary_scaling(distances, &Unobserved).expect("fits").fit {
             BoundaryFit::PowerLaw { dimension, standard_error, .. } => (dimension, standard_error),
             other => panic!("{other:?}"),
         }
@@ -224,14 +218,17 @@ mod tests {
             last.store(progress.done, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        let found = halves.boundary_scaling_observed(&[1, 2, 4], &told);
-        assert_eq!((found, last.load(Ordering::Relaxed)), (halves.boundary_scaling(&[1, 2, 4]), 3 * 92));
+        let found = halves.boundary_scaling(&[1, 2, 4], &told);
+        assert_eq!(
+            (found, last.load(Ordering::Relaxed)),
+            (halves.boundary_scaling(&[1, 2, 4], &Unobserved), 3 * 92)
+        );
         let calls = AtomicU64::new(0);
         let impatient = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) {
             0 => ControlFlow::Continue(()),
             _ => ControlFlow::Break(()),
         };
-        let stopped = halves.boundary_scaling_observed(&[1, 2, 4], &impatient);
+        let stopped = halves.boundary_scaling(&[1, 2, 4], &impatient);
         assert!(matches!(stopped, Err(Error::Stopped { done: 0..=275, total: 276 })), "{stopped:?}");
     }
 
@@ -273,25 +270,27 @@ mod tests {
     fn what_is_no_power_law_says_so() {
         // Stripes: from half their width on everything is uncertain.
         let stripes = basins(200, 200, |_, column| Label::from(column / 8 % 2 == 0));
-        let scaling = stripes.boundary_scaling(&[1, 2, 4, 8, 16]).expect("fits");
+        let scaling = stripes.boundary_scaling(&[1, 2, 4, 8, 16], &Unobserved).expect("fits");
         assert!(matches!(scaling.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.1 - slopes.0 > 0.3));
         // Nearly all cells are uncertain: 0.5, 0.75, 0.94 and 1 of them.
         let mut random = SplitMix64::new(2);
         let sparse = (0..300 * 300).map(|_| Label::from(random.unit() < 0.08)).collect();
         let sparse = Basins::of_labels(sparse, 300).expect("legal");
-        let sparse = sparse.boundary_scaling(&[1, 2, 4, 8]).expect("fits");
+        let sparse = sparse.boundary_scaling(&[1, 2, 4, 8], &Unobserved).expect("fits");
         assert!(matches!(sparse.fit, BoundaryFit::NoPowerLaw { slopes } if slopes.0 < 0.01), "{sparse:?}");
-        let one = basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8]).expect("fits");
+        let one = basins(50, 50, |_, _| 1).boundary_scaling(&[1, 2, 4, 8], &Unobserved).expect("fits");
         assert_eq!(one.fit, BoundaryFit::TooFew { distances: 0 });
         assert!(
             one.shares.iter().all(|share| share.uncertain.count() == 0 && share.uncertain.of() == 34 * 34)
         );
-        let two = basins(50, 50, |row, _| Label::from(row > 20)).boundary_scaling(&[1, 2]).expect("fits");
+        let two = basins(50, 50, |row, _| Label::from(row > 20))
+            .boundary_scaling(&[1, 2], &Unobserved)
+            .expect("fits");
         assert_eq!(two.fit, BoundaryFit::TooFew { distances: 2 });
         assert_eq!(two.shares[1].uncertain.count(), 4 * 46);
         // A single cell of another kind makes the square about it uncertain.
         let one = basins(50, 50, |row, column| Label::from((row, column) == (20, 30)));
-        let one = one.boundary_scaling(&[1, 2, 5]).expect("fits");
+        let one = one.boundary_scaling(&[1, 2, 5], &Unobserved).expect("fits");
         assert_eq!(one.shares.iter().map(|share| share.uncertain.count()).collect::<Vec<_>>(), [9, 25, 121]);
     }
 
@@ -300,12 +299,12 @@ mod tests {
         let small = basins(9, 40, |_, _| 1);
         for distances in [&[0][..], &[1, 1], &[2, 1], &[1, 5], &[usize::MAX]] {
             assert!(
-                matches!(small.boundary_scaling(distances), Err(Error::OutOfRange { .. })),
+                matches!(small.boundary_scaling(distances, &Unobserved), Err(Error::OutOfRange { .. })),
                 "{distances:?}"
             );
         }
-        assert!(small.boundary_scaling(&[1, 4]).is_ok());
-        assert!(basins(1, 1, |_, _| 1).boundary_scaling(&[]).is_ok());
-        assert!(basins(1, 1, |_, _| 1).boundary_scaling(&[1]).is_err());
+        assert!(small.boundary_scaling(&[1, 4], &Unobserved).is_ok());
+        assert!(basins(1, 1, |_, _| 1).boundary_scaling(&[], &Unobserved).is_ok());
+        assert!(basins(1, 1, |_, _| 1).boundary_scaling(&[1], &Unobserved).is_err());
     }
 }

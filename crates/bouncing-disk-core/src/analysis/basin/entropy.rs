@@ -33,12 +33,12 @@ impl Basins {
     /// axes that would not be whole are left out. Boxes of 5 x 5 are usual.
     ///
     /// ```
-    /// use bouncing_disk_core::{Axis, BasinSettings, Grid, ImpactMap, Vibration};
+    /// use bouncing_disk_core::{Axis, BasinSettings, Grid, ImpactMap, Unobserved, Vibration};
     ///
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.2)?, 0.5)?;
     /// let grid = Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 2.0, 20)?)?;
     /// // Under a weak forcing every disk comes to rest: nothing is uncertain.
-    /// let entropy = map.basins(grid, &[], BasinSettings::default())?.entropy(5)?;
+    /// let entropy = map.basins(grid, &[], BasinSettings::default(), &Unobserved)?.entropy(5)?;
     /// assert_eq!((entropy.boxes, entropy.boundary_entropy), (16, None));
     /// # Ok::<(), bouncing_disk_core::Error>(())
     /// ```

@@ -173,16 +173,23 @@ mod tests {
     use super::super::starts::Share;
     use super::super::{ATTACHED, Axis, Grid};
     use super::*;
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
 
     fn compared(axial_forcing: f64, restitution: f64, cells: usize, max_impacts: u32) -> [usize; 4] {
         let map = ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution)
             .expect("legal");
         let orbit = map
-            .settled_orbit(ImpactState::from_normalised(0.8, 1.3).expect("legal"), 4_000, 16, 1e-8)
+            .settled_orbit(
+                ImpactState::from_normalised(0.8, 1.3).expect("legal"),
+                4_000,
+                16,
+                1e-8,
+                &Unobserved,
+            )
             .expect("no failure");
         let known: Vec<_> = orbit
-            .and_then(|orbit| orbit.trapping_radius(&map, 64).ok().map(|radius| (orbit, radius)))
+            .and_then(|orbit| orbit.trapping_radius(&map, 64, &Unobserved).ok().map(|radius| (orbit, radius)))
             .into_iter()
             // The same orbit again, with more room: the first one that catches a start has it.
             .flat_map(|(orbit, radius)| {
@@ -193,7 +200,7 @@ mod tests {
         let grid =
             Grid::new(Axis::new(0.0, 1.0, cells).expect("legal"), Axis::new(0.0, 3.0, cells).expect("legal"))
                 .expect("legal");
-        let basins = map.basins(grid, &known, settings).expect("no failure");
+        let basins = map.basins(grid, &known, settings, &Unobserved).expect("no failure");
         let mut counts = [0; 4];
         for row in 0..cells {
             for (column, &label) in basins.row(row).iter().enumerate() {

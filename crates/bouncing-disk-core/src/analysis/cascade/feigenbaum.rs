@@ -57,9 +57,9 @@ impl core::fmt::Display for FeigenbaumEstimate {
 /// goes on.
 ///
 /// ```
-/// use bouncing_disk_core::{doubling_cascade, feigenbaum_estimates};
+/// use bouncing_disk_core::{Unobserved, doubling_cascade, feigenbaum_estimates};
 ///
-/// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10)?);
+/// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10, &Unobserved)?);
 /// let last = estimates.last().expect("from the seventh doubling on");
 /// assert!((last.delta - 4.669_201_609).abs() <= last.delta_error && last.delta_error < 1e-4);
 /// # Ok::<(), bouncing_disk_core::Error>(())

@@ -1,6 +1,7 @@
 use super::*;
 use crate::analysis::periodic::Multipliers;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::observer::Unobserved;
 use crate::platform::phase::Phase;
 use crate::platform::vibration::Vibration;
 use crate::testing::StopAfter;
@@ -31,8 +32,8 @@ fn the_orbit_is_one_of_the_impact_map() {
 /// Below a restitution of about 1/20 the orbit of the third doubling would dip through the platform.
 #[test]
 fn a_cascade_that_ends_at_a_graze_says_so() {
-    assert_eq!(doubling_cascade(0.01, 2).map(|found| found.len()), Ok(2));
-    let ended = doubling_cascade(0.01, 3);
+    assert_eq!(doubling_cascade(0.01, 2, &Unobserved).map(|found| found.len()), Ok(2));
+    let ended = doubling_cascade(0.01, 3, &Unobserved);
     let Err(Error::EarlierImpact { sought, found, .. }) = ended else { panic!("{ended:?}") };
     assert!(found < sought, "{found} {sought}");
 }
@@ -54,7 +55,7 @@ fn every_restitution_has_an_answer() {
         1.0 - f64::EPSILON,
     ] {
         for count in [1, 2, 4] {
-            match doubling_cascade(restitution, count) {
+            match doubling_cascade(restitution, count, &Unobserved) {
                 Ok(found) => assert!(
                     found.len() == count
                         && found.iter().all(|doubling| doubling.multiplier.is_finite())
@@ -69,19 +70,22 @@ fn every_restitution_has_an_answer() {
         }
     }
     for restitution in [0.0, 1.0, -0.1, f64::NAN, f64::INFINITY] {
-        assert!(matches!(doubling_cascade(restitution, 1), Err(Error::OutOfRange { .. })), "{restitution}");
+        assert!(
+            matches!(doubling_cascade(restitution, 1, &Unobserved), Err(Error::OutOfRange { .. })),
+            "{restitution}"
+        );
     }
-    assert!(matches!(doubling_cascade(0.5, 14), Err(Error::OutOfRange { .. })));
-    assert_eq!(doubling_cascade(0.5, 0), Ok(Vec::new()));
+    assert!(matches!(doubling_cascade(0.5, 14, &Unobserved), Err(Error::OutOfRange { .. })));
+    assert_eq!(doubling_cascade(0.5, 0, &Unobserved), Ok(Vec::new()));
 }
 
 #[test]
 fn a_cascade_can_be_stopped_anywhere() {
     let all = StopAfter::calls(u64::MAX);
-    assert_eq!(doubling_cascade_observed(0.5, 12, &all), doubling_cascade(0.5, 12));
+    assert_eq!(doubling_cascade(0.5, 12, &all), doubling_cascade(0.5, 12, &Unobserved));
     assert!(all.asked() > 5, "{}", all.asked());
     for calls in 1..all.asked() {
-        let stopped = doubling_cascade_observed(0.5, 12, &StopAfter::calls(calls));
+        let stopped = doubling_cascade(0.5, 12, &StopAfter::calls(calls));
         assert!(matches!(stopped, Err(Error::Stopped { total: 12, .. })), "{calls}: {stopped:?}");
     }
 }

@@ -4,6 +4,7 @@ use crate::analysis::periodic::search::OrbitSearch;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::random::SplitMix64;
+use crate::observer::Unobserved;
 use crate::testing::{StopAfter, stored};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -63,7 +64,8 @@ fn the_first_doubling_is_that_of_the_closed_form_to_1e_14() {
         let r = f64::from(tenths) / 10.0;
         let first = ImpactMap::first_doubling_forcing(r);
         let (map, orbit) = node(1, r, 0.5 * (first - birth(1, r)));
-        let branch = map.continued(&orbit, &forcing(0.5 * first, 1.03 * first, true)).expect("continued");
+        let branch =
+            map.continued(&orbit, &forcing(0.5 * first, 1.03 * first, true), &Unobserved).expect("continued");
         check_points(&branch);
         assert_eq!((branch.end, branch.bifurcations.len()), (BranchEnd::RangeLimit(1.03 * first), 1), "{r}");
         let found = &branch.bifurcations[0];
@@ -83,7 +85,8 @@ fn folds_are_those_of_the_closed_form_to_1e_13() {
         for k in 1..=3 {
             let (map, orbit) = node(k, r, 0.05);
             let (at, high) = (birth(k, r), birth(k, r) + 0.06);
-            let branch = map.continued(&orbit, &forcing(0.5 * at, high, false)).expect("continued");
+            let branch =
+                map.continued(&orbit, &forcing(0.5 * at, high, false), &Unobserved).expect("continued");
             check_points(&branch);
             let folds: Vec<_> = branch.of_kind(BifurcationKind::Fold).collect();
             assert_eq!(folds.len(), 1, "{r} {k}: {:?}", branch.end);
@@ -104,10 +107,10 @@ fn folds_are_those_of_the_closed_form_to_1e_13() {
 /// From branch to doubled branch: the cascade, as the search of its own finds it by another way.
 #[test]
 fn doubled_branches_double_where_the_cascade_does() {
-    let cascade = doubling_cascade(0.5, 3).expect("found");
+    let cascade = doubling_cascade(0.5, 3, &Unobserved).expect("found");
     let (map, orbit) = node(1, 0.5, 0.1);
     let settings = forcing(0.3, 0.6, true).with_steps(0.003, 0.02, 10_000).expect("legal");
-    let mut branch = map.continued(&orbit, &settings).expect("continued");
+    let mut branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
     for (n, known) in cascade.iter().enumerate() {
         let index = branch.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
         let index = index.expect("doubles");
@@ -116,7 +119,7 @@ fn doubled_branches_double_where_the_cascade_does() {
         let off = (point.parameter - known.axial_forcing).abs();
         assert!(off <= 1e-12, "{n}: {} {}", point.parameter, known.axial_forcing);
         if n + 1 < cascade.len() {
-            branch = branch.switched(index, &settings).expect("switches");
+            branch = branch.switched(index, &settings, &Unobserved).expect("switches");
             check_points(&branch);
             assert_eq!(branch.points[0].orbit.period(), 2 * known.period);
             assert!(branch.points[0].is_stable() && branch.points[0].parameter > known.axial_forcing);
@@ -132,9 +135,9 @@ fn doubled_branches_double_where_the_cascade_does() {
 fn a_doubled_orbit_is_born_in_the_doubling() {
     let map = map(0.5, 0.5);
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let orbit = map.settled_orbit(start, 4_000, 4, 1e-9).expect("no failure").expect("settles");
+    let orbit = map.settled_orbit(start, 4_000, 4, 1e-9, &Unobserved).expect("no failure").expect("settles");
     assert_eq!(orbit.period(), 2);
-    let branch = map.continued(&orbit, &forcing(0.3, 0.6, false)).expect("continued");
+    let branch = map.continued(&orbit, &forcing(0.3, 0.6, false), &Unobserved).expect("continued");
     check_points(&branch);
     let [birth] = branch.bifurcations.as_slice() else { panic!("{:?}", branch.bifurcations) };
     assert_eq!((birth.kind, branch.end), (BifurcationKind::Birth, BranchEnd::Bifurcation));
@@ -159,7 +162,7 @@ fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
                     continue;
                 };
                 let settings = settings.with_steps(steps.0, steps.1, 10_000).expect("legal");
-                let branch = map.continued(&orbit, &settings).expect("continued");
+                let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
                 let folds: Vec<_> = branch.of_kind(BifurcationKind::Fold).collect();
                 let place = format!("{r} {k} {low} {steps:?}: {:?}", branch.end);
                 assert_eq!(folds.len(), 1, "{place}");
@@ -169,7 +172,8 @@ fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
             }
             for low in [fold * (1.0 + 1e-10) + 1e-13, fold + 1e-8] {
                 let settings = forcing(low, fold + 0.3, false).with_steps(steps.0, steps.1, 10_000);
-                let branch = map.continued(&orbit, &settings.expect("legal")).expect("continued");
+                let branch =
+                    map.continued(&orbit, &settings.expect("legal"), &Unobserved).expect("continued");
                 let last = branch.points.last().expect("points").parameter;
                 assert_eq!(branch.end, BranchEnd::RangeLimit(low), "{r}");
                 assert_eq!(branch.of_kind(BifurcationKind::Fold).count(), 0, "{r}");
@@ -183,13 +187,13 @@ fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
 #[test]
 fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
     for r in [0.1, 0.5, 0.8, 0.99] {
-        let cascade = doubling_cascade(r, 3).expect("found");
+        let cascade = doubling_cascade(r, 3, &Unobserved).expect("found");
         let (map, orbit) = node(1, r, 0.8 * (cascade[0].axial_forcing - birth(1, r)));
         let settings = forcing(0.5 * birth(1, r), 1.5, true).with_steps(0.002, 0.02, 10_000).expect("legal");
-        let mut branch = map.continued(&orbit, &settings).expect("continued");
+        let mut branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
         for known in &cascade {
             let index = branch.bifurcations.iter().position(|found| found.kind == BifurcationKind::Doubling);
-            branch = branch.switched(index.expect("doubles"), &settings).expect("switches");
+            branch = branch.switched(index.expect("doubles"), &settings, &Unobserved).expect("switches");
             let born = known.axial_forcing;
             for start in branch.points.iter().take(12).step_by(8) {
                 let map = branch.map_at(start.parameter).expect("legal");
@@ -201,7 +205,7 @@ fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
                         if start.parameter <= low {
                             continue;
                         }
-                        let falling = map.continued(&start.orbit, &settings).expect("continued");
+                        let falling = map.continued(&start.orbit, &settings, &Unobserved).expect("continued");
                         let last = falling.points.last().expect("points").parameter;
                         let kinds: Vec<_> = falling.bifurcations.iter().map(|found| found.kind).collect();
                         let place = format!("{r} {} {below} {steps:?}: {kinds:?} {last}", known.number);
@@ -231,9 +235,10 @@ fn a_range_ends_a_doubled_branch_on_its_own_side_of_the_birth_only() {
 fn a_birth_across_the_seam_is_the_doubling_of_the_closed_form() {
     let map = map(0.9, 0.8);
     let search = OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal");
-    let found = map.periodic_orbits(&search).expect("no failure").orbits;
+    let found = map.periodic_orbits(&search, &Unobserved).expect("no failure").orbits;
     let orbit = found.iter().find(|orbit| orbit.period() == 2 && orbit.platform_periods == 2);
-    let branch = map.continued(orbit.expect("found"), &forcing(0.1, 1.5, false)).expect("continued");
+    let branch =
+        map.continued(orbit.expect("found"), &forcing(0.1, 1.5, false), &Unobserved).expect("continued");
     let [doubling, birth] = branch.bifurcations.as_slice() else { panic!("{:?}", branch.bifurcations) };
     assert_eq!((doubling.kind, birth.kind), (BifurcationKind::Doubling, BifurcationKind::Birth));
     assert!((birth.point.parameter - ImpactMap::first_doubling_forcing(0.8)).abs() < 1e-15);
@@ -248,8 +253,9 @@ fn a_doubling_at_the_end_of_a_range_is_listed() {
         let listed = |from: f64, range: (f64, f64)| {
             let map = map(from, r);
             let orbit = map.refine(&[map.period_one(1).expect("exists")]).expect("settles");
-            let branch =
-                map.continued(&orbit, &forcing(range.0, range.1, from < range.1)).expect("continued");
+            let branch = map
+                .continued(&orbit, &forcing(range.0, range.1, from < range.1), &Unobserved)
+                .expect("continued");
             branch.of_kind(BifurcationKind::Doubling).count()
         };
         let low = 0.5 * (first + birth(1, r));
@@ -269,7 +275,8 @@ fn a_branch_that_ends_in_a_graze_ends_where_the_first_impact_changes() {
     for (k, r) in [(1, 0.3), (1, 0.5), (1, 0.8), (2, 0.5)] {
         let (map, orbit) = node(k, r, 0.05);
         // Down to the fold, and up again as the saddle.
-        let branch = map.continued(&orbit, &forcing(0.5 * birth(k, r), 6.0, false)).expect("continued");
+        let branch =
+            map.continued(&orbit, &forcing(0.5 * birth(k, r), 6.0, false), &Unobserved).expect("continued");
         assert_eq!(branch.end, BranchEnd::Bifurcation, "{k} {r}");
         let graze = branch.bifurcations.last().expect("ends");
         assert_eq!(graze.kind, BifurcationKind::Graze { flight: 0 }, "{k} {r}");
@@ -297,7 +304,7 @@ fn all_orbits_of_random_maps_have_branches_that_end() {
     for _ in 0..60 {
         let map = map(0.2 + 1.3 * random.unit(), 0.2 + 0.6 * random.unit());
         let search = OrbitSearch::new(4, 4).expect("legal").with_starts(24, 24).expect("legal");
-        for orbit in map.periodic_orbits(&search).expect("no failure").orbits.iter().take(12) {
+        for orbit in map.periodic_orbits(&search, &Unobserved).expect("no failure").orbits.iter().take(12) {
             for (parameter, range) in [
                 (ContinuationParameter::Forcing, (0.05, 1.6)),
                 (ContinuationParameter::Restitution, (0.1, 0.9)),
@@ -305,7 +312,7 @@ fn all_orbits_of_random_maps_have_branches_that_end() {
                 for rising in [true, false] {
                     let settings = Continuation::new(parameter, range, rising).expect("legal");
                     let settings = settings.with_steps(0.01, 0.1, 400).expect("legal");
-                    let branch = map.continued(orbit, &settings).expect("continued");
+                    let branch = map.continued(orbit, &settings, &Unobserved).expect("continued");
                     check_points(&branch);
                     let kinds = branch.bifurcations.iter().map(|found| found.kind);
                     let last = |kind| {
@@ -345,12 +352,13 @@ fn an_impact_vanishes_where_the_flight_without_it_grazes() {
     let (own, _) = node(1, 0.21, 0.05);
     let map = map(0.72, own.restitution());
     let search = OrbitSearch::new(2, 1).expect("legal").with_starts(48, 48).expect("legal");
-    let found = map.periodic_orbits(&search).expect("no failure").orbits;
+    let found = map.periodic_orbits(&search, &Unobserved).expect("no failure").orbits;
     let ends = |impacts: usize, kind: fn(BifurcationKind) -> bool| {
         let mut ends = Vec::new();
         for orbit in found.iter().filter(|orbit| orbit.period() == impacts) {
             for rising in [true, false] {
-                let branch = map.continued(orbit, &forcing(0.3, 1.2, rising)).expect("continued");
+                let branch =
+                    map.continued(orbit, &forcing(0.3, 1.2, rising), &Unobserved).expect("continued");
                 check_points(&branch);
                 ends.extend(
                     branch
@@ -379,7 +387,7 @@ fn a_branch_in_the_restitution_is_that_of_the_closed_form() {
     for rising in [true, false] {
         let settings =
             Continuation::new(ContinuationParameter::Restitution, (0.05, 0.95), rising).expect("legal");
-        let branch = map.continued(&orbit, &settings).expect("continued");
+        let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
         check_points(&branch);
         for point in &branch.points {
             let own = branch.map_at(point.parameter).expect("legal").period_one_pair(1).expect("exists");
@@ -415,13 +423,13 @@ fn branches_reach_the_limits_of_the_parameters() {
     let orbit = pair.node.orbit(&map).expect("no failure").expect("admissible");
     for (rising, end) in [(false, all.0), (true, all.1)] {
         let settings = Continuation::new(ContinuationParameter::Restitution, all, rising).expect("legal");
-        let branch = map.continued(&orbit, &settings).expect("continued");
+        let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
         check_points(&branch);
         assert_eq!(branch.end, BranchEnd::RangeLimit(end), "{:?}", branch.bifurcations);
     }
     let (map, orbit) = node(900, 0.5, 1.0);
     let settings = forcing(200.0, 301.5, false).with_steps(1e-4, 0.01, 10_000).expect("legal");
-    let branch = map.continued(&orbit, &settings).expect("continued");
+    let branch = map.continued(&orbit, &settings, &Unobserved).expect("continued");
     check_points(&branch);
     let fold = branch.of_kind(BifurcationKind::Fold).next().expect("born at 300");
     assert!((fold.point.parameter - 300.0).abs() <= 1e-13 * 300.0, "{}", fold.point.parameter);
@@ -432,32 +440,35 @@ fn branches_reach_the_limits_of_the_parameters() {
 fn a_branch_ends_at_its_limits_and_can_be_stopped() {
     let (map, orbit) = node(1, 0.5, 0.1);
     let few = forcing(0.1, 0.6, true).with_steps(1e-3, 1e-3, 5).expect("legal");
-    let branch = map.continued(&orbit, &few).expect("continued");
+    let branch = map.continued(&orbit, &few, &Unobserved).expect("continued");
     assert_eq!((branch.points.len(), branch.end), (5, BranchEnd::PointLimit(5)));
     assert!((branch.points[4].arclength - 4e-3).abs() < 1e-12);
     let many = forcing(0.1, 0.6, true).with_steps(1e-9, 1e-9, 1_000_000).expect("legal");
-    let stopped = map.continued_observed(&orbit, &many, &StopAfter::calls(3));
+    let stopped = map.continued(&orbit, &many, &StopAfter::calls(3));
     assert!(matches!(stopped, Err(Error::Stopped { done: 1.., total: 1_000_000 })), "{stopped:?}");
     // Also while a doubling is located, and on the branch that begins there.
     let settings = forcing(0.3, 0.52, true).with_steps(1e-4, 1e-4, 20_000).expect("legal");
     let all = StopAfter::calls(u64::MAX);
-    let branch = map.continued_observed(&orbit, &settings, &all).expect("nobody stops it");
-    let switched = branch.switched_observed(0, &settings, &all).expect("nobody stops it");
+    let branch = map.continued(&orbit, &settings, &all).expect("nobody stops it");
+    let switched = branch.switched(0, &settings, &all).expect("nobody stops it");
     assert_eq!(
         (Ok(&branch), Ok(&switched)),
-        (map.continued(&orbit, &settings).as_ref(), branch.switched(0, &settings).as_ref())
+        (
+            map.continued(&orbit, &settings, &Unobserved).as_ref(),
+            branch.switched(0, &settings, &Unobserved).as_ref()
+        )
     );
     for calls in 1..all.asked() {
         let watched = StopAfter::calls(calls);
         let stopped = map
-            .continued_observed(&orbit, &settings, &watched)
-            .and_then(|branch| branch.switched_observed(0, &settings, &watched));
+            .continued(&orbit, &settings, &watched)
+            .and_then(|branch| branch.switched(0, &settings, &watched));
         assert!(matches!(stopped, Err(Error::Stopped { total: 20_000, .. })), "{calls}: {stopped:?}");
     }
     assert!(all.asked() > 5, "{}", all.asked());
     // The start is the limit.
     let at = map.vibration().axial_forcing();
-    let empty = map.continued(&orbit, &forcing(0.1, at, true)).expect("continued");
+    let empty = map.continued(&orbit, &forcing(0.1, at, true), &Unobserved).expect("continued");
     assert_eq!(empty.end, BranchEnd::RangeLimit(at));
     assert!(empty.points.iter().all(|point| (point.parameter - at).abs() < 1e-12));
 }
@@ -472,7 +483,8 @@ fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
         rounded += usize::from(map.vibration().axial_forcing().to_bits() != end.to_bits());
         let orbit = map.refine(&[map.period_one(1).expect("born")]).expect("settles");
         for (range, rising) in [((end, end + 0.1), true), ((end - 0.01, end), false)] {
-            let branch = map.continued(&orbit, &forcing(range.0, range.1, rising)).expect("continued");
+            let branch =
+                map.continued(&orbit, &forcing(range.0, range.1, rising), &Unobserved).expect("continued");
             let begun = branch.points[0].parameter;
             assert!((range.0..=range.1).contains(&begun), "{begun} {range:?}");
             assert!((begun - end).abs() <= ROUNDED * end, "{begun} {end}");
@@ -485,11 +497,12 @@ fn an_orbit_of_a_map_made_for_an_end_of_the_range_lies_in_it() {
 #[test]
 fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
     let (map, orbit) = node(1, 0.5, 1e-3);
-    let back = map.continued(&orbit, &forcing(0.2, 0.6, false)).expect("continued");
-    let on = map.continued(&orbit, &forcing(0.2, 0.6, true)).expect("continued");
-    let doubled = on.switched(0, &forcing(0.2, 0.6, true)).expect("doubles");
+    let back = map.continued(&orbit, &forcing(0.2, 0.6, false), &Unobserved).expect("continued");
+    let on = map.continued(&orbit, &forcing(0.2, 0.6, true), &Unobserved).expect("continued");
+    let doubled = on.switched(0, &forcing(0.2, 0.6, true), &Unobserved).expect("doubles");
     let stem = doubled.map_at(doubled.points[0].parameter).expect("legal");
-    let stem = stem.continued(&doubled.points[0].orbit, &forcing(0.2, 0.6, false)).expect("continued");
+    let stem =
+        stem.continued(&doubled.points[0].orbit, &forcing(0.2, 0.6, false), &Unobserved).expect("continued");
     assert_eq!(stem.bifurcations.last().map(|last| last.kind), Some(BifurcationKind::Birth));
     let third = 1.0 / 3.0;
     let doubling = ImpactMap::first_doubling_forcing(0.5);
@@ -538,21 +551,21 @@ fn orbit_forcing(map: &ImpactMap) -> f64 {
 #[test]
 fn what_cannot_be_continued_is_refused() {
     let (own, orbit) = node(1, 0.5, 0.1);
-    let outside = own.continued(&orbit, &forcing(0.5, 0.6, true));
+    let outside = own.continued(&orbit, &forcing(0.5, 0.6, true), &Unobserved);
     assert!(matches!(outside, Err(Error::OutOfRange { field: "parameter of a continuation", .. })));
     let plastic = map(1.05, 0.0);
-    let without = plastic.continued(&orbit, &forcing(0.5, 1.6, true));
+    let without = plastic.continued(&orbit, &forcing(0.5, 1.6, true), &Unobserved);
     assert!(matches!(without, Err(Error::OutOfRange { field: "restitution of a continuation", .. })));
-    let other = map(0.2, 0.5).continued(&orbit, &forcing(0.1, 0.3, true));
+    let other = map(0.2, 0.5).continued(&orbit, &forcing(0.1, 0.3, true), &Unobserved);
     assert!(matches!(other, Err(Error::NoBranch { .. })), "{other:?}");
     // A fold is where the two orbits are one, and no branch is the only one.
     let birth = map(1.0 / 3.0, 0.5);
     let at_birth =
         birth.period_one_pair(1).expect("born").node.orbit(&birth).expect("flies").expect("an orbit");
-    let refused = birth.continued(&at_birth, &forcing(0.1, 0.6, true));
+    let refused = birth.continued(&at_birth, &forcing(0.1, 0.6, true), &Unobserved);
     assert!(matches!(refused, Err(Error::NoBranch { parameter: 0.33..0.34, .. })), "{refused:?}");
-    let branch = own.continued(&orbit, &forcing(0.1, 0.44, true)).expect("continued");
-    let refused = branch.switched(7, &forcing(0.1, 0.6, true)).expect_err("none there");
+    let branch = own.continued(&orbit, &forcing(0.1, 0.44, true), &Unobserved).expect("continued");
+    let refused = branch.switched(7, &forcing(0.1, 0.6, true), &Unobserved).expect_err("none there");
     assert!(matches!(refused, Error::NotOfKind { index: 7, count: 0, .. }), "{refused}");
     let legal = forcing(0.1, 0.6, true);
     for (first, largest, points) in
@@ -576,11 +589,11 @@ fn what_cannot_be_continued_is_refused() {
 fn a_branch_that_is_stored_and_extended_is_the_same() {
     let (map, orbit) = node(1, 0.5, 0.1);
     let whole = forcing(0.3, 0.6, false).with_steps(0.002, 0.01, 400).expect("legal");
-    let doubling = map.continued(&orbit, &forcing(0.3, 0.6, true)).expect("continued");
+    let doubling = map.continued(&orbit, &forcing(0.3, 0.6, true), &Unobserved).expect("continued");
     let from = |settings: &Continuation| {
         [
-            map.continued(&orbit, settings).expect("continued"),
-            doubling.switched(0, settings).expect("switches"),
+            map.continued(&orbit, settings, &Unobserved).expect("continued"),
+            doubling.switched(0, settings, &Unobserved).expect("switches"),
         ]
     };
     let expected = from(&whole);
@@ -594,16 +607,16 @@ fn a_branch_that_is_stored_and_extended_is_the_same() {
             }
             // In one further part, and in several.
             let read = stored(begun);
-            assert_eq!(&read.extended(400).expect("goes on"), expected, "{first}");
-            let middle = stored(&read.extended(first + 40).expect("goes on"));
-            let again = middle.extended(first + 41).expect("goes on");
-            assert_eq!(&stored(&again).extended(400).expect("goes on"), expected, "{first}");
+            assert_eq!(&read.extended(400, &Unobserved).expect("goes on"), expected, "{first}");
+            let middle = stored(&read.extended(first + 40, &Unobserved).expect("goes on"));
+            let again = middle.extended(first + 41, &Unobserved).expect("goes on");
+            assert_eq!(&stored(&again).extended(400, &Unobserved).expect("goes on"), expected, "{first}");
             // Not shortened, and not changed.
-            assert_eq!(&read.extended(2).expect("is as long"), begun);
+            assert_eq!(&read.extended(2, &Unobserved).expect("is as long"), begun);
         }
     }
     let ended = &expected[0];
-    let same = ended.extended(ended.points.len() + 1).expect("no failure");
+    let same = ended.extended(ended.points.len() + 1, &Unobserved).expect("no failure");
     assert_eq!(ended.tip.is_none(), &same == ended);
 }
 
@@ -611,21 +624,21 @@ fn a_branch_that_is_stored_and_extended_is_the_same() {
 fn a_tip_of_another_branch_is_refused() {
     let (map, orbit) = node(1, 0.5, 0.1);
     let short = forcing(0.3, 0.6, true).with_steps(0.002, 0.01, 10).expect("legal");
-    let begun = map.continued(&orbit, &short).expect("continued");
+    let begun = map.continued(&orbit, &short, &Unobserved).expect("continued");
     for points in [0, 1, 1_000_001] {
-        assert!(matches!(begun.extended(points), Err(Error::OutOfRange { .. })));
+        assert!(matches!(begun.extended(points, &Unobserved), Err(Error::OutOfRange { .. })));
     }
-    let whole = map.continued(&orbit, &forcing(0.3, 0.6, true)).expect("continued");
-    let doubled = whole.switched(0, &short).expect("switches");
+    let whole = map.continued(&orbit, &forcing(0.3, 0.6, true), &Unobserved).expect("continued");
+    let doubled = whole.switched(0, &short, &Unobserved).expect("switches");
     let mixed = Branch { tip: doubled.tip.clone(), ..begun.clone() };
-    assert!(matches!(mixed.extended(20), Err(Error::Unfitting { found: 2, expected: 1, .. })));
+    assert!(matches!(mixed.extended(20, &Unobserved), Err(Error::Unfitting { found: 2, expected: 1, .. })));
     let empty = Branch { points: Vec::new(), ..begun.clone() };
-    assert!(matches!(empty.extended(20), Err(Error::Unfitting { .. })));
+    assert!(matches!(empty.extended(20, &Unobserved), Err(Error::Unfitting { .. })));
     let all = StopAfter::calls(u64::MAX);
-    let long = begun.extended_observed(4_000, &all).expect("goes on");
-    assert_eq!(long, begun.extended(4_000).expect("goes on"));
+    let long = begun.extended(4_000, &all).expect("goes on");
+    assert_eq!(long, begun.extended(4_000, &Unobserved).expect("goes on"));
     for calls in 1..all.asked() {
-        let stopped = begun.extended_observed(4_000, &StopAfter::calls(calls));
+        let stopped = begun.extended(4_000, &StopAfter::calls(calls));
         assert!(matches!(stopped, Err(Error::Stopped { total: 4_000, .. })), "{calls}: {stopped:?}");
     }
 }
@@ -635,7 +648,8 @@ fn a_tip_of_another_branch_is_refused() {
 fn a_stored_tip_that_is_none_is_refused() {
     let (map, orbit) = node(1, 0.5, 0.1);
     let short = forcing(0.3, 0.6, true).with_steps(0.002, 0.01, 10).expect("legal");
-    let whole = serde_json::to_value(map.continued(&orbit, &short).expect("continued")).expect("writes");
+    let whole =
+        serde_json::to_value(map.continued(&orbit, &short, &Unobserved).expect("continued")).expect("writes");
     for (place, value) in [
         ("/tip/step", serde_json::json!(0.0)),
         ("/tip/arclength", serde_json::json!(-1.0)),

@@ -3,6 +3,7 @@
 use super::{BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 use crate::analysis::periodic::PeriodicOrbit;
 use crate::error::{Error, within};
+use crate::observer::Unobserved;
 
 /// Steps of the arclength where a part is gone through for the first time, to learn how long it is.
 const FIRST_STEP: f64 = 0.01;
@@ -41,11 +42,11 @@ impl Branch {
     /// doubling, with which a branch ends, is part of it: as the halved orbit, gone through twice.
     ///
     /// ```
-    /// # use bouncing_disk_core::{Continuation, ContinuationParameter, ImpactMap, Vibration};
+    /// # use bouncing_disk_core::{Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration};
     /// # let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
     /// # let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
     /// let whole = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
-    /// let branch = map.continued(&orbit, &whole)?;
+    /// let branch = map.continued(&orbit, &whole, &Unobserved)?;
     /// let parts = branch.within((0.45, 0.45 + 1e-6), 100)?;
     /// assert_eq!(parts.len(), 1);
     /// assert!(parts[0].len() >= 100);
@@ -157,7 +158,7 @@ impl Branch {
                 let step = (0.5 * gap * share.sqrt()).clamp(SMALLEST_STEP, LARGEST_STEP);
                 let settings = settings.with_steps(step, step, MOST_TO_EDGE)?;
                 let map = self.map_at(at)?;
-                let to_edge = map.continued(&known[from].point.orbit, &settings)?;
+                let to_edge = map.continued(&known[from].point.orbit, &settings, &Unobserved)?;
                 to_edge.points.last().filter(|_| to_edge.end == BranchEnd::RangeLimit(edge)).cloned()
             };
             let Some(entry) = entry else { continue };
@@ -182,13 +183,14 @@ impl Branch {
         let map = self.map_at(at)?;
         let settings = Continuation::new(self.parameter, (low, high), rising)?;
         let most = points * PATIENCE;
-        let mut part = map.continued(&from.orbit, &settings.with_steps(FIRST_STEP, LARGEST_STEP, most)?)?;
+        let mut part =
+            map.continued(&from.orbit, &settings.with_steps(FIRST_STEP, LARGEST_STEP, most)?, &Unobserved)?;
         // A branch that ends in its birth may have no point but the first before it.
         let ends = part.points.iter().chain(part.of_kind(BifurcationKind::Birth).map(|birth| &birth.point));
         let length = ends.fold(0.0_f64, |most, end| most.max(end.arclength));
         if part.points.len() < points && length > 0.0 {
             let step = (length / points as f64).clamp(SMALLEST_STEP, LARGEST_STEP);
-            part = map.continued(&from.orbit, &settings.with_steps(step, step, most)?)?;
+            part = map.continued(&from.orbit, &settings.with_steps(step, step, most)?, &Unobserved)?;
         }
         let birth = part.of_kind(BifurcationKind::Birth).next().map(|found| twice(&found.point));
         part.points.extend(birth.filter(|birth| (low..=high).contains(&birth.parameter)));

@@ -15,7 +15,7 @@ use crate::flight::launch::Launch;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::elementary::{exp, ln, sin_cos};
 use crate::numerics::random::SplitMix64;
-use crate::observer::{Progress, Watch};
+use crate::observer::{Progress, Unobserved, Watch};
 use crate::platform::vibration::Vibration;
 
 /// How far beyond its birth (relative to Gamma) the period-1 orbit is followed from at the earliest.
@@ -238,7 +238,7 @@ impl CrisisSearch {
         let map = self.map(forcing)?;
         let starts: Vec<_> = lost.iter().take(16).map(|own| (map, own.start)).collect();
         let exponents: Vec<_> =
-            lyapunov_exponents(&starts, 0, EXPONENT_IMPACTS)?.into_iter().flatten().collect();
+            lyapunov_exponents(&starts, 0, EXPONENT_IMPACTS, &Unobserved)?.into_iter().flatten().collect();
         Ok(exponents.iter().sum::<f64>() / exponents.len() as f64)
     }
 

@@ -1,12 +1,12 @@
 //! How long orbits live beyond a crisis, and the power law of their mean life.
 
 use super::Crisis;
-use crate::analysis::sweep::survival_times_observed;
+use crate::analysis::sweep::survival_times;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::platform::vibration::Vibration;
 
 /// Impacts of the orbit on the attractor from one start to the next.
@@ -70,19 +70,13 @@ impl Crisis {
     /// their mean life. So many `orbits` in [1, 1e6] start from one orbit on the attractor just below the
     /// crisis, and are followed for at most `impacts` >= 1.
     ///
+    /// The items of `observer` are the orbits at one distance, from 0 on for each.
+    ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest
     /// below the crisis; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
-    pub fn lives(&self, beyond: &[f64], orbits: usize, impacts: usize) -> Result<CrisisLives, Error> {
-        self.lives_observed(beyond, orbits, impacts, &Unobserved)
-    }
-
-    /// [`Self::lives`] with an observer; the items are the orbits at one distance, from 0 on for each.
-    ///
-    /// # Errors
-    /// Those of [`Self::lives`]; [`Error::Stopped`] if the observer breaks.
-    pub fn lives_observed(
+    pub fn lives(
         &self,
         beyond: &[f64],
         orbits: usize,
@@ -99,7 +93,7 @@ impl Crisis {
             let map = map(self.forcing + beyond)?;
             let batch: Vec<_> =
                 starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
-            let lived = survival_times_observed(&batch, impacts, observer)?;
+            let lived = survival_times(&batch, impacts, observer)?;
             lives.push(MeanLife::of(lived.into_iter(), impacts, beyond));
         }
         let points: Vec<_> = lives
@@ -125,7 +119,7 @@ impl Crisis {
         let (mut state, mut between) = (self.attractor, TRANSIENT);
         let mut starts = Vec::with_capacity(count);
         while starts.len() < count {
-            let next = map.state_after_observed(state, between, ChatterPolicy::Complete, observer)?;
+            let next = map.state_after(state, between, ChatterPolicy::Complete, observer)?;
             let what = "an orbit on the attractor below a crisis";
             state = next.ok_or(Error::NotSettled { what, iterations: 0, residual: 0.0 })?;
             starts.push(state);

@@ -45,7 +45,7 @@ impl CrisisSearch {
 
 /// The last impacts of an orbit that comes to rest after so many.
 fn last_impacts(map: &ImpactMap, start: ImpactState, impacts: usize) -> Result<Vec<ImpactState>, Error> {
-    let mut state = map.iterate(start, impacts.saturating_sub(IMPACTS) as u64)?;
+    let mut state = map.steps(start, impacts.saturating_sub(IMPACTS) as u64)?;
     let mut last = vec![state];
     for _ in 0..impacts.min(IMPACTS) {
         if map.rests_after(state) {

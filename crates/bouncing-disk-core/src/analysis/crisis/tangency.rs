@@ -11,7 +11,7 @@ use crate::analysis::sweep::survival_times;
 use crate::chatter::policy::ChatterPolicy;
 use crate::error::Error;
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::{Watch, WorkCount};
+use crate::observer::{Unobserved, Watch, WorkCount};
 
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;
@@ -266,7 +266,7 @@ impl Setting {
             let start = piece.first_piece(share)?;
             orbits.extend(start.map(|(state, _)| self.map.orbit(state, ChatterPolicy::Complete)));
         }
-        let lives = survival_times(&orbits, most as usize)?;
+        let lives = survival_times(&orbits, most as usize, &Unobserved)?;
         Ok(lives.into_iter().filter(|life| *life < most as usize).count())
     }
 

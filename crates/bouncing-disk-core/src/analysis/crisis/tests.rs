@@ -153,7 +153,7 @@ fn orbits_live_below_the_crisis_and_die_beyond_it() {
     let living = |offset: f64| {
         let map = map(crisis.forcing + offset);
         let lives = |start: &ImpactState| {
-            map.state_after(*start, 100_000, ChatterPolicy::Complete).expect("flies").is_some()
+            map.state_after(*start, 100_000, ChatterPolicy::Complete, &Unobserved).expect("flies").is_some()
         };
         orbit[12..16].iter().filter(|start| lives(start)).count()
     };
@@ -204,18 +204,21 @@ fn a_search_can_be_stopped() {
 fn mean_lives_follow_a_power_law() {
     let crisis = found();
     let beyond: Vec<_> = (0..8).map(|k| 4e-4 / f64::from(1 << k)).collect();
-    let lives = stored(&crisis.lives(&beyond, 60, 300_000).expect("followed"));
+    let lives = stored(&crisis.lives(&beyond, 60, 300_000, &Unobserved).expect("followed"));
     assert_eq!(lives.lives.len(), beyond.len());
     let law = lives.scaling.as_ref().expect("a power law");
     assert!((-1.1..-0.5).contains(&law.exponent), "{law:?}");
     // Where nothing ends there is no law, and no number that looks like a life.
-    let none = crisis.lives(&beyond, 20, 1).expect("followed");
+    let none = crisis.lives(&beyond, 20, 1, &Unobserved).expect("followed");
     assert_eq!(none.scaling, Err(NoPowerLaw::TooFewPoints { found: 0, needed: 6 }));
     assert!(none.lives.iter().all(|life| life.ended == 0 && life.impacts >= f64::MAX));
     for (distance, orbits, impacts) in [(0.0, 10, 10), (f64::NAN, 10, 10), (1e-5, 0, 10), (1e-5, 10, 0)] {
-        assert!(crisis.lives(&[distance], orbits, impacts).is_err(), "{distance} {orbits} {impacts}");
+        assert!(
+            crisis.lives(&[distance], orbits, impacts, &Unobserved).is_err(),
+            "{distance} {orbits} {impacts}"
+        );
     }
-    let stopped = crisis.lives_observed(&beyond, 20, 1_000, &StopAfter::calls(2));
+    let stopped = crisis.lives(&beyond, 20, 1_000, &StopAfter::calls(2));
     assert!(matches!(stopped, Err(Error::Stopped { .. })));
 }
 
@@ -224,7 +227,7 @@ fn mean_lives_follow_a_power_law() {
 fn mean_lives_scatter_as_their_errors_say() {
     let crisis = found();
     let beyond: Vec<_> = (0..16).map(|k| 2e-4 * (1.0 + 1e-4 * f64::from(k))).collect();
-    let lives = crisis.lives(&beyond, 40, 300_000).expect("followed").lives;
+    let lives = crisis.lives(&beyond, 40, 300_000, &Unobserved).expect("followed").lives;
     let count = lives.len() as f64;
     assert!(lives.iter().all(|life| life.ended == 40));
     let mean = lives.iter().fold(0.0, |sum, life| sum + life.impacts) / count;

@@ -12,7 +12,7 @@ use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
 use crate::numerics::elementary::ln;
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 use crate::platform::phase::Phase;
 
 /// Both Lyapunov exponents per impact of the impact map.
@@ -144,12 +144,16 @@ impl Followed {
 /// The largest exponent is that of [`lyapunov_exponents`](crate::lyapunov_exponents), but for the rounding of
 /// its sum.
 ///
+/// The items of `observer` are the orbits.
+///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, ImpactState, LyapunovOutcome, Vibration, lyapunov_spectra};
+/// use bouncing_disk_core::{
+///     ImpactMap, ImpactState, LyapunovOutcome, Unobserved, Vibration, lyapunov_spectra,
+/// };
 ///
 /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
 /// let start = ImpactState::from_normalised(0.8, 1.3)?;
-/// let outcomes = lyapunov_spectra(&[(map, start)], 1_000, 10_000)?;
+/// let outcomes = lyapunov_spectra(&[(map, start)], 1_000, 10_000, &Unobserved)?;
 /// let spectrum = outcomes[0].spectrum().expect("it bounces on");
 /// // Chaos, and the sum of the exponents is that of the map: close to 2 ln(1/2).
 /// assert!(spectrum.largest > 10.0 * spectrum.standard_error);
@@ -161,18 +165,6 @@ impl Followed {
 /// # Errors
 /// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep()).
 pub fn lyapunov_spectra(
-    starts: &[(ImpactMap, ImpactState)],
-    transient: u64,
-    impacts: u64,
-) -> Result<Vec<LyapunovOutcome>, Error> {
-    lyapunov_spectra_observed(starts, transient, impacts, &Unobserved)
-}
-
-/// [`lyapunov_spectra`] with an observer; the items are the orbits.
-///
-/// # Errors
-/// Those of [`lyapunov_spectra`]; [`Error::Stopped`] if the observer breaks.
-pub fn lyapunov_spectra_observed(
     starts: &[(ImpactMap, ImpactState)],
     transient: u64,
     impacts: u64,

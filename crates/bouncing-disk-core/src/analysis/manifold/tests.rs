@@ -1,3 +1,4 @@
+use crate::observer::Unobserved;
 use core::f64::consts::TAU;
 
 use glam::DVec2;
@@ -52,7 +53,7 @@ fn every_point_comes_from_the_saddle_or_goes_there() {
         let map = map(forcing, restitution);
         let saddle = saddle(&map);
         for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
-            let manifold = map.manifold(&saddle, kind, &settings(8.0)).expect("grows");
+            let manifold = map.manifold(&saddle, kind, &settings(8.0), &Unobserved).expect("grows");
             assert_eq!(manifold.branches.len(), 2);
             let (mut points, mut worst) = (0, 0.0_f64);
             for branch in &manifold.branches {
@@ -75,9 +76,10 @@ fn the_basin_changes_across_the_stable_manifold() {
     for (forcing, restitution) in [(0.40, 0.5), (0.45, 0.5), (0.47, 0.5)] {
         let map = map(forcing, restitution);
         let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
-        let radius = node.trapping_radius(&map, 64).expect("attracts");
+        let radius = node.trapping_radius(&map, 64, &Unobserved).expect("attracts");
         let known = [KnownOrbit::new(node, radius).expect("legal")];
-        let manifold = map.manifold(&saddle(&map), ManifoldKind::Stable, &settings(20.0)).expect("grows");
+        let manifold =
+            map.manifold(&saddle(&map), ManifoldKind::Stable, &settings(20.0), &Unobserved).expect("grows");
         let [mut changes, mut same] = [0_u32; 2];
         let label = |state: ImpactState, by: DVec2| {
             let phase = Phase::new(state.phase().angle() + by.x).expect("finite");
@@ -106,12 +108,12 @@ fn the_basin_changes_across_the_stable_manifold() {
 fn a_negative_multiplier_takes_two_rounds() {
     let map = map(0.50, 0.5);
     let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
-    let manifold = map.manifold(&node, ManifoldKind::Unstable, &settings(50.0)).expect("grows");
+    let manifold = map.manifold(&node, ManifoldKind::Unstable, &settings(50.0), &Unobserved).expect("grows");
     assert!(manifold.multiplier < -1.0);
     for branch in &manifold.branches {
         assert_eq!(branch.end, ManifoldEnd::Attracted, "{branch:?}");
         let last = *branch.pieces.last().and_then(|piece| piece.states.last()).expect("points");
-        let after = map.iterate(last, 200).expect("flies");
+        let after = map.iterate(last, 200, &Unobserved).expect("flies");
         assert_eq!(map.period_of(after, 8, 1e-9), Ok(Some(2)));
         assert!(displacement(&map, after, last).length() < 0.01, "{after} {last}");
     }
@@ -122,9 +124,9 @@ fn a_finer_polygon_is_the_same_curve() {
     let map = map(0.561, 0.5);
     let saddle = saddle(&map);
     for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
-        let coarse = map.manifold(&saddle, kind, &settings(12.0)).expect("grows");
+        let coarse = map.manifold(&saddle, kind, &settings(12.0), &Unobserved).expect("grows");
         let fine = settings(13.0).with_resolution(0.01, 0.05).expect("legal");
-        let fine = map.manifold(&saddle, kind, &fine).expect("grows");
+        let fine = map.manifold(&saddle, kind, &fine, &Unobserved).expect("grows");
         for (coarse, fine) in coarse.branches.iter().zip(&fine.branches) {
             assert!(coarse.end == fine.end && coarse.arclength > 10.0, "{:?} {:?}", coarse.end, fine.end);
             let mut worst = 0.0_f64;
@@ -145,7 +147,10 @@ fn a_finer_polygon_is_the_same_curve() {
 fn each_impact_of_a_saddle_has_its_branches() {
     let map = map(0.561, 0.5);
     let found = map
-        .periodic_orbits(&crate::OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal"))
+        .periodic_orbits(
+            &crate::OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal"),
+            &Unobserved,
+        )
         .expect("searched");
     let orbit = found
         .orbits
@@ -153,7 +158,7 @@ fn each_impact_of_a_saddle_has_its_branches() {
         .find(|orbit| orbit.period() == 2 && Saddle::of(&map, orbit, 0).is_ok())
         .expect("a saddle of two impacts");
     for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
-        let manifold = map.manifold(orbit, kind, &settings(2.0)).expect("grows");
+        let manifold = map.manifold(orbit, kind, &settings(2.0), &Unobserved).expect("grows");
         let places: Vec<_> = manifold.branches.iter().map(|branch| (branch.impact, branch.side)).collect();
         let expected = [(0, Side::Later), (0, Side::Earlier), (1, Side::Later), (1, Side::Earlier)];
         assert_eq!(places, expected);
@@ -169,7 +174,7 @@ fn limits_end_a_branch_and_say_so() {
     let map = map(0.561, 0.5);
     let saddle = saddle(&map);
     let grown = |settings: ManifoldSettings| {
-        map.manifold(&saddle, ManifoldKind::Stable, &settings).expect("grows").branches
+        map.manifold(&saddle, ManifoldKind::Stable, &settings, &Unobserved).expect("grows").branches
     };
     for branch in grown(ManifoldSettings::new(1e6, 50).expect("legal")) {
         let points: usize = branch.pieces.iter().map(|piece| piece.states.len()).sum();
@@ -208,7 +213,7 @@ fn what_is_no_saddle_has_no_manifold() {
     let map = map(0.45, 0.5);
     let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
     let refused = |map: &ImpactMap, orbit: &PeriodicOrbit, kind: ManifoldKind| {
-        map.manifold(orbit, kind, &settings(1.0)).expect_err("refused")
+        map.manifold(orbit, kind, &settings(1.0), &Unobserved).expect_err("refused")
     };
     for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
         assert!(matches!(refused(&map, &node, kind), Error::OutOfRange { .. }));
@@ -224,7 +229,7 @@ fn what_is_no_saddle_has_no_manifold() {
     let dead = self::map(1.3, 0.0);
     let orbit = dead.refine(&[dead.period_one(1).expect("exists")]).expect("an orbit");
     assert!(matches!(refused(&dead, &orbit, ManifoldKind::Stable), Error::OutOfRange { .. }));
-    assert!(dead.manifold(&orbit, ManifoldKind::Unstable, &settings(1.0)).is_ok());
+    assert!(dead.manifold(&orbit, ManifoldKind::Unstable, &settings(1.0), &Unobserved).is_ok());
 }
 
 #[test]
@@ -245,13 +250,14 @@ fn settings_and_results_are_what_they_say() {
 fn a_manifold_can_be_stopped() {
     let map = map(0.561, 0.5);
     let saddle = saddle(&map);
-    let grow = |observer: &StopAfter| {
-        map.manifold_observed(&saddle, ManifoldKind::Stable, &settings(600.0), observer)
-    };
+    let grow = |observer: &StopAfter| map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), observer);
     let patient = StopAfter::calls(u64::MAX);
     let whole = grow(&patient).expect("grows");
     assert!(patient.asked() > 3, "{}", patient.asked());
-    assert_eq!(whole, map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0)).expect("grows"));
+    assert_eq!(
+        whole,
+        map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), &Unobserved).expect("grows")
+    );
     for calls in 1..4 {
         assert!(matches!(grow(&StopAfter::calls(calls)), Err(Error::Stopped { total: 40_000, .. })));
     }
@@ -263,7 +269,7 @@ fn a_saddle_at_the_seam_is_like_any_other() {
     let map = map(1.0 / 3.0 + 1e-6, 0.5);
     let saddle = saddle(&map);
     assert!(TAU - saddle.states[0].phase().angle() < 0.01);
-    let manifold = map.manifold(&saddle, ManifoldKind::Stable, &settings(3.0)).expect("grows");
+    let manifold = map.manifold(&saddle, ManifoldKind::Stable, &settings(3.0), &Unobserved).expect("grows");
     for piece in manifold.pieces() {
         for pair in piece.states.windows(2) {
             assert!(displacement(&map, pair[0], pair[1]).length() < 0.08);

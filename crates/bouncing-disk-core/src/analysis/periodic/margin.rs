@@ -274,6 +274,7 @@ mod tests {
     use super::super::search::OrbitSearch;
     use super::super::{Multipliers, Stability};
     use super::*;
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
 
     fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
@@ -284,7 +285,7 @@ mod tests {
     fn found(map: &ImpactMap, impacts: usize, starts: u32) -> Vec<PeriodicOrbit> {
         let search =
             OrbitSearch::new(impacts, impacts as u64).and_then(|all| all.with_starts(starts, starts));
-        map.periodic_orbits(&search.expect("legal")).expect("no failure").orbits
+        map.periodic_orbits(&search.expect("legal"), &Unobserved).expect("no failure").orbits
     }
 
     /// At the doubling of the orbit of one impact: which orbits of two impacts lie beside it, and whether they and

@@ -8,7 +8,7 @@ use super::catalogue::Catalogue;
 use super::newton::{Attempt, MAX_STEPS};
 use crate::error::{Error, within};
 use crate::map::impact_map::{ImpactMap, ImpactState};
-use crate::observer::{Observer, Unobserved, Watch, WorkCount};
+use crate::observer::{Observer, Watch, WorkCount};
 use crate::platform::phase::Phase;
 use crate::read_checked;
 
@@ -165,10 +165,12 @@ impl ImpactMap {
     /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a doubling
     /// they do if their [errors](PeriodicOrbit::position_error) overlap.
     ///
+    /// The items of `observer` are the starts.
+    ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, OrbitSearch, Vibration};
+    /// # use bouncing_disk_core::{ImpactMap, OrbitSearch, Unobserved, Vibration};
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
-    /// let found = map.periodic_orbits(&OrbitSearch::new(2, 2)?)?;
+    /// let found = map.periodic_orbits(&OrbitSearch::new(2, 2)?, &Unobserved)?;
     /// // Two orbits of one impact and three of two, of which one attracts: the first orbit has doubled its period to it.
     /// let attracts = |orbit: &&bouncing_disk_core::PeriodicOrbit| orbit.multipliers().spectral_radius() < 1.0;
     /// assert_eq!(found.orbits.len(), 5);
@@ -180,15 +182,7 @@ impl ImpactMap {
     /// # Errors
     /// Those of [`Vibration::first_impact`](crate::Vibration::first_impact) but for
     /// [`Error::NoLiftOff`].
-    pub fn periodic_orbits(&self, search: &OrbitSearch) -> Result<OrbitsFound, Error> {
-        self.periodic_orbits_observed(search, &Unobserved)
-    }
-
-    /// [`Self::periodic_orbits`] with an observer; the items are the starts.
-    ///
-    /// # Errors
-    /// Those of [`Self::periodic_orbits`]; [`Error::Stopped`] if the observer breaks.
-    pub fn periodic_orbits_observed(
+    pub fn periodic_orbits(
         &self,
         search: &OrbitSearch,
         observer: &dyn Observer,

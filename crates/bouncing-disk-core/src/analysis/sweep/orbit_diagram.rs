@@ -5,7 +5,7 @@ use core::ops::ControlFlow;
 use super::{SweepEvent, SweepRun};
 use crate::error::Error;
 use crate::map::impact_map::{ImpactState, Orbit};
-use crate::observer::{Observer, Unobserved};
+use crate::observer::Observer;
 
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
@@ -13,22 +13,12 @@ pub const MAX_RECORDED: u64 = 1 << 31;
 /// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
 /// for as many. That an orbit has `most` impacts therefore means that it did not come to rest in as many.
 ///
-/// # Errors
-/// Those of [`sweep`](super::sweep).
-pub fn survival_times(orbits: &[Orbit], most: usize) -> Result<Vec<usize>, Error> {
-    survival_times_observed(orbits, most, &Unobserved)
-}
-
-/// [`survival_times`] with an observer; the items are the orbits. [`SweepRun::advance_survival_times`] keeps
-/// the finished ones of a call that is stopped.
+/// The items of `observer` are the orbits. [`SweepRun::advance_survival_times`] keeps the finished ones of
+/// a call that is stopped.
 ///
 /// # Errors
-/// Those of [`survival_times`]; [`Error::Stopped`] if the observer breaks.
-pub fn survival_times_observed(
-    orbits: &[Orbit],
-    most: usize,
-    observer: &dyn Observer,
-) -> Result<Vec<usize>, Error> {
+/// Those of [`sweep`](super::sweep).
+pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) -> Result<Vec<usize>, Error> {
     let mut run = SweepRun::new(orbits.len());
     run.advance_survival_times(orbits, most, observer)?;
     run.into_results()
@@ -66,23 +56,13 @@ impl SweepRun<usize> {
 /// The columns of a bifurcation diagram: of each orbit the `recorded` impacts that follow the first `transient` ones. A disk
 /// that comes to rest goes on with its next separation; one that rests for ever has fewer impacts.
 ///
+/// The items of `observer` are the orbits. [`SweepRun::advance_orbit_diagram`] keeps the finished ones of a
+/// call that is stopped.
+///
 /// # Errors
 /// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
 /// [`sweep`](super::sweep).
 pub fn orbit_diagram(
-    orbits: &[Orbit],
-    transient: usize,
-    recorded: usize,
-) -> Result<Vec<Vec<ImpactState>>, Error> {
-    orbit_diagram_observed(orbits, transient, recorded, &Unobserved)
-}
-
-/// [`orbit_diagram`] with an observer; the items are the orbits. [`SweepRun::advance_orbit_diagram`] keeps
-/// the finished ones of a call that is stopped.
-///
-/// # Errors
-/// Those of [`orbit_diagram`]; [`Error::Stopped`] if the observer breaks.
-pub fn orbit_diagram_observed(
     orbits: &[Orbit],
     transient: usize,
     recorded: usize,

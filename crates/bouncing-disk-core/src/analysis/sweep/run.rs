@@ -151,7 +151,7 @@ impl<T> PartialResults<T> {
 ///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
 /// let mut run = SweepRun::new(orbits.len());
 /// run.advance_orbit_diagram(&orbits, 200, 50, &Unobserved)?;
-/// assert_eq!(run.into_results()?, orbit_diagram(&orbits, 200, 50)?);
+/// assert_eq!(run.into_results()?, orbit_diagram(&orbits, 200, 50, &Unobserved)?);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -68,6 +68,7 @@ pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> O
 mod tests {
     use super::*;
     use crate::map::impact_map::{ImpactMap, ImpactState};
+    use crate::observer::Unobserved;
     use crate::platform::vibration::Vibration;
     use crate::{ChatterPolicy, orbit_diagram};
 
@@ -76,7 +77,7 @@ mod tests {
         let map = ImpactMap::new(vibration, 0.5).expect("legal");
         let start = ImpactState::from_normalised(1.2, 1.3).expect("legal");
         let orbit = map.orbit(start, ChatterPolicy::Complete);
-        let columns = orbit_diagram(&[orbit], transient, 200).expect("follows");
+        let columns = orbit_diagram(&[orbit], transient, 200, &Unobserved).expect("follows");
         columns[0].iter().map(|state| state.normalised_speed()).collect()
     }
 

@@ -10,7 +10,7 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::flight::launch::Launch;
 use crate::lockstep::lanes::InstructionSet;
 use crate::map::impact_map::ImpactMap;
-use crate::observer::Watch;
+use crate::observer::{Unobserved, Watch};
 use crate::platform::vibration::Vibration;
 use crate::testing::{PAPER_POLICY, golden_spread};
 
@@ -128,7 +128,7 @@ fn the_first_failure_is_reported() {
     };
     orbits[200] = fast(1.0e12);
     orbits[100] = fast(2.0e12);
-    let failure = survival_times(&orbits, 100).expect_err("too long a flight");
+    let failure = survival_times(&orbits, 100, &Unobserved).expect_err("too long a flight");
     assert!(
         matches!(failure, Error::FlightTooLong { relative_speed, .. } if relative_speed.total_cmp(&1.0e12).is_eq()),
         "{failure}"
@@ -138,8 +138,8 @@ fn the_first_failure_is_reported() {
 #[test]
 fn lives_and_columns_are_those_of_single_orbits() {
     let orbits = orbits(700);
-    let lives = survival_times(&orbits, 90).expect("no failure");
-    let columns = orbit_diagram(&orbits, 30, 20).expect("no failure");
+    let lives = survival_times(&orbits, 90, &Unobserved).expect("no failure");
+    let columns = orbit_diagram(&orbits, 30, 20, &Unobserved).expect("no failure");
     for (orbit, (lived, column)) in orbits.iter().zip(lives.iter().zip(&columns)) {
         let alone = orbit.clone().take(90).take_while(|event| matches!(event, Ok(OrbitEvent::Impact(_))));
         assert_eq!(*lived, alone.count());
@@ -161,7 +161,7 @@ fn the_exponent_of_a_periodic_orbit_is_that_of_its_multipliers() {
             (map, map.period_one(1).expect("exists"))
         })
         .collect();
-    let exponents = lyapunov_exponents(&starts, 100, 20_000).expect("no failure");
+    let exponents = lyapunov_exponents(&starts, 100, 20_000, &Unobserved).expect("no failure");
     for ((map, start), exponent) in starts.iter().zip(exponents) {
         let orbit = map.refine(&[*start]).expect("refines");
         let expected = orbit.multipliers().lyapunov_exponent(1);
@@ -187,7 +187,7 @@ fn the_exponent_of_a_longer_orbit_is_that_of_one_of_its_impacts() {
         })
         .into();
     let starts: Vec<_> = settled.iter().map(|(start, _)| *start).collect();
-    let exponents = lyapunov_exponents(&starts, 100, 20_000).expect("no failure");
+    let exponents = lyapunov_exponents(&starts, 100, 20_000, &Unobserved).expect("no failure");
     for ((start, expected), exponent) in settled.iter().zip(exponents) {
         let exponent = exponent.expect("neither rest nor graze");
         assert!((exponent - expected).abs() < 1.0e-3, "{start:?} {exponent} {expected}");
@@ -202,8 +202,8 @@ fn chaos_has_a_positive_exponent_and_rest_none() {
         ImpactMap::new(Vibration::from_axial_forcing(forcing).expect("legal"), 0.5).expect("legal")
     };
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let exponents =
-        lyapunov_exponents(&[(at(0.55), start), (at(0.3), start)], 500, 2_000).expect("no failure");
+    let exponents = lyapunov_exponents(&[(at(0.55), start), (at(0.3), start)], 500, 2_000, &Unobserved)
+        .expect("no failure");
     assert!(exponents[0].is_some_and(|exponent| exponent > 0.05), "{exponents:?}");
     assert_eq!(exponents[1], None);
 }
@@ -217,7 +217,7 @@ fn a_sweep_does_not_depend_on_the_number_of_threads() {
             events.push(bits(event));
             if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
-        pool.install(|| sweep(&orbits, |_| Vec::new(), visit)).expect("no failure")
+        pool.install(|| sweep(&orbits, |_| Vec::new(), visit, &Unobserved)).expect("no failure")
     };
     let expected: Vec<_> = orbits.iter().map(|orbit| expected(orbit, 200)).collect();
     for threads in [1, 2, 7] {
@@ -229,9 +229,9 @@ fn a_sweep_does_not_depend_on_the_number_of_threads() {
 fn more_recorded_impacts_than_there_is_room_for_are_refused() {
     let orbits = orbits(20);
     for recorded in [usize::MAX, 1 << 40] {
-        let error = orbit_diagram(&orbits, 0, recorded).expect_err("too many");
+        let error = orbit_diagram(&orbits, 0, recorded, &Unobserved).expect_err("too many");
         let count = 20_u64.saturating_mul(recorded as u64);
         assert_eq!(error, Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED });
     }
-    assert_eq!(orbit_diagram(&[], 0, usize::MAX), Ok(Vec::new()));
+    assert_eq!(orbit_diagram(&[], 0, usize::MAX, &Unobserved), Ok(Vec::new()));
 }

@@ -125,7 +125,7 @@ fn distances(
     let scale = map.vibration().peak_acceleration();
     let mut state = Some(state);
     core::iter::repeat_with(move || {
-        state = state.and_then(|state| map.iterate(state, orbit.period() as u64).ok());
+        state = state.and_then(|state| map.steps(state, orbit.period() as u64).ok());
         state.map(|state| orbit.distance(state, scale))
     })
 }

@@ -96,7 +96,7 @@ fn a_chattering_cycle_is_that_of_the_orbit_from_the_separation() {
 fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
     let mut starts = random_starts(1_000, 11);
     starts.extend(starts_near_orbits(500, 12));
-    let verdicts = verdicts(&starts, short()).expect("no failure");
+    let verdicts = verdicts(&starts, short(), &Unobserved).expect("no failure");
     let mut seen = 0;
     for ((map, start), verdict) in starts.iter().zip(&verdicts) {
         let Verdict::Periodic { impacts, platform_periods, multipliers, state, rests, .. } = *verdict else {
@@ -124,10 +124,10 @@ fn periodic_verdicts_are_of_orbits_that_bounce_for_ever() {
 #[test]
 fn periodic_verdicts_are_those_of_settled_orbits() {
     let starts = starts_near_orbits(400, 5);
-    let verdicts = verdicts(&starts, short()).expect("no failure");
+    let verdicts = verdicts(&starts, short(), &Unobserved).expect("no failure");
     let (mut periodic, mut missed) = (0, 0);
     for ((map, start), verdict) in starts.iter().zip(&verdicts) {
-        let settled = map.settled_orbit(*start, 20_000, 256, 1e-8).ok().flatten();
+        let settled = map.settled_orbit(*start, 20_000, 256, 1e-8, &Unobserved).ok().flatten();
         let settled = settled.filter(|orbit| orbit.multipliers().spectral_radius() < 1.0);
         match (settled, verdict) {
             (Some(orbit), Verdict::Periodic { impacts, platform_periods, .. }) => {
@@ -151,7 +151,7 @@ fn periodic_verdicts_are_those_of_settled_orbits() {
 #[test]
 fn exact_cycles_do_not_hang_on_rounding() {
     let starts = random_starts(1_000, 3);
-    let verdicts = verdicts(&starts, short()).expect("no failure");
+    let verdicts = verdicts(&starts, short(), &Unobserved).expect("no failure");
     let impacts_to_rest = |map: &ImpactMap, state| {
         let mut orbit = map.orbit(state, ChatterPolicy::Complete);
         let mut impacts = 1;
@@ -195,7 +195,7 @@ fn exact_cycles_do_not_hang_on_rounding() {
 fn verdicts_in_lockstep_are_those_of_single_orbits() {
     let starts = random_starts(300, 17);
     let settings = VerdictSettings { transient: 200, impacts: 500, ..VerdictSettings::default() };
-    let together = verdicts(&starts, settings).expect("no failure");
+    let together = verdicts(&starts, settings, &Unobserved).expect("no failure");
     for ((map, start), verdict) in starts.iter().zip(&together) {
         assert_eq!(map.verdict(*start, settings), Ok(*verdict), "{map:?} {start:?}");
     }
@@ -223,8 +223,8 @@ fn a_call_of_many_blocks_can_be_stopped_and_keeps_no_verdict() {
     let Err(Error::Stopped { done, total }) = stopped else { panic!("{stopped:?}") };
     assert!(seen % TOGETHER == 0 && seen <= 2 * TOGETHER && total == count as u64, "{seen} {total}");
     assert!((seen as u64..count as u64).contains(&done), "{done}");
-    assert_eq!(verdicts(&[], short()), Ok(Vec::new()));
-    let stopped = verdicts_observed(&[(map(0.5, 0.5), state(1.0, 1.0))], short(), &StopAfter::calls(1));
+    assert_eq!(verdicts(&[], short(), &Unobserved), Ok(Vec::new()));
+    let stopped = verdicts(&[(map(0.5, 0.5), state(1.0, 1.0))], short(), &StopAfter::calls(1));
     assert!(matches!(stopped, Err(Error::Stopped { done: 0, total: 1 })), "{stopped:?}");
 }
 
@@ -281,7 +281,7 @@ fn a_slow_passage_is_no_chaos() {
         assert!(matches!(verdict, Verdict::Undecided { reason, .. } if near_zero(reason)), "{verdict:?}");
     }
     let orbit = [(map(1.0 / 3.0, 0.5), map(1.0 / 3.0, 0.5).period_one(1).expect("exists"))];
-    let spectrum = lyapunov_spectra(&orbit, 1_000, 10_000).expect("no failure")[0];
+    let spectrum = lyapunov_spectra(&orbit, 1_000, 10_000, &Unobserved).expect("no failure")[0];
     let spectrum = spectrum.spectrum().expect("bounces on");
     assert!(spectrum.largest.abs() <= spectrum.standard_error, "{spectrum:?}");
 }
@@ -317,7 +317,7 @@ fn what_repels_or_may_end_is_no_chaos() {
 fn the_exponent_of_chaos_is_that_of_the_spectrum() {
     let start = (map(0.55, 0.5), state(1.2, 1.3));
     let Verdict::Chaotic { exponent, standard_error, .. } = of(start.0, start.1) else { panic!("chaos") };
-    let outcome = lyapunov_spectra(&[start], 1_000, 2_000).expect("no failure")[0];
+    let outcome = lyapunov_spectra(&[start], 1_000, 2_000, &Unobserved).expect("no failure")[0];
     let spectrum = outcome.spectrum().expect("bounces on");
     assert_eq!(
         (exponent.to_bits(), standard_error.to_bits()),
@@ -399,7 +399,7 @@ fn seams_have_verdicts() {
 #[test]
 fn without_restitution_every_start_has_a_verdict() {
     let starts: Vec<_> = (0..600).map(|k| (map(0.32 + 0.005 * f64::from(k), 0.0), state(1.2, 1.3))).collect();
-    let verdicts = verdicts(&starts, short()).expect("no failure");
+    let verdicts = verdicts(&starts, short(), &Unobserved).expect("no failure");
     let exact = verdicts
         .iter()
         .filter(|verdict| matches!(verdict, Verdict::Chattering { cycle, .. } if cycle.is_exact()));

@@ -1,4 +1,5 @@
 use super::*;
+use crate::observer::Unobserved;
 use crate::testing::StopAfter;
 
 /// Feigenbaum's constants as they are published (K. Briggs, Math. Comp. 57, 435 (1991)).
@@ -13,7 +14,7 @@ fn number(text: &str) -> DoubleDouble {
 #[test]
 fn the_first_doubling_is_its_closed_form() {
     for text in ["0.001", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "0.999"] {
-        let found = doubling_cascade(number(text), 1).expect("found")[0];
+        let found = doubling_cascade(number(text), 1, &Unobserved).expect("found")[0];
         let distance = (found.axial_forcing - first_doubling_forcing(number(text))).abs().high();
         assert!(distance < 1e-28, "{text}: {distance:e}");
         assert!(distance <= found.forcing_error, "{text}: {distance:e}");
@@ -24,7 +25,7 @@ fn the_first_doubling_is_its_closed_form() {
 #[test]
 fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
     for text in ["0.1", "0.5", "0.8"] {
-        let cascade = doubling_cascade(number(text), 13).expect("found");
+        let cascade = doubling_cascade(number(text), 13, &Unobserved).expect("found");
         let estimates = feigenbaum_estimates(&cascade);
         assert_eq!(estimates.first().map(|first| first.number), Some(7));
         assert_eq!(estimates.last().map(|last| last.number), Some(13));
@@ -45,8 +46,8 @@ fn the_constants_are_those_of_feigenbaum_and_each_error_is_confirmed() {
 #[test]
 fn doubles_are_as_good_as_they_say() {
     for restitution in [0.05, 0.1, 0.25, 0.5, 0.7, 0.8, 0.9, 0.95, 0.99] {
-        let exact = doubling_cascade(DoubleDouble::from(restitution), 13).expect("found");
-        let found = crate::doubling_cascade(restitution, 13).expect("found");
+        let exact = doubling_cascade(DoubleDouble::from(restitution), 13, &Unobserved).expect("found");
+        let found = crate::doubling_cascade(restitution, 13, &Unobserved).expect("found");
         for (found, exact) in found.iter().zip(&exact) {
             let error = (DoubleDouble::from(found.axial_forcing) - exact.axial_forcing).abs().high();
             assert!(error <= found.forcing_error, "{restitution}: {found:?} {error:e}");
@@ -67,7 +68,7 @@ fn twenty_five_digits_are_those_of_an_independent_program() {
         ("0.5", 2, "0.540102086076066366919615211223"),
         ("0.1", 2, "1.06144457818861617255719788652"),
     ] {
-        let found = doubling_cascade(number(restitution), 3).expect("found")[index];
+        let found = doubling_cascade(number(restitution), 3, &Unobserved).expect("found")[index];
         let distance = (found.axial_forcing - number(forcing)).abs().high();
         assert!(distance < 1e-26, "{restitution}: {found:?} {distance:e}");
     }
@@ -76,7 +77,7 @@ fn twenty_five_digits_are_those_of_an_independent_program() {
 /// Each doubling is a root, not what the way to it left.
 #[test]
 fn the_multiplier_is_minus_one() {
-    let cascade = doubling_cascade(number("0.5"), 13).expect("found");
+    let cascade = doubling_cascade(number("0.5"), 13, &Unobserved).expect("found");
     for doubling in &cascade {
         let left = (doubling.multiplier + DoubleDouble::ONE).abs().high();
         // The distance of two doublings takes the multiplier from 1 to -1.
@@ -91,12 +92,12 @@ fn the_multiplier_is_minus_one() {
 
 #[test]
 fn a_cascade_can_be_stopped_and_refuses_what_is_outside() {
-    let stopped = doubling_cascade_observed(number("0.5"), 13, &StopAfter::calls(3));
+    let stopped = doubling_cascade(number("0.5"), 13, &StopAfter::calls(3));
     assert!(matches!(stopped, Err(Error::Stopped { total: 13, .. })), "{stopped:?}");
-    assert_eq!(doubling_cascade(number("0.5"), 0), Ok(Vec::new()));
+    assert_eq!(doubling_cascade(number("0.5"), 0, &Unobserved), Ok(Vec::new()));
     for (restitution, count) in [(0.5, 14), (0.0, 1), (1.0, 1), (-0.5, 1), (f64::NAN, 1), (f64::INFINITY, 1)]
     {
-        let refused = doubling_cascade(DoubleDouble::from(restitution), count);
+        let refused = doubling_cascade(DoubleDouble::from(restitution), count, &Unobserved);
         assert!(matches!(refused, Err(Error::OutOfRange { .. })), "{restitution} {count}: {refused:?}");
     }
     assert!(feigenbaum_estimates(&[]).is_empty());
@@ -104,7 +105,7 @@ fn a_cascade_can_be_stopped_and_refuses_what_is_outside() {
 
 #[test]
 fn doublings_and_estimates_are_printed() {
-    let cascade = doubling_cascade(number("0.5"), 8).expect("found");
+    let cascade = doubling_cascade(number("0.5"), 8, &Unobserved).expect("found");
     assert_eq!(cascade[2].to_string(), "Gamma_3 = 0.5401020860760663669196152, of the orbit of 4 impacts");
     assert_eq!(format!("{:.4}", cascade[0]), "Gamma_1 = 0.4860, of the orbit of 1 impact");
     let text = format!("{:.3}", feigenbaum_estimates(&cascade)[1]);

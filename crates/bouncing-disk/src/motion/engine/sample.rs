@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::{Observer, RestitutionLaw, Unobserved, Watch};
+use bouncing_disk_core::{Observer, RestitutionLaw, Watch};
 
 use super::Engine;
 use crate::error::{Error, check, room_for};
@@ -27,13 +27,15 @@ impl<L: RestitutionLaw> Engine<L> {
     /// Where an event is, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
     /// disk that rests for ever is followed as well.
     ///
+    /// The items of `observer` are the periods of the platform.
+    ///
     /// ```
-    /// use bouncing_disk::core::{ChatterPolicy, Phase};
+    /// use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
     /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System, TOSS_START};
     ///
     /// let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
     /// let mut engine = Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete)?;
-    /// let states = engine.sample(PhaseSpan { periods: 10, remainder: 0.0 }, 401)?;
+    /// let states = engine.sample(PhaseSpan { periods: 10, remainder: 0.0 }, 401, &Unobserved)?;
     /// assert_eq!((states.len(), states[400].time.periods - states[0].time.periods), (401, 10));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
@@ -42,16 +44,7 @@ impl<L: RestitutionLaw> Engine<L> {
     /// [`Error::OutOfRange`] for fewer than two instants, or for more than [`MAX_SAMPLED_PERIODS`]; an error
     /// of the core for more than [`MAX_SAMPLES`] instants or than there is memory for; those of
     /// [`Self::advance`].
-    pub fn sample(&mut self, span: PhaseSpan, count: usize) -> Result<Vec<Snapshot>, Error> {
-        self.sample_observed(span, count, &Unobserved)
-    }
-
-    /// [`Self::sample`] with an observer; the items are the periods of the platform.
-    ///
-    /// # Errors
-    /// Those of [`Self::sample`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-    /// the observer breaks.
-    pub fn sample_observed(
+    pub fn sample(
         &mut self,
         span: PhaseSpan,
         count: usize,
@@ -99,6 +92,7 @@ impl<L: RestitutionLaw> Engine<L> {
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk_core::Unobserved;
     use std::ops::ControlFlow;
 
     use bouncing_disk_core::{ChatterPolicy, Phase, Progress};
@@ -124,7 +118,7 @@ mod tests {
     #[test]
     fn the_instants_are_equally_far_apart_and_none_is_past_the_end() {
         for (span, count) in [(periods(10), 401), (periods(1), 2), (periods(3), 7), (periods(0), 3)] {
-            let states = toss().sample(span, count).expect("legal");
+            let states = toss().sample(span, count, &Unobserved).expect("legal");
             assert_eq!(states.len(), count);
             let start = toss().time();
             assert_eq!((states[0].time, states[count - 1].time), (start, start.after(span)));
@@ -141,14 +135,14 @@ mod tests {
         let system = System::pizza_toss().with_platform(|platform| platform.amplitude = 0.0).expect("legal");
         let start = InitialCondition::Contact { phase: Phase::new(1.0).expect("legal"), angular_speed: 0.0 };
         let mut engine = Engine::new(system, start, ChatterPolicy::Complete).expect("legal");
-        let states = engine.sample(periods(100), 50).expect("legal");
+        let states = engine.sample(periods(100), 50, &Unobserved).expect("legal");
         assert!(states.iter().all(|state| state.disk.height.abs() <= 0.0));
         assert_eq!(states[49].time.periods, 100);
     }
 
     #[test]
     fn what_is_too_much_is_refused_and_what_is_long_can_be_stopped() {
-        let sample = |span, count| toss().sample(span, count);
+        let sample = |span, count| toss().sample(span, count, &Unobserved);
         let field = |result| match result {
             Err(Error::OutOfRange { field, .. }) => field,
             other => panic!("{other:?}"),
@@ -167,7 +161,7 @@ mod tests {
             if progress.done > 1_000 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let Err(Error::Core(bouncing_disk_core::Error::Stopped { done, total })) =
-            toss().sample_observed(periods(MAX_SAMPLED_PERIODS), 2, &soon)
+            toss().sample(periods(MAX_SAMPLED_PERIODS), 2, &soon)
         else {
             panic!("not stopped")
         };
@@ -183,7 +177,7 @@ mod tests {
             let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(()) };
             let end = engine.time().after(periods(span));
             let mut again = engine.clone();
-            let Ok(states) = engine.sample(periods(span), count) else {
+            let Ok(states) = engine.sample(periods(span), count, &Unobserved) else {
                 return Ok(());
             };
             let recorded = Trajectory::record(&mut again, |record| record.time.order(&end) == Ordering::Greater);

@@ -16,7 +16,7 @@ use crate::motor::statistics::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
 use crate::motor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
-use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss_observed};
+use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
 use crate::toss::single::TOSS_START;
 
 /// Impacts over which the perturbed motion is followed.
@@ -228,5 +228,5 @@ fn settled(
         ..MultiTossSettings::default()
     };
     let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
-    Ok(multi_toss_observed(vertical.build()?, start, settings, observer)?.class)
+    Ok(multi_toss(vertical.build()?, start, settings, observer)?.class)
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::{Observer, Unobserved};
+use bouncing_disk_core::Observer;
 
 use crate::display::rough;
 use crate::error::Error;
@@ -43,19 +43,11 @@ impl Motor {
     /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and says what it
     /// does.
     ///
-    /// # Errors
-    /// Those of the core, for a flight that lasts longer than it can count.
-    pub fn report(&self) -> Result<MotorReport, Error> {
-        self.report_observed(&Unobserved)
-    }
-
-    /// [`Self::report`] with an observer; the items are the impacts of up to three motions, each counted from
-    /// 0.
+    /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// Those of [`Self::report`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-    /// the observer breaks.
-    pub fn report_observed(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
+    /// Those of the core, for a flight that lasts longer than it can count.
+    pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         let (regime, periods_per_flight) = regime(self.system().dimensionless(), observer)?;
         let Facts {
             axial_forcing,

@@ -366,8 +366,10 @@ fn regimes_are_those_that_are_known() {
         let map = ImpactMap::new(vibration, restitution).expect("legal");
         let start = Launch::new(vibration.separation_phase().expect("P > 1"), 0.0).expect("legal");
         let impact = vibration.first_impact(start).expect("lands");
-        let orbit =
-            map.settled_orbit(impact.into(), 10_000, 64, 1e-9).expect("no failure").expect("periodic");
+        let orbit = map
+            .settled_orbit(impact.into(), 10_000, 64, 1e-9, &Unobserved)
+            .expect("no failure")
+            .expect("periodic");
         let expected =
             MotorRegime::Periodic { impacts: orbit.period(), platform_periods: orbit.platform_periods };
         assert_eq!(regime_of(forcing, restitution), expected);
@@ -388,7 +390,8 @@ fn regimes_are_those_that_are_known() {
     // Chaos, whose exponent the core's sweep finds from another start.
     let map = ImpactMap::new(Vibration::from_axial_forcing(5.0).expect("legal"), 0.9).expect("legal");
     let state = ImpactState::from_normalised(1.0, 30.0).expect("legal");
-    let expected = lyapunov_exponents(&[(map, state)], 100, 5_000).expect("no failure")[0].expect("no rest");
+    let expected = lyapunov_exponents(&[(map, state)], 100, 5_000, &Unobserved).expect("no failure")[0]
+        .expect("no rest");
     let MotorRegime::Chaotic { lyapunov_exponent } = regime_of(5.0, 0.9) else {
         panic!("{:?}", regime_of(5.0, 0.9))
     };
@@ -400,12 +403,13 @@ fn regimes_are_those_that_are_known() {
 #[test]
 fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
     let motor = Motor::paper_70_khz();
-    let MotorRegime::LongChattering { platform_periods, rests } = motor.report().expect("no failure").regime
+    let MotorRegime::LongChattering { platform_periods, rests } =
+        motor.report(&Unobserved).expect("no failure").regime
     else {
-        panic!("{:?}", motor.report())
+        panic!("{:?}", motor.report(&Unobserved))
     };
     let settings = TransientSettings { duration: 5.0, intervals: 10, ..TransientSettings::default() };
-    let runs = ensemble(motor.system(), &settings, 8).expect("no failure");
+    let runs = ensemble(motor.system(), &settings, 8, &Unobserved).expect("no failure");
     let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
     let expected = 8.0 * 5.0 * 70e3 / separations as f64;
     // Waiting times scatter by about their mean.
@@ -417,7 +421,7 @@ fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
 #[test]
 fn reports_tell_what_there_is() {
     let motor = disc().build().expect("legal");
-    let report = motor.report().expect("no failure");
+    let report = motor.report(&Unobserved).expect("no failure");
     let text = report.to_string();
     for line in
         ["Gamma = ", "Gamma_T = ", "P = ", "regime: ", "a flight lasts ", "largest torque", "deflection"]
@@ -434,7 +438,7 @@ fn reports_tell_what_there_is() {
     }
     let slippery = motor.with(|sheet| sheet.friction = 0.0).expect("legal");
     assert!(slippery.to_string().contains("Gamma_T = infinite"), "{slippery}");
-    let plain = designers().build().expect("legal").report().expect("no failure");
+    let plain = designers().build().expect("legal").report(&Unobserved).expect("no failure");
     assert!(!plain.to_string().contains("spring") && !plain.to_string().contains("warning"), "{plain}");
 }
 
@@ -442,7 +446,7 @@ fn reports_tell_what_there_is() {
 fn a_report_can_be_stopped() {
     let motor = designers().build().expect("legal");
     let stop = |_: Progress| std::ops::ControlFlow::Break(());
-    let stopped = motor.report_observed(&stop);
+    let stopped = motor.report(&stop);
     assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))), "{stopped:?}");
 }
 
@@ -451,8 +455,8 @@ fn a_report_can_be_stopped() {
 #[test]
 fn reports_do_not_depend_on_what_turns() {
     let motor = designers().build().expect("legal");
-    let report = motor.report().expect("no failure");
-    assert_eq!(motor.report().expect("no failure"), report);
+    let report = motor.report(&Unobserved).expect("no failure");
+    assert_eq!(motor.report(&Unobserved).expect("no failure"), report);
     let turned = motor
         .with(|sheet| {
             sheet.friction = 0.7;
@@ -461,7 +465,7 @@ fn reports_do_not_depend_on_what_turns() {
             sheet.load_torque = 1e-4;
         })
         .expect("legal");
-    let other = turned.report().expect("no failure");
+    let other = turned.report(&Unobserved).expect("no failure");
     assert_eq!((other.regime, other.periods_per_flight), (report.regime, report.periods_per_flight));
 }
 

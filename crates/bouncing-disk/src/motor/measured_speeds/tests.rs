@@ -1,6 +1,7 @@
 use super::*;
 use crate::motor::fit_refusal::FitRefusal;
 use crate::testing::Noise;
+use bouncing_disk_core::Unobserved;
 
 fn run(member: u32, noise: &mut Noise) -> MeasuredRun {
     let times: Vec<f64> = (0..100).map(|i| 0.04 * f64::from(i)).collect();
@@ -25,13 +26,13 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     let settings = FitSettings::default();
     let one = MeasuredSpeeds::new(runs[..1].to_vec()).expect("legal");
     assert_eq!(
-        one.fit(&settings),
-        TransientFit::of_measured(&[(&runs[0].times, &runs[0].speeds)], &settings)
+        one.fit(&settings, &Unobserved),
+        TransientFit::of_measured(&[(&runs[0].times, &runs[0].speeds)], &settings, &Unobserved)
     );
     let several = MeasuredSpeeds::new(runs.clone()).expect("legal");
-    let fit = several.fit(&settings);
+    let fit = several.fit(&settings, &Unobserved);
     assert_eq!(fit.expect("fitted").members, 6);
-    let few = MeasuredSpeeds::new(runs[..2].to_vec()).expect("legal").fit(&settings);
+    let few = MeasuredSpeeds::new(runs[..2].to_vec()).expect("legal").fit(&settings, &Unobserved);
     let reason = FitRefusal::TooFewMembers { members: 2, least: 5 };
     assert_eq!(few, Err(Error::FitRefused { reason }));
 }
@@ -53,7 +54,7 @@ fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
             MeasuredRun { member, times, speeds }
         });
         let runs = MeasuredSpeeds::new(runs.collect()).expect("legal");
-        let fit = runs.fit(&FitSettings { seed, ..FitSettings::default() }).expect("fitted");
+        let fit = runs.fit(&FitSettings { seed, ..FitSettings::default() }, &Unobserved).expect("fitted");
         assert_eq!((fit.members, fit.points), (6, 90 + 86 + 82 + 78 + 74 + 70));
         covered[0] += u32::from(fit.steady_speed().contains(20.0));
         covered[1] += u32::from(fit.time_constant().contains(0.6));
@@ -80,9 +81,9 @@ fn a_fit_can_be_watched_and_stopped() {
             calls.fetch_add(1, Ordering::Relaxed);
             ControlFlow::Continue(())
         };
-        assert_eq!(measured.fit_observed(&settings, &counted), measured.fit(&settings));
+        assert_eq!(measured.fit(&settings, &counted), measured.fit(&settings, &Unobserved));
         assert!(calls.into_inner() >= 2);
-        let stopped = measured.fit_observed(&settings, &|_: Progress| ControlFlow::Break(()));
+        let stopped = measured.fit(&settings, &|_: Progress| ControlFlow::Break(()));
         assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. }))));
     }
 }

@@ -20,18 +20,21 @@ impl LoadedMotor {
 impl Motor {
     /// The motor in steady operation under a load torque (N m), in place of the load of its data sheet.
     ///
+    /// The items of `observer` are the impacts that may be spent.
+    ///
     /// ```
+    /// # use bouncing_disk::core::Unobserved;
     /// use bouncing_disk::{Motor, OperatingSettings, Operation};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let half = 0.5 * motor.largest_torque();
-    /// let operation = motor.operating_point(half, &OperatingSettings::default())?;
+    /// let operation = motor.operating_point(half, &OperatingSettings::default(), &Unobserved)?;
     /// let point = operation.steady().expect("known to 1 %");
     /// let (speed, efficiency) = (point.speed, point.efficiency.expect("it works"));
     /// assert!((speed.value - 8.6).abs() < 0.3 && speed.standard_error < 0.2);
     /// assert!((efficiency.value - 0.115).abs() < 0.01);
     /// // A load that friction cannot hold has no operating point.
-    /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default())?;
+    /// let overload = motor.operating_point(2.0 * motor.largest_torque(), &OperatingSettings::default(), &Unobserved)?;
     /// assert!(matches!(overload, Operation::Runaway { .. }));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
@@ -44,22 +47,9 @@ impl Motor {
         &self,
         load_torque: f64,
         settings: &OperatingSettings,
-    ) -> Result<Operation, Error> {
-        self.operating_point_observed(load_torque, settings, &Unobserved)
-    }
-
-    /// [`Self::operating_point`] with an observer; the items are the impacts that may be spent.
-    ///
-    /// # Errors
-    /// Those of [`Self::operating_point`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn operating_point_observed(
-        &self,
-        load_torque: f64,
-        settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Operation, Error> {
-        let mut all = self.torque_speed_curve_observed(&[load_torque], settings, observer)?;
+        let mut all = self.torque_speed_curve(&[load_torque], settings, observer)?;
         // As many as loads.
         Ok(all.swap_remove(0))
     }
@@ -68,22 +58,11 @@ impl Motor {
     /// that a curve costs little more than a point. The points share their perturbations: the curve is smooth, and the
     /// difference of two points is better known than either.
     ///
+    /// The items of `observer` are the impacts that may be spent.
+    ///
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::OutOfRange`] for no load.
     pub fn torque_speed_curve(
-        &self,
-        load_torques: &[f64],
-        settings: &OperatingSettings,
-    ) -> Result<Vec<Operation>, Error> {
-        self.torque_speed_curve_observed(load_torques, settings, &Unobserved)
-    }
-
-    /// [`Self::torque_speed_curve`] with an observer; the items are the impacts that may be spent.
-    ///
-    /// # Errors
-    /// Those of [`Self::torque_speed_curve`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-    /// the observer breaks.
-    pub fn torque_speed_curve_observed(
         &self,
         load_torques: &[f64],
         settings: &OperatingSettings,
@@ -103,7 +82,7 @@ impl Motor {
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known as well as was asked for.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
-        match self.operating_point(0.0, settings)? {
+        match self.operating_point(0.0, settings, &Unobserved)? {
             Operation::Steady(point) => Ok(point.speed),
             Operation::Unsettled(point, _) => Err(Error::NotSettled {
                 speed: point.speed.value,
@@ -116,19 +95,12 @@ impl Motor {
 
     /// The load torque that stops the motor, bracketed: the true stall.
     ///
+    /// The items of `observer` are the impacts that its two searches may spend.
+    ///
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load,
     /// [`Error::NotSettled`] if a speed that it is judged by still drifts after the impacts that it may take.
-    pub fn stall_load(&self, settings: &OperatingSettings) -> Result<StallLoad, Error> {
-        self.stall_load_observed(settings, &Unobserved)
-    }
-
-    /// [`Self::stall_load`] with an observer; the items are the impacts that its two searches may spend.
-    ///
-    /// # Errors
-    /// Those of [`Self::stall_load`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn stall_load_observed(
+    pub fn stall_load(
         &self,
         settings: &OperatingSettings,
         observer: &dyn Observer,
@@ -138,19 +110,12 @@ impl Motor {
 
     /// The phase lag at which the motor turns fastest under the load of its data sheet, and how well it has to be kept.
     ///
+    /// The items of `observer` are the impacts that its two searches may spend.
+    ///
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that turns at no lag,
     /// [`Error::Overpowered`] where the load is more than friction can hold.
-    pub fn best_phase_lag(&self, settings: &OperatingSettings) -> Result<BestPhaseLag, Error> {
-        self.best_phase_lag_observed(settings, &Unobserved)
-    }
-
-    /// [`Self::best_phase_lag`] with an observer; the items are the impacts that its two searches may spend.
-    ///
-    /// # Errors
-    /// Those of [`Self::best_phase_lag`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn best_phase_lag_observed(
+    pub fn best_phase_lag(
         &self,
         settings: &OperatingSettings,
         observer: &dyn Observer,
@@ -163,18 +128,11 @@ impl Motor {
 /// lag and load, preload and amplitude, or whatever else. Motors that follow each other and share a vertical motion
 /// (they differ in load, friction, lag, twist, radii or mass only) are carried by one: give what is shared together.
 ///
-/// # Errors
-/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor.
-pub fn operations(motors: &[Motor], settings: &OperatingSettings) -> Result<Vec<Operation>, Error> {
-    operations_observed(motors, settings, &Unobserved)
-}
-
-/// [`operations`] with an observer; the items are the motors.
+/// The items of `observer` are the motors.
 ///
 /// # Errors
-/// Those of [`operations`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer
-/// breaks.
-pub fn operations_observed(
+/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor.
+pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,
     observer: &dyn Observer,
@@ -206,19 +164,20 @@ mod tests {
         let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
         let largest = motor.largest_torque();
         let loads = [0.0, 0.2 * largest, 0.5 * largest, 1.1 * largest];
-        let curve = motor.torque_speed_curve(&loads, &settings).expect("no failure");
+        let curve = motor.torque_speed_curve(&loads, &settings, &Unobserved).expect("no failure");
         assert!(curve.iter().zip(loads).all(|(point, load)| point.load_torque().to_bits() == load.to_bits()));
         let motors: Vec<Motor> =
             loads.iter().map(|&load| motor.with(|sheet| sheet.load_torque = load).expect("legal")).collect();
-        let map = operations(&motors, &settings).expect("no failure");
+        let map = operations(&motors, &settings, &Unobserved).expect("no failure");
         assert_eq!(curve, map);
         assert!(matches!(curve[3], Operation::Runaway { .. }));
         let Operation::Runaway { largest_torque, .. } = curve[3] else { unreachable!() };
         assert!((largest_torque / largest - 1.0).abs() < 1e-12);
         // Motors that share nothing, between such that do.
         let other = motor.with(|sheet| sheet.amplitude *= 1.1).expect("legal");
-        let mixed = operations(&[motors[0], other, motors[1], motors[2]], &settings).expect("no failure");
-        let alone = other.operating_point(0.0, &settings).expect("no failure");
+        let mixed = operations(&[motors[0], other, motors[1], motors[2]], &settings, &Unobserved)
+            .expect("no failure");
+        let alone = other.operating_point(0.0, &settings, &Unobserved).expect("no failure");
         assert_eq!(mixed[1], alone);
         let speed = |operation: &Operation| operation.point().map(|point: &OperatingPoint| point.speed.value);
         assert!(speed(&mixed[0]) > speed(&mixed[2]) && speed(&mixed[2]) > speed(&mixed[3]));
@@ -230,10 +189,10 @@ mod tests {
     fn loads_that_are_none_are_refused_by_name() {
         let (motor, settings) = (Motor::paper_70_khz(), OperatingSettings::default());
         for load in [f64::NAN, f64::INFINITY] {
-            let error = motor.operating_point(load, &settings).expect_err("illegal");
+            let error = motor.operating_point(load, &settings, &Unobserved).expect_err("illegal");
             assert!(matches!(error, Error::OutOfRange { field: "load_torque", .. }), "{error}");
         }
-        assert!(motor.torque_speed_curve(&[], &settings).is_err());
-        assert!(operations(&[], &settings).is_err());
+        assert!(motor.torque_speed_curve(&[], &settings, &Unobserved).is_err());
+        assert!(operations(&[], &settings, &Unobserved).is_err());
     }
 }

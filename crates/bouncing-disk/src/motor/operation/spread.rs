@@ -9,7 +9,7 @@ use std::f64::consts::LN_10;
 use bouncing_disk_core::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Progress, Unobserved};
+use bouncing_disk_core::{Observer, Progress};
 
 use super::ensemble::{LoadedMotor, Operations, operate, operate_for};
 use super::point::Estimate;
@@ -187,12 +187,15 @@ impl Motor {
     /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve of 16 members:
     /// all cost some six curves.
     ///
+    /// The items of `observer` are the draws.
+    ///
     /// ```
+    /// # use bouncing_disk::core::Unobserved;
     /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
     ///
     /// let (motor, tolerance) = (Motor::paper_70_khz(), InputTolerance { draws: 12, ..InputTolerance::default() });
     /// let settings = OperatingSettings { relative_error: 0.02, ..OperatingSettings::default() };
-    /// let spread = motor.speed_spreads(&[0.0], &settings, &tolerance)?[0].expect("no draw runs away");
+    /// let spread = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved)?[0].expect("no draw runs away");
     /// let [low, high] = spread.from_to;
     /// assert!(low < spread.mean.value && spread.mean.value < high && high - low > 0.3);
     /// # Ok::<(), bouncing_disk::Error>(())
@@ -202,20 +205,6 @@ impl Motor {
     /// Those of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor that leaves its legal
     /// ranges within them.
     pub fn speed_spreads(
-        &self,
-        load_torques: &[f64],
-        settings: &OperatingSettings,
-        tolerance: &InputTolerance,
-    ) -> Result<Vec<Option<InputSpread>>, Error> {
-        self.speed_spreads_observed(load_torques, settings, tolerance, &Unobserved)
-    }
-
-    /// [`Self::speed_spreads`] with an observer; the items are the draws.
-    ///
-    /// # Errors
-    /// Those of [`Self::speed_spreads`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn speed_spreads_observed(
         &self,
         load_torques: &[f64],
         settings: &OperatingSettings,
@@ -243,22 +232,11 @@ impl Motor {
     /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
     /// [`Self::stall_load`] with the same settings, and costs up to nine of it. The stall load of a draw may be below zero.
     ///
+    /// The items of `observer` are the draws.
+    ///
     /// # Errors
     /// Those of [`Self::speed_spreads`].
     pub fn stall_spread(
-        &self,
-        settings: &OperatingSettings,
-        tolerance: &InputTolerance,
-    ) -> Result<Option<InputSpread>, Error> {
-        self.stall_spread_observed(settings, tolerance, &Unobserved)
-    }
-
-    /// [`Self::stall_spread`] with an observer; the items are the draws.
-    ///
-    /// # Errors
-    /// Those of [`Self::stall_spread`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn stall_spread_observed(
         &self,
         settings: &OperatingSettings,
         tolerance: &InputTolerance,

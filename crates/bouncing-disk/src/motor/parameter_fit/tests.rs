@@ -38,7 +38,7 @@ fn synthetic(motor: &Motor, acceleration: f64, duration: f64, error: f64, seed: 
     let settings =
         TransientSettings { duration, intervals: 160, seed: seed_of_run, ..TransientSettings::default() };
     let motor = motor.with(|sheet| sheet.preload_acceleration = Some(acceleration)).expect("legal");
-    let curve = transient(motor.system(), phase, &settings).expect("no failure");
+    let curve = transient(motor.system(), phase, &settings, &Unobserved).expect("no failure");
     let mut noise = Noise::new(seed ^ 0xABCD);
     let speeds = curve.speeds.iter().map(|speed| speed + error * noise.normal()).collect();
     measured(acceleration, curve.times, speeds, Some(error))
@@ -59,7 +59,7 @@ fn at_all_preloads(duration: f64, seed: u64) -> Vec<MeasuredTransient> {
 }
 
 fn fit(transients: &[MeasuredTransient], ranges: &[FitRange]) -> Result<ParameterFit, Error> {
-    ParameterFit::new(&Motor::paper_70_khz(), transients, ranges, &settings())
+    ParameterFit::new(&Motor::paper_70_khz(), transients, ranges, &settings(), &Unobserved)
 }
 
 /// How many of the intervals of the friction alone hold the truth.
@@ -172,7 +172,8 @@ fn the_friction_is_named_where_the_speed_is_steady() {
     let (times, speeds) = run.times.iter().zip(&run.speeds).filter(|&(&time, _)| time > 2.5).unzip();
     late = measured(9.8, times, speeds, Some(0.2));
     let sheet = built();
-    let fit = ParameterFit::new(&sheet, &[late], &[FRICTION, TWIST], &settings()).expect("fitted");
+    let fit =
+        ParameterFit::new(&sheet, &[late], &[FRICTION, TWIST], &settings(), &Unobserved).expect("fitted");
     assert_eq!(fit.estimate(FitParameter::Friction), None);
     let [direction] = fit.undetermined.as_slice() else { panic!("{:?}", fit.undetermined) };
     assert!((direction.direction[0].1 - 1.0).abs() <= 0.0, "{direction:?}");
@@ -212,7 +213,7 @@ fn one_preload_leaves_a_direction_of_three_parameters_open() {
 
 /// Whether any of the motors is locked to few impacts, where no fit could follow it.
 fn is_trapped(motor: &Motor) -> bool {
-    let verdicts = low_period_traps(motor, &PRELOADS).expect("no failure");
+    let verdicts = low_period_traps(motor, &PRELOADS, &Unobserved).expect("no failure");
     verdicts.iter().any(|verdict| verdict.is_trap)
 }
 
@@ -224,7 +225,7 @@ fn a_restitution_is_found_with_the_error_of_its_rough_response() {
     let sheet = built().with(|sheet| sheet.restitution = 0.3).expect("legal");
     let settings = ParameterFitSettings { members: 32, ..ParameterFitSettings::default() };
     let runs = at_all_preloads(0.4, 9);
-    let fit = ParameterFit::new(&sheet, &runs, &[RESTITUTION], &settings).expect("fitted");
+    let fit = ParameterFit::new(&sheet, &runs, &[RESTITUTION], &settings, &Unobserved).expect("fitted");
     let found = fit.estimate(FitParameter::Restitution).expect("determined");
     assert!(found.contains(0.5) && found.low > 0.35 && found.high < 0.65, "{found:?}");
     assert!(found.high - found.low > 0.05, "{found:?}");
@@ -239,7 +240,8 @@ fn an_amplitude_that_its_rough_response_hides_is_named() {
     let sheet = built().with(|sheet| sheet.amplitude = 1.4 * amplitude.of(&built())).expect("legal");
     let settings = ParameterFitSettings { members: 32, ..ParameterFitSettings::default() };
     let runs = at_all_preloads(0.4, 9);
-    let fit = ParameterFit::new(&sheet, &runs, &[AMPLITUDE], &settings).expect("nothing to search");
+    let fit =
+        ParameterFit::new(&sheet, &runs, &[AMPLITUDE], &settings, &Unobserved).expect("nothing to search");
     assert_eq!(fit.estimate(amplitude), None);
     let [open] = fit.undetermined.as_slice() else { panic!("{:?}", fit.undetermined) };
     assert_eq!(open.direction, [(amplitude, 1.0)]);
@@ -254,7 +256,8 @@ fn input_that_means_nothing_is_refused_by_name() {
     let speeds: Vec<f64> = times.iter().map(|time| 10.0 * time).collect();
     let good = measured(9.8, times.clone(), speeds.clone(), None);
     let refusal = |transient: MeasuredTransient, range: FitRange| {
-        let error = ParameterFit::new(&sheet, &[transient], &[range], &settings()).expect_err("illegal");
+        let error =
+            ParameterFit::new(&sheet, &[transient], &[range], &settings(), &Unobserved).expect_err("illegal");
         error.to_string()
     };
     let still = measured(9.8, times.clone(), vec![0.0; 20], None);
@@ -299,9 +302,9 @@ fn input_that_means_nothing_is_refused_by_name() {
         refusal(good.clone(), range);
     }
     let transients = [good];
-    assert!(ParameterFit::new(&sheet, &transients, &[], &settings()).is_err());
-    assert!(ParameterFit::new(&sheet, &transients, &[FRICTION, FRICTION], &settings()).is_err());
-    assert!(ParameterFit::new(&sheet, &[], &[FRICTION], &settings()).is_err());
+    assert!(ParameterFit::new(&sheet, &transients, &[], &settings(), &Unobserved).is_err());
+    assert!(ParameterFit::new(&sheet, &transients, &[FRICTION, FRICTION], &settings(), &Unobserved).is_err());
+    assert!(ParameterFit::new(&sheet, &[], &[FRICTION], &settings(), &Unobserved).is_err());
     let default = ParameterFitSettings::default();
     for settings in [
         ParameterFitSettings { members: 23, ..default },
@@ -314,7 +317,8 @@ fn input_that_means_nothing_is_refused_by_name() {
         ParameterFitSettings { largest_misfit: 0.5, ..default },
         ParameterFitSettings { largest_misfit: f64::INFINITY, ..default },
     ] {
-        let error = ParameterFit::new(&sheet, &transients, &[FRICTION], &settings).expect_err("illegal");
+        let error =
+            ParameterFit::new(&sheet, &transients, &[FRICTION], &settings, &Unobserved).expect_err("illegal");
         assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
     }
 }
@@ -341,8 +345,8 @@ fn a_fit_that_describes_nothing_is_refused_with_its_numbers() {
     let error = fit(&[measured(9.8, times, falling, None)], &[FRICTION]).expect_err("no run-up");
     assert!(matches!(error, Error::FitRefused { .. }), "{error}");
     let settings = ParameterFitSettings { most_evaluations: 2, ..settings() };
-    let error =
-        ParameterFit::new(&Motor::paper_70_khz(), &[run], &[FRICTION], &settings).expect_err("too few");
+    let error = ParameterFit::new(&Motor::paper_70_khz(), &[run], &[FRICTION], &settings, &Unobserved)
+        .expect_err("too few");
     assert_eq!(error, Error::FitRefused { reason: FitRefusal::NotConverged { evaluations: 2 } });
 }
 
@@ -353,7 +357,7 @@ fn a_fit_can_be_watched_and_stopped_and_has_one_result() {
         if progress.done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
     let sheet = Motor::paper_70_khz();
-    let stopped = ParameterFit::new_observed(&sheet, &run, &[FRICTION], &settings(), &stop);
+    let stopped = ParameterFit::new(&sheet, &run, &[FRICTION], &settings(), &stop);
     assert!(
         matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 3, .. }))),
         "{stopped:?}"

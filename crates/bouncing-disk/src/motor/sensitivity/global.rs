@@ -1,11 +1,11 @@
 //! Global sensitivities of a motor: Sobol' indices and elementary effects over ranges of its parameters.
 
-use bouncing_disk_core::{Observer, Progress, Unobserved};
+use bouncing_disk_core::{Observer, Progress};
 
 use super::local::quantity_of;
-use super::morris::{ElementaryEffects, elementary_effects_observed};
+use super::morris::{ElementaryEffects, elementary_effects};
 use super::parameter::{SensitivityParameter, SensitivityQuantity};
-use super::sobol::{SamplingSettings, SobolIndices, sobol_indices_observed};
+use super::sobol::{SamplingSettings, SobolIndices, sobol_indices};
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
@@ -23,6 +23,8 @@ impl Motor {
     /// what low-period traps do, counts with the parameters of the vertical motion, as an effect of them
     /// together with others.
     ///
+    /// The items of `observer` are the rows of the sample.
+    ///
     /// # Errors
     /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or
     /// [`Motor::stall_load`]; [`Error::Overpowered`] where a load is more than friction can hold. A parameter
@@ -33,29 +35,16 @@ impl Motor {
         ranges: &[ParameterRange],
         sampling: SamplingSettings,
         operating: &OperatingSettings,
-    ) -> Result<Vec<SobolIndices>, Error> {
-        self.sobol_indices_observed(quantity, ranges, sampling, operating, &Unobserved)
-    }
-
-    /// [`Self::sobol_indices`] with an observer; the items are the rows of the sample.
-    ///
-    /// # Errors
-    /// Those of [`Self::sobol_indices`]; an error of the core
-    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
-    pub fn sobol_indices_observed(
-        &self,
-        quantity: SensitivityQuantity,
-        ranges: &[ParameterRange],
-        sampling: SamplingSettings,
-        operating: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<SobolIndices>, Error> {
         let function = self.counted_values(quantity, ranges, sampling.rows, operating, observer);
-        sobol_indices_observed(function, &widths(ranges), sampling, observer)
+        sobol_indices(function, &widths(ranges), sampling, observer)
     }
 
     /// The elementary effects (Morris) of these parameters on the steady speed (rad/s per range) or the stall
     /// torque (N m per range), in their order.
+    ///
+    /// The items of `observer` are the trajectories.
     ///
     /// # Errors
     /// Those of [`Self::sobol_indices`].
@@ -65,25 +54,10 @@ impl Motor {
         ranges: &[ParameterRange],
         sampling: SamplingSettings,
         operating: &OperatingSettings,
-    ) -> Result<Vec<ElementaryEffects>, Error> {
-        self.elementary_effects_observed(quantity, ranges, sampling, operating, &Unobserved)
-    }
-
-    /// [`Self::elementary_effects`] with an observer; the items are the trajectories.
-    ///
-    /// # Errors
-    /// Those of [`Self::elementary_effects`]; an error of the core
-    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
-    pub fn elementary_effects_observed(
-        &self,
-        quantity: SensitivityQuantity,
-        ranges: &[ParameterRange],
-        sampling: SamplingSettings,
-        operating: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<ElementaryEffects>, Error> {
         let function = self.counted_values(quantity, ranges, sampling.rows, operating, observer);
-        elementary_effects_observed(function, &widths(ranges), sampling, observer)
+        elementary_effects(function, &widths(ranges), sampling, observer)
     }
 
     /// [`Self::values`], which tells an observer the rows of the sample that are done.

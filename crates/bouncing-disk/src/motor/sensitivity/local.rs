@@ -3,7 +3,7 @@
 use bouncing_disk_core::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
-use bouncing_disk_core::{Observer, Progress, Unobserved, read_checked};
+use bouncing_disk_core::{Observer, Progress, read_checked};
 
 use super::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
@@ -104,15 +104,17 @@ impl Motor {
     /// How the steady speed or the stall torque depends on these parameters next to the motor, in their
     /// order.
     ///
+    /// The items of `observer` are ensembles of motors that share a vertical motion.
+    ///
     /// ```no_run
+    /// # use bouncing_disk::core::Unobserved;
     /// use bouncing_disk::{Motor, SensitivityParameter, SensitivityQuantity, SensitivitySettings};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let all = motor.local_sensitivities(
     ///     SensitivityQuantity::SteadySpeed,
     ///     &[SensitivityParameter::Friction, SensitivityParameter::PeakAngularSpeed],
-    ///     &SensitivitySettings::default(),
-    /// )?;
+    ///     &SensitivitySettings::default(), &Unobserved)?;
     /// // Friction hardly matters to the speed without load, and the speed of the stator all the more.
     /// assert!(all[0].derivative.value < 0.1 && all[1].derivative.value > 0.9);
     /// # Ok::<(), bouncing_disk::Error>(())
@@ -124,21 +126,6 @@ impl Motor {
     /// a load is more than friction can hold, [`Error::TooFewMotors`] where traps leave too few of them;
     /// those of [`Motor::operating_point`].
     pub fn local_sensitivities(
-        &self,
-        quantity: SensitivityQuantity,
-        parameters: &[SensitivityParameter],
-        settings: &SensitivitySettings,
-    ) -> Result<Vec<LocalSensitivity>, Error> {
-        self.local_sensitivities_observed(quantity, parameters, settings, &Unobserved)
-    }
-
-    /// [`Self::local_sensitivities`] with an observer; the items are ensembles of motors that share a
-    /// vertical motion.
-    ///
-    /// # Errors
-    /// Those of [`Self::local_sensitivities`]; an error of the core
-    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
-    pub fn local_sensitivities_observed(
         &self,
         quantity: SensitivityQuantity,
         parameters: &[SensitivityParameter],
@@ -188,11 +175,11 @@ pub(super) fn quantity_of(
 ) -> Result<Estimate, Error> {
     match quantity {
         SensitivityQuantity::SteadySpeed => {
-            let operation = motor.operating_point_observed(motor.load_torque(), settings, observer)?;
+            let operation = motor.operating_point(motor.load_torque(), settings, observer)?;
             let loaded = LoadedMotor::of(motor);
             operation.point().map(|point| point.speed).ok_or(Error::Overpowered { load: loaded.load() })
         }
-        SensitivityQuantity::StallTorque => Ok(motor.stall_load_observed(settings, observer)?.torque),
+        SensitivityQuantity::StallTorque => Ok(motor.stall_load(settings, observer)?.torque),
     }
 }
 
@@ -300,7 +287,7 @@ fn member_values(
     match quantity {
         SensitivityQuantity::SteadySpeed => speeds(&motors.iter().map(LoadedMotor::of).collect::<Vec<_>>()),
         SensitivityQuantity::StallTorque => {
-            let stall = nominal.stall_load_observed(settings, observer)?.share;
+            let stall = nominal.stall_load(settings, observer)?.share;
             let shares = SHARES.map(|offset| (stall + offset).clamp(-0.999, 0.999));
             let mut loaded = Vec::with_capacity(motors.len() * shares.len());
             for motor in motors {

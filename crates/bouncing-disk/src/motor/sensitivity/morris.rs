@@ -2,7 +2,7 @@
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Unobserved, Watch};
+use bouncing_disk_core::{Observer, Watch};
 
 use super::resamples::standard_errors;
 use super::sobol::{SamplingSettings, check_ranges, evaluated};
@@ -33,23 +33,11 @@ pub struct ElementaryEffects {
 /// of its range, and returns their values. The starting points and the order are drawn independently for each
 /// trajectory, so that resampling trajectories gives the standard errors.
 ///
+/// The items of `observer` are the trajectories.
+///
 /// # Errors
 /// Those of [`sobol_indices`](crate::sobol_indices).
 pub fn elementary_effects(
-    function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
-    ranges: &[[f64; 2]],
-    settings: SamplingSettings,
-) -> Result<Vec<ElementaryEffects>, Error> {
-    elementary_effects_observed(function, ranges, settings, &Unobserved)
-}
-
-/// [`elementary_effects`] with an observer, which is asked after every trajectory; the items are the
-/// trajectories.
-///
-/// # Errors
-/// Those of [`elementary_effects`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if
-/// the observer breaks.
-pub fn elementary_effects_observed(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],
     settings: SamplingSettings,

@@ -2,7 +2,7 @@
 //! has.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Observer, Unobserved, Watch, read_checked};
+use bouncing_disk_core::{Observer, Watch, read_checked};
 
 use super::resamples::standard_errors;
 use crate::error::{Error, check, finite};
@@ -88,12 +88,15 @@ pub(super) fn evaluated(
 /// other from B. Jansen's estimators; rows are drawn independently, so that resampling them gives the
 /// standard errors.
 ///
+/// The items of `observer` are the rows.
+///
 /// ```
+/// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::{SamplingSettings, sobol_indices};
 ///
 /// // x + 2 y over the unit square: the variances are as 1 to 4.
 /// let function = |points: &[Vec<f64>]| Ok(points.iter().map(|at| at[0] + 2.0 * at[1]).collect());
-/// let indices = sobol_indices(function, &[[0.0, 1.0]; 2], SamplingSettings { rows: 2000, seed: 1 })?;
+/// let indices = sobol_indices(function, &[[0.0, 1.0]; 2], SamplingSettings { rows: 2000, seed: 1 }, &Unobserved)?;
 /// assert!((indices[0].first.value - 0.2).abs() < 4.0 * indices[0].first.standard_error);
 /// assert!((indices[1].total.value - 0.8).abs() < 4.0 * indices[1].total.standard_error);
 /// # Ok::<(), bouncing_disk::Error>(())
@@ -103,19 +106,6 @@ pub(super) fn evaluated(
 /// [`Error::OutOfRange`] for illegal ranges or settings, for a value that is not finite, and for a function
 /// that returns another number of values than it was given points; its own errors.
 pub fn sobol_indices(
-    function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
-    ranges: &[[f64; 2]],
-    settings: SamplingSettings,
-) -> Result<Vec<SobolIndices>, Error> {
-    sobol_indices_observed(function, ranges, settings, &Unobserved)
-}
-
-/// [`sobol_indices`] with an observer, which is asked after every row; the items are the rows.
-///
-/// # Errors
-/// Those of [`sobol_indices`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-/// observer breaks.
-pub fn sobol_indices_observed(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],
     settings: SamplingSettings,

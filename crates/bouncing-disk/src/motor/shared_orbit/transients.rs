@@ -27,7 +27,7 @@ use crate::parameters::system::System;
 /// seed of its own.
 ///
 /// ```
-/// use bouncing_disk::core::Phase;
+/// use bouncing_disk::core::{Phase, Unobserved};
 /// use bouncing_disk::{System, TransientSettings, shared_transients, transient};
 ///
 /// // The motor of Table III with eight coefficients of friction.
@@ -36,7 +36,7 @@ use crate::parameters::system::System;
 ///     .collect::<Result<Vec<_>, _>>()?;
 /// let (phase, settings) = (Phase::new(4.0)?, TransientSettings { duration: 0.1, ..TransientSettings::default() });
 /// let curves = shared_transients(&motors, phase, &settings)?;
-/// assert_eq!(curves[2], transient(&motors[2], phase, &settings)?);
+/// assert_eq!(curves[2], transient(&motors[2], phase, &settings, &Unobserved)?);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 ///

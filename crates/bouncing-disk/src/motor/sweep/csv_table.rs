@@ -123,6 +123,7 @@ fn suffix(unit: &str) -> &'static str {
 mod tests {
     use super::*;
     use crate::{Motor, MotorSweep, OperatingSettings, SweepAxis};
+    use bouncing_disk_core::Unobserved;
 
     fn result() -> MotorSweepResult {
         let motor = Motor::paper_70_khz();
@@ -137,7 +138,7 @@ mod tests {
             most_impacts: 100_000,
             ..OperatingSettings::default()
         };
-        MotorSweep::new(motor, axes, settings).and_then(|sweep| sweep.run()).expect("no failure")
+        MotorSweep::new(motor, axes, settings).and_then(|sweep| sweep.run(&Unobserved)).expect("no failure")
     }
 
     #[test]
@@ -200,7 +201,7 @@ mod tests {
             let motor = motor.build().expect("legal");
             let value = field.value(&motor.parameters()).unwrap_or(1e-3);
             let sweep = MotorSweep::new(motor, vec![SweepAxis::new(field, vec![value])], settings);
-            let result = sweep.and_then(|sweep| sweep.run()).expect("legal");
+            let result = sweep.and_then(|sweep| sweep.run(&Unobserved)).expect("legal");
             let mut names = result.header();
             assert_eq!(names.len(), result.to_csv().lines().nth(1).expect("a cell").split(',').count());
             names.sort();

@@ -9,7 +9,7 @@ use super::MotorSweep;
 use super::axis::sheet_of_cell;
 use super::result::MotorSweepResult;
 use crate::error::Error;
-use crate::motor::operation::of_motor::operations_observed;
+use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 
 /// A [`MotorSweep`] under way: the groups of cells that are finished.
@@ -37,7 +37,7 @@ use crate::motor::operation::point::Operation;
 /// });
 /// assert!(stopped.is_err() && !run.is_done());
 /// run.advance(&sweep, &Unobserved)?;
-/// assert_eq!(run.into_result(&sweep)?, sweep.run()?);
+/// assert_eq!(run.into_result(&sweep)?, sweep.run(&Unobserved)?);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -195,7 +195,7 @@ fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
-    operations_observed(&motors, sweep.settings(), &ask)
+    operations(&motors, sweep.settings(), &ask)
 }
 
 /// Groups under way for each thread that their members alone would leave idle: members end at different times.

@@ -1,7 +1,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::Progress;
+use bouncing_disk_core::{Progress, Unobserved};
 
 use super::quantity::SweepQuantity;
 use super::*;
@@ -26,7 +26,7 @@ fn sweep(axes: &[SweepAxis]) -> Result<MotorSweep, Error> {
 }
 
 fn result(axes: &[SweepAxis]) -> MotorSweepResult {
-    sweep(axes).and_then(|sweep| sweep.run()).expect("no failure")
+    sweep(axes).and_then(|sweep| sweep.run(&Unobserved)).expect("no failure")
 }
 
 /// Shares of the largest torque; the last two overpower the motor.
@@ -51,7 +51,7 @@ fn the_rows_of_a_map_are_curves() {
     assert_eq!((by_rows.rows().count(), by_columns.rows().count()), (2, 5));
     for (row, amplitude) in amplitudes.into_iter().enumerate() {
         let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = amplitude).expect("legal");
-        let curve = motor.torque_speed_curve(&load.values, &rough()).expect("no failure");
+        let curve = motor.torque_speed_curve(&load.values, &rough(), &Unobserved).expect("no failure");
         assert_eq!(by_rows.rows().nth(row), Some(&curve[..]));
         let column: Vec<Operation> = by_columns.rows().map(|cells| cells[row]).collect();
         assert_eq!(column, curve);
@@ -78,8 +78,8 @@ fn a_map_of_one_motion_is_one_group() {
     let motors: Vec<Motor> = (0..9).map(|cell| sweep.motor_of(cell).expect("legal")).collect();
     let (fifth, last) = (motors[5].parameters(), motors[8].parameters());
     assert_eq!((fifth.phase_lag, fifth.friction, last.phase_lag, last.friction), (0.4, 0.0, 3.5, 0.0));
-    let result = sweep.run().expect("no failure");
-    assert_eq!(result.cells(), operations(&motors, &rough()).expect("no failure"));
+    let result = sweep.run(&Unobserved).expect("no failure");
+    assert_eq!(result.cells(), operations(&motors, &rough(), &Unobserved).expect("no failure"));
     for ((values, _), motor) in result.iter().zip(&motors) {
         let sheet = motor.parameters();
         assert_eq!(values, [(MotorField::PhaseLag, sheet.phase_lag), (MotorField::Friction, sheet.friction)]);
@@ -92,7 +92,7 @@ fn a_map_of_one_motion_is_one_group() {
 fn values_may_be_few_alike_unsorted_and_extreme() {
     let one = result(&[axis(MotorField::Amplitude, &[1e-8])]);
     assert_eq!((one.cells().len(), one.matrix(SweepQuantity::Efficiency).len()), (1, 1));
-    let alone = Motor::paper_70_khz().operating_point(0.0, &rough()).expect("no failure");
+    let alone = Motor::paper_70_khz().operating_point(0.0, &rough(), &Unobserved).expect("no failure");
     assert_eq!(one.cells(), [alone]);
     let values = [2e-8, 1e-8, 2e-8, 0.0, -0.0, 5e-324];
     let many = result(&[axis(MotorField::Amplitude, &values)]);
@@ -186,10 +186,10 @@ fn stop_at(calls: &AtomicUsize, call: usize) -> impl Fn(Progress) -> ControlFlow
 fn threads_and_stops_change_no_bit() {
     let sweep = mixed();
     assert_eq!(sweep.groups().len(), 6);
-    let at_once = sweep.run().expect("no failure");
+    let at_once = sweep.run(&Unobserved).expect("no failure");
     for threads in [1, 2, 7] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-        assert!(pool.install(|| sweep.run()).expect("no failure") == at_once, "{threads} threads");
+        assert!(pool.install(|| sweep.run(&Unobserved)).expect("no failure") == at_once, "{threads} threads");
         let mut run = MotorSweepRun::new(&sweep);
         let mut kept = Vec::new();
         for stops in 0.. {
@@ -227,9 +227,9 @@ fn the_observer_counts_cells() {
         most.fetch_max(progress.done as usize, Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    sweep.run_observed(&observer).expect("nobody stops it");
+    sweep.run(&observer).expect("nobody stops it");
     assert_eq!(most.into_inner(), 21);
-    let stopped = sweep.run_observed(&|_: Progress| ControlFlow::Break(()));
+    let stopped = sweep.run(&|_: Progress| ControlFlow::Break(()));
     let error = bouncing_disk_core::Error::Stopped { done: 0, total: 21 };
     assert_eq!(stopped, Err(Error::Core(error)));
 }
@@ -241,7 +241,8 @@ fn a_group_that_fails_leaves_the_others() {
     let axes = vec![axis(MotorField::Amplitude, &[1e-8, 5e-3, 2e-8, 4.9e-3])];
     let sweep = MotorSweep::new(motor, axes, rough()).expect("legal");
     let mut run = MotorSweepRun::new(&sweep);
-    let alone = |cell: usize| sweep.motor_of(cell).expect("legal").operating_point(0.0, &rough());
+    let alone =
+        |cell: usize| sweep.motor_of(cell).expect("legal").operating_point(0.0, &rough(), &Unobserved);
     let failure = alone(1).expect_err("too violent");
     let too_long =
         |error: &Error| matches!(error, Error::Core(bouncing_disk_core::Error::FlightTooLong { .. }));
@@ -252,7 +253,7 @@ fn a_group_that_fails_leaves_the_others() {
         let cells = run.cells(&sweep).expect("of this sweep");
         assert_eq!(cells, [alone(0).ok(), None, alone(2).ok(), None]);
     }
-    assert_eq!(sweep.run(), Err(failure));
+    assert_eq!(sweep.run(&Unobserved), Err(failure));
 }
 
 #[test]
@@ -287,7 +288,7 @@ fn what_is_stored_comes_back_and_what_is_not_legal_does_not() {
         let error = serde_json::from_str::<MotorSweep>(&text.replacen(good, bad, 1)).expect_err(bad);
         assert!(error.to_string().contains(complaint), "{error}");
     }
-    let result = sweep.run().expect("no failure");
+    let result = sweep.run(&Unobserved).expect("no failure");
     let text = serde_json::to_string(&result).expect("writes");
     assert_eq!(serde_json::from_str::<MotorSweepResult>(&text).expect("legal"), result);
     // A value more on an axis, and no cells for it.

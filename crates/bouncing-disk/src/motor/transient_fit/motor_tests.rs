@@ -26,7 +26,7 @@ fn motor() -> System {
 
 fn curves(duration: f64, intervals: usize, members: usize, seed: u64) -> Vec<SpeedCurve> {
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
-    ensemble(&motor(), &settings, members).expect("no failure").curves
+    ensemble(&motor(), &settings, members, &Unobserved).expect("no failure").curves
 }
 
 fn fit(duration: f64, intervals: usize, members: usize, seed: u64) -> Result<TransientFit, Error> {
@@ -42,7 +42,8 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
         }
     }
     let curves = curves(5e-3, 100, 32, 1);
-    let one_by_one = TransientEnsemble::of_results(curves.into_iter().map(Ok).collect()).expect("fitted");
+    let one_by_one =
+        TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved).expect("fitted");
     assert!(one_by_one.steady_speed.mean > 5.0 * STATOR_SPEED, "{:?}", one_by_one.steady_speed);
     // Long, but with intervals longer than the rise.
     let refused = fit(1.0, 50, 8, 1);

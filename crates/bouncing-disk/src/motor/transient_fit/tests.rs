@@ -168,11 +168,15 @@ fn ensemble(times: &[f64], members: usize, seed: u64) -> Vec<Vec<f64>> {
 }
 
 fn fit_runs(times: &[f64], runs: &[Vec<f64>], settings: &FitSettings) -> Result<TransientFit, Error> {
-    TransientFit::of_measured(&runs.iter().map(|run| (times, run.as_slice())).collect::<Vec<_>>(), settings)
+    TransientFit::of_measured(
+        &runs.iter().map(|run| (times, run.as_slice())).collect::<Vec<_>>(),
+        settings,
+        &Unobserved,
+    )
 }
 
 fn fit_one(times: &[f64], speeds: &[f64], settings: &FitSettings) -> Result<TransientFit, Error> {
-    TransientFit::of_measured(&[(times, speeds)], settings)
+    TransientFit::of_measured(&[(times, speeds)], settings, &Unobserved)
 }
 
 /// The oracle is the golden-section search, which shares no step with the grid.
@@ -194,7 +198,7 @@ fn the_grid_finds_the_fits_of_the_search() {
                 let fit = RampFit::new(&times, &curve).expect("legal");
                 (fit.steady_speed, fit.rise_time)
             } else {
-                let fit = ExponentialFit::new(&times, &curve).expect("legal");
+                let fit = ExponentialFit::new(&times, &curve, &Unobserved).expect("legal");
                 (fit.steady_speed, fit.time_constant)
             };
             let by_constant = found.log_constant - bouncing_disk_core::elementary::ln(constant);
@@ -215,7 +219,7 @@ fn the_mean_curve_is_what_is_fitted() {
     let runs = ensemble(&times, 9, 5);
     let fit = fit_runs(&times, &runs, &FROM_REST).expect("fitted");
     let mean: Vec<f64> = (0..times.len()).map(|i| runs.iter().map(|run| run[i]).sum::<f64>() / 9.0).collect();
-    let plain = ExponentialFit::new(&times, &mean).expect("legal");
+    let plain = ExponentialFit::new(&times, &mean, &Unobserved).expect("legal");
     assert!((fit.steady_speed().value / plain.steady_speed - 1.0).abs() < 1e-12);
     assert!((fit.time_constant().value / plain.time_constant - 1.0).abs() < 1e-6);
     assert!((fit.stall_acceleration().value / plain.stall_acceleration() - 1.0).abs() < 1e-6);
@@ -338,7 +342,7 @@ fn scatter_that_hides_the_constant_is_refused() {
         // The mean curve seems long enough, but may be too short.
         let members = runs(2.8, 5.0);
         let mean: Vec<f64> = (0..40).map(|i| members.iter().map(|run| run[i]).sum::<f64>() / 6.0).collect();
-        let fitted = ExponentialFit::new(&times, &mean).expect("legal").time_constant;
+        let fitted = ExponentialFit::new(&times, &mean, &Unobserved).expect("legal").time_constant;
         match fit_runs(&times, &members, &settings) {
             Err(Error::FitRefused { reason: FitRefusal::TooShort { least, time_constant, duration } }) => {
                 assert!(least <= 1.0 && time_constant >= duration && duration > 3.9, "{time_constant}");
@@ -471,8 +475,8 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
         calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let watched = TransientFit::of_measured_observed(&runs, &settings, &count);
-    assert_eq!(watched, TransientFit::of_measured(&runs, &settings));
+    let watched = TransientFit::of_measured(&runs, &settings, &count);
+    assert_eq!(watched, TransientFit::of_measured(&runs, &settings, &Unobserved));
     let asked = calls.into_inner();
     assert!(asked > 40, "{asked}");
     for stop_at in [1, 2, asked / 2] {
@@ -482,8 +486,7 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
             if go_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
         for runs in [&runs[..], &runs[..1]] {
-            let stopped =
-                TransientFit::of_measured_observed(runs, &settings, &observer).expect_err("stopped");
+            let stopped = TransientFit::of_measured(runs, &settings, &observer).expect_err("stopped");
             assert!(matches!(stopped, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{stopped}");
         }
     }
@@ -555,5 +558,5 @@ fn a_record_that_ends_at_the_largest_times_ends_the_search() {
     times[59] = 1e308;
     let speeds = rise(&times, 20.0, 0.85);
     // Without an end of the search this call would not return.
-    let _ = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW);
+    let _ = TransientFit::of_measured(&[(times.as_slice(), speeds.as_slice())], &FEW, &Unobserved);
 }

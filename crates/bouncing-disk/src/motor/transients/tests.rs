@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use std::ops::ControlFlow;
 
-use bouncing_disk_core::Progress;
+use bouncing_disk_core::{Progress, Unobserved};
 
 use super::*;
 use crate::{DiskParameters, PlatformParameters};
@@ -64,7 +64,7 @@ fn bits(outcome: &Result<SpeedCurve, Error>) -> Result<(Vec<u64>, u64, u64), Str
 }
 
 fn alone(member: &TransientMember) -> Result<SpeedCurve, Error> {
-    crate::transient(&member.system, member.phase, &member.settings)
+    crate::transient(&member.system, member.phase, &member.settings, &Unobserved)
 }
 
 fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
@@ -102,10 +102,10 @@ fn together_they_are_what_they_are_alone() {
 
 #[test]
 fn few_or_none_are_legal() {
-    assert!(transients(&[]).is_empty());
+    assert!(transients(&[], &Unobserved).expect("unobserved").is_empty());
     let few: Vec<_> = (0..3).map(member).collect();
     let alone: Vec<_> = few.iter().map(alone).collect();
-    assert_eq!(transients(&few), alone);
+    assert_eq!(transients(&few, &Unobserved), Ok(alone));
 }
 
 /// What is read of a run that was written, or would be.
@@ -151,7 +151,7 @@ fn in_parts(
 #[test]
 fn a_run_that_is_stopped_ends_in_the_curves_of_one_call() {
     let members: Vec<_> = (0..200).map(|k| if k % 57 == 50 { violent(k) } else { member(k) }).collect();
-    let at_once: Vec<_> = transients(&members).iter().map(bits).collect();
+    let at_once: Vec<_> = transients(&members, &Unobserved).expect("unobserved").iter().map(bits).collect();
     for (threads, stored) in [(1, true), (2, true), (7, false)] {
         let (parts, stops) = in_parts(&members, threads, stored);
         let parts: Vec<_> = parts.iter().map(bits).collect();
@@ -170,11 +170,11 @@ fn one_long_transient_can_be_stopped() {
         let early = calls.fetch_add(1, Ordering::Relaxed) < 4;
         if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
-    let stopped = crate::transient_observed(&long.system, long.phase, &long.settings, &observer);
+    let stopped = crate::transient(&long.system, long.phase, &long.settings, &observer);
     let of_one = |total| Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total }));
     assert_eq!(stopped, of_one(long.settings.intervals as u64));
     calls.store(0, Ordering::Relaxed);
-    assert_eq!(transients_observed(&[long; 70], &observer).map(|_| ()), of_one(70).map(|_: SpeedCurve| ()));
+    assert_eq!(transients(&[long; 70], &observer).map(|_| ()), of_one(70).map(|_: SpeedCurve| ()));
 }
 
 #[cfg(feature = "serde")]

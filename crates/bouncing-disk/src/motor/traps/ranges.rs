@@ -7,7 +7,7 @@ use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Vibration, Watch, Work
 
 use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
-use crate::motor::operation::of_motor::operations_observed;
+use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::traps::TrapVerdict;
@@ -74,11 +74,14 @@ impl Motor {
     /// `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good one. In rising order, each with its speed inside,
     /// computed as well as `settings` asks for.
     ///
+    /// The items of `observer` are the steps of the scan, then the ranges.
+    ///
     /// ```
+    /// # use bouncing_disk::core::Unobserved;
     /// use bouncing_disk::{LEAST_TRAP_WIDTH, Motor, OperatingSettings};
     ///
     /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
-    /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings)?;
+    /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
     /// // It turns at 21 rad/s besides.
     /// assert!(!traps.is_empty());
     /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
@@ -89,20 +92,6 @@ impl Motor {
     /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an error of the core for a
     /// scan of more than ten million steps, of half a width each; those of [`Motor::operating_point`].
     pub fn trap_ranges(
-        &self,
-        preloads: [f64; 2],
-        least_relative_width: f64,
-        settings: &OperatingSettings,
-    ) -> Result<Vec<TrapRange>, Error> {
-        self.trap_ranges_observed(preloads, least_relative_width, settings, &Unobserved)
-    }
-
-    /// [`Self::trap_ranges`] with an observer; the items are the steps of the scan, then the ranges.
-    ///
-    /// # Errors
-    /// Those of [`Self::trap_ranges`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the
-    /// observer breaks.
-    pub fn trap_ranges_observed(
         &self,
         [low, high]: [f64; 2],
         least_relative_width: f64,
@@ -130,7 +119,7 @@ impl Motor {
         }
         let inside = found.iter().flat_map(|[from, to]| PLACES.map(|place| at(to + place * (from - to))));
         let motors = inside.collect::<Result<Vec<_>, _>>()?;
-        let operations = operations_observed(&motors, settings, observer)?;
+        let operations = operations(&motors, settings, observer)?;
         let mut all = found
             .into_iter()
             .zip(motors.chunks_exact(PLACES.len()).zip(operations.chunks_exact(PLACES.len())))
@@ -154,18 +143,11 @@ impl Motor {
     /// change of its preload or amplitude of `relative_range`, in (0, 1]. That a motor itself is locked, however narrow its
     /// trap, is told by its regime ([`MotorRegime::is_locked`](crate::MotorRegime::is_locked)).
     ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for another range; the errors of the flights.
-    pub fn nearest_trap(&self, relative_range: f64) -> Result<Option<NearestTrap>, Error> {
-        self.nearest_trap_observed(relative_range, &Unobserved)
-    }
-
-    /// [`Self::nearest_trap`] with an observer; the items are the steps of the scan.
+    /// The items of `observer` are the steps of the scan.
     ///
     /// # Errors
-    /// Those of [`Self::nearest_trap`]; an error of the core
-    /// ([`Stopped`](bouncing_disk_core::Error::Stopped)) if the observer breaks.
-    pub fn nearest_trap_observed(
+    /// [`Error::OutOfRange`] for another range; the errors of the flights.
+    pub fn nearest_trap(
         &self,
         relative_range: f64,
         observer: &dyn Observer,

@@ -22,7 +22,7 @@ fn the_verdict_is_that_of_the_report() {
         for step in 0..24 {
             let motor = at_forcing(&motor, from + (to - from) * f64::from(step) / 24.0);
             let verdict = motor.trap_verdict().expect("no failure");
-            let regime = motor.report().expect("no failure").regime;
+            let regime = motor.report(&Unobserved).expect("no failure").regime;
             let locked = matches!(regime, MotorRegime::LowPeriodChattering(_));
             tried += 1;
             traps += u32::from(verdict.is_trap);
@@ -59,7 +59,8 @@ fn traps_of_a_single_flight_are_at_half_a_forcing() {
 fn windows_of_a_single_flight_begin_at_the_soft_landing() {
     for whole in [3.0, 6.0, 12.0, 100.0] {
         let motor = at_forcing(&Motor::paper_70_khz(), whole + 0.51);
-        let [from, to] = motor.nearest_trap(0.01).expect("no failure").expect("one").forcing_from_to;
+        let [from, to] =
+            motor.nearest_trap(0.01, &Unobserved).expect("no failure").expect("one").forcing_from_to;
         let soft = whole + 0.5 - 0.5 / (PI * PI * (whole + 0.5));
         assert!((0.004..0.007).contains(&(soft - from)), "{whole}: {from}");
         assert!((0.05..0.06).contains(&(to - soft)) || whole < 4.0, "{whole}: {to}");
@@ -70,7 +71,7 @@ fn windows_of_a_single_flight_begin_at_the_soft_landing() {
 fn many_preloads_are_judged_one_by_one() {
     let motor = Motor::paper_70_khz();
     let preloads = [9.8, 5.0, 1e3, 1e6, 1e-3];
-    let verdicts = low_period_traps(&motor, &preloads).expect("no failure");
+    let verdicts = low_period_traps(&motor, &preloads, &Unobserved).expect("no failure");
     for (preload, verdict) in preloads.into_iter().zip(&verdicts) {
         let alone = motor.with(|sheet| sheet.preload_acceleration = Some(preload)).expect("legal");
         assert_eq!(*verdict, alone.trap_verdict().expect("no failure"));
@@ -78,24 +79,27 @@ fn many_preloads_are_judged_one_by_one() {
     }
     // A stator that never throws traps nothing.
     assert!(verdicts[3].axial_forcing < 1.0 / PI && !verdicts[3].is_trap && verdicts[3].cycle.is_none());
-    assert_eq!(low_period_traps(&motor, &[]).expect("nothing to do"), []);
+    assert_eq!(low_period_traps(&motor, &[], &Unobserved).expect("nothing to do"), []);
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(matches!(low_period_traps(&motor, &[9.8, bad]), Err(Error::OutOfRange { .. })), "{bad}");
+        assert!(
+            matches!(low_period_traps(&motor, &[9.8, bad], &Unobserved), Err(Error::OutOfRange { .. })),
+            "{bad}"
+        );
     }
     // A preload as a force is replaced.
     let sprung = motor
         .with(|sheet| (sheet.preload_acceleration, sheet.preload_force) = (None, Some(5.0)))
         .expect("legal");
-    assert_eq!(low_period_traps(&sprung, &preloads).expect("no failure"), verdicts);
+    assert_eq!(low_period_traps(&sprung, &preloads, &Unobserved).expect("no failure"), verdicts);
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    assert!(low_period_traps_observed(&motor, &preloads, &stop).is_err());
+    assert!(low_period_traps(&motor, &preloads, &stop).is_err());
 }
 
 #[test]
 fn the_nearest_trap_is_that_of_a_dense_scan() {
     for (forcing, range) in [(12.2, 0.1), (12.51, 0.1), (6.9, 0.15), (40.3, 0.02)] {
         let motor = at_forcing(&Motor::paper_70_khz(), forcing);
-        let trap = motor.nearest_trap(range).expect("no failure").expect("one");
+        let trap = motor.nearest_trap(range, &Unobserved).expect("no failure").expect("one");
         let [from, to] = trap.forcing_from_to;
         assert!(from < to && trap.verdict.is_trap, "{trap:?}");
         // The near edge is one, by each of its values.
@@ -142,22 +146,22 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
 #[test]
 fn a_motor_far_from_every_trap_has_none() {
     let motor = at_forcing(&Motor::paper_70_khz(), 12.25);
-    assert_eq!(motor.nearest_trap(1e-9).expect("no failure"), None);
+    assert_eq!(motor.nearest_trap(1e-9, &Unobserved).expect("no failure"), None);
     let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 0.0).expect("legal");
-    assert_eq!(still.nearest_trap(1.0).expect("no failure"), None);
+    assert_eq!(still.nearest_trap(1.0, &Unobserved).expect("no failure"), None);
     for bad in [0.0, -0.1, 1.1, f64::NAN, f64::INFINITY] {
-        let error = motor.nearest_trap(bad).expect_err("illegal");
+        let error = motor.nearest_trap(bad, &Unobserved).expect_err("illegal");
         assert!(matches!(error, Error::OutOfRange { field: "relative_range", .. }), "{error}");
     }
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    assert!(motor.nearest_trap_observed(0.1, &stop).is_err());
+    assert!(motor.nearest_trap(0.1, &stop).is_err());
 }
 
 #[cfg(feature = "serde")]
 #[test]
 fn what_is_stored_comes_back() {
     let motor = at_forcing(&Motor::paper_70_khz(), 12.45);
-    let trap = motor.nearest_trap(0.1).expect("no failure").expect("one");
+    let trap = motor.nearest_trap(0.1, &Unobserved).expect("no failure").expect("one");
     let text = serde_json::to_string(&trap).expect("writes");
     assert_eq!(serde_json::from_str::<NearestTrap>(&text).expect("legal"), trap);
     let unknown = text.replacen("is_trap", "is_hole", 1);

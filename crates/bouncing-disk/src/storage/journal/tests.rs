@@ -2,7 +2,7 @@ use std::fs;
 use std::ops::ControlFlow;
 use std::process::id;
 
-use bouncing_disk_core::Progress;
+use bouncing_disk_core::{Progress, Unobserved};
 
 use super::*;
 use crate::{
@@ -284,7 +284,7 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
     }
     assert!(killed > 0, "it was never killed on the way");
     let curves = transients_with_journal(&scratch.0, &key, &members, &crate::Unobserved).expect("free again");
-    assert_eq!(curve_bits(&curves), curve_bits(&transients(&members)));
+    assert_eq!(curve_bits(&curves), curve_bits(&transients(&members, &Unobserved).expect("unobserved")));
 }
 
 /// Stops a run again and again; each time the file ends in half a line.
@@ -292,7 +292,7 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
 fn transients_that_are_killed_again_and_again_end_as_those_of_one_call() {
     let (scratch, members) = (Scratch::new("transients"), members());
     let key = Provenance::new(JOURNAL).with("motor", &"of Table III").expect("storable").with_seed(1);
-    let expected = curve_bits(&transients(&members));
+    let expected = curve_bits(&transients(&members, &Unobserved).expect("unobserved"));
     let mut lengths = Vec::new();
     let (mut before, mut kills) = (0, 0);
     let curves = loop {
@@ -368,7 +368,7 @@ fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
         stops += 1;
     };
     assert!(stops > 0);
-    assert_eq!(results, orbit_diagram(&orbits, 2_000, 20).expect("no error"));
+    assert_eq!(results, orbit_diagram(&orbits, 2_000, 20, &Unobserved).expect("no error"));
 }
 
 /// 0 and -0 are equal numbers and other parameters, and so are none and one that is absent.

@@ -34,7 +34,7 @@ impl Drop for Scratch {
 fn a_sweep_that_is_killed_again_and_again_ends_as_that_of_one_call() {
     let (scratch, sweep) = (Scratch::new("killed"), mixed());
     let path = scratch.path("journal");
-    let at_once = sweep.run().expect("no failure");
+    let at_once = sweep.run(&Unobserved).expect("no failure");
     let (mut lines, mut partly) = (0, false);
     for stops in 0.. {
         let threads = [1, 2, 7][stops % 3];
@@ -103,7 +103,7 @@ fn the_journal_of_another_sweep_is_refused_by_name() {
 fn a_result_that_is_written_is_read_to_the_last_bit() {
     let scratch = Scratch::new("json");
     let path = scratch.path("map.json");
-    let result = mixed().run().expect("no failure");
+    let result = mixed().run(&Unobserved).expect("no failure");
     result.write_json(&path).expect("writable");
     assert_eq!(MotorSweepResult::read_json(&path).expect("legal"), result);
     let text = fs::read_to_string(&path).expect("readable");
@@ -135,7 +135,7 @@ fn a_result_that_is_written_is_read_to_the_last_bit() {
 fn a_table_says_where_it_comes_from() {
     let scratch = Scratch::new("csv");
     let path = scratch.path("map.csv");
-    let result = mixed().run().expect("no failure");
+    let result = mixed().run(&Unobserved).expect("no failure");
     result.write_csv(&path).expect("writable");
     let text = fs::read_to_string(&path).expect("readable");
     let (first, table) = text.split_once('\n').expect("lines");

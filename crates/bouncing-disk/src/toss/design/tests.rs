@@ -1,3 +1,4 @@
+use bouncing_disk_core::Unobserved;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::*;
@@ -5,7 +6,7 @@ use crate::toss::design::hand::{Hand, toss, value_of};
 use crate::{Robustness, TossInput};
 
 fn designed(constraints: &TossConstraints) -> TossDesign {
-    best_toss(constraints).expect("legal")
+    best_toss(constraints, &Unobserved).expect("legal")
 }
 
 /// A hand motion at random among those that are allowed.
@@ -244,11 +245,11 @@ fn constraints_that_allow_nothing_are_refused_by_name() {
             "gyration_radius",
         ),
     ] {
-        let error = best_toss(&constraints).expect_err("illegal");
+        let error = best_toss(&constraints, &Unobserved).expect_err("illegal");
         assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
     }
     let slow = TossConstraints { angular_frequency: [1.0, 6.0], ..table };
-    let error = best_toss(&slow).expect_err("too slow");
+    let error = best_toss(&slow, &Unobserved).expect_err("too slow");
     assert!(matches!(error, Error::NeverLeaves { peak_acceleration } if peak_acceleration < 1.0), "{error}");
 }
 
@@ -275,7 +276,7 @@ fn the_ends_of_what_is_legal_have_a_best_toss() {
 #[test]
 fn a_search_can_be_stopped() {
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    let error = best_toss_observed(&TossConstraints::pizza_toss(), &stop).expect_err("stopped");
+    let error = best_toss(&TossConstraints::pizza_toss(), &stop).expect_err("stopped");
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{error}");
 }
 

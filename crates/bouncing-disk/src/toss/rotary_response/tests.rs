@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, OrbitSearch};
+use bouncing_disk_core::{ChatterPolicy, OrbitSearch, Unobserved};
 
 use super::*;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
@@ -34,7 +34,7 @@ pub(in crate::toss) fn orbits() -> Vec<(f64, f64, PeriodicOrbit)> {
     for (forcing, restitution) in [(0.45, 0.5), (0.5, 0.5), (0.6, 0.5), (0.9, 0.3), (0.5, 0.75)] {
         let map = *system(forcing, restitution, 0.0, 0.0, 0.0).map();
         let search = OrbitSearch::new(3, 3).expect("legal");
-        for orbit in map.periodic_orbits(&search).expect("found").orbits {
+        for orbit in map.periodic_orbits(&search, &Unobserved).expect("found").orbits {
             all.push((forcing, restitution, orbit));
         }
     }

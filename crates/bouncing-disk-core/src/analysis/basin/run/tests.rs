@@ -23,7 +23,8 @@ fn grid(columns: usize, rows: usize) -> Grid {
 
 fn known() -> Vec<KnownOrbit> {
     let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-    let orbit = map().settled_orbit(start, 4_000, 4, 1e-8).expect("no failure").expect("settles");
+    let orbit =
+        map().settled_orbit(start, 4_000, 4, 1e-8, &Unobserved).expect("no failure").expect("settles");
     vec![KnownOrbit::new(orbit, 0.01).expect("legal")]
 }
 
@@ -53,7 +54,7 @@ fn a_run_that_is_stopped_ends_in_the_labels_of_one_call() {
     let (map, known) = (map(), known());
     for (policy, columns, rows) in [(ChatterPolicy::Complete, 150, 230), (PAPER_POLICY, 40, 60)] {
         let settings = BasinSettings { max_impacts: 400, policy };
-        let at_once = map.basins(grid(columns, rows), &known, settings).expect("no failure");
+        let at_once = map.basins(grid(columns, rows), &known, settings, &Unobserved).expect("no failure");
         assert!(at_once.fraction(ATTACHED) > 0.1 && at_once.fraction(FIRST_ORBIT) > 0.1);
         for threads in [1, 2, 7] {
             // Stopped at the first call, before anything is begun, then later and later.
@@ -93,8 +94,7 @@ fn observers_hear_of_all_rows_and_often() {
             };
             let known = [KnownOrbit::new(known()[0].orbit().clone(), radius).expect("legal")];
             let settings = BasinSettings { max_impacts: 50, ..BasinSettings::default() };
-            let basins =
-                on(threads, || map().basins_observed(grid(columns, rows), &known, settings, &observer));
+            let basins = on(threads, || map().basins(grid(columns, rows), &known, settings, &observer));
             assert_eq!(basins.expect("no failure").labels().len(), columns * rows);
             assert_eq!(most.into_inner(), rows as u64, "{columns} by {rows}, {threads} threads");
             let least = 2 + (columns * rows / 10_000 / threads) as u64;
@@ -119,15 +119,15 @@ fn many_known_orbits_are_compared_in_parts() {
         known.extend([some.clone(), more.clone()]);
         let own = Label::try_from(many).expect("few");
         let observer = StopAfter::calls(u64::MAX);
-        let at_once = map.basins_observed(grid(20, 15), &known, settings, &observer).expect("no failure");
+        let at_once = map.basins(grid(20, 15), &known, settings, &observer).expect("no failure");
         let caught = (at_once.fraction(FIRST_ORBIT + own), at_once.fraction(FIRST_ORBIT + own + 1));
         assert!(caught.0 > 0.01 && caught.1 > 0.01, "{caught:?}");
-        let few = map.basins(grid(20, 15), &known[many..], settings).expect("no failure");
+        let few = map.basins(grid(20, 15), &known[many..], settings, &Unobserved).expect("no failure");
         let labels = few.labels().iter().map(|&label| if label < FIRST_ORBIT { label } else { label + own });
         assert_eq!(at_once.labels(), labels.collect::<Vec<_>>());
         // One batch is enough to be asked between the parts: one part is of 4,096 impacts.
         let cell = StopAfter::calls(u64::MAX);
-        map.basins_observed(grid(1, 1), &known, settings, &cell).expect("no failure");
+        map.basins(grid(1, 1), &known, settings, &cell).expect("no failure");
         assert!(many == 1 || cell.asked() > many as u64, "{}", cell.asked());
         let run = BasinRun::new(map, grid(20, 15), &known, settings).expect("few cells");
         let (basins, stops) = in_parts(run, 1, |stops| 1 + 4 * stops);
@@ -144,7 +144,7 @@ fn one_endless_start_can_be_stopped() {
         let settings = BasinSettings { max_impacts: u32::MAX, policy };
         let one =
             Grid::new(Axis::new(0.12, 0.13, 1).expect("legal"), Axis::new(1.29, 1.31, 1).expect("legal"));
-        let basins = chaos.basins_observed(one.expect("legal"), &[], settings, &StopAfter::calls(5));
+        let basins = chaos.basins(one.expect("legal"), &[], settings, &StopAfter::calls(5));
         assert_eq!(basins, Err(Error::Stopped { done: 0, total: 1 }));
     }
 }
@@ -195,7 +195,7 @@ fn a_stored_run_that_does_not_fit_is_refused() {
 fn parts_of_the_rows_have_the_labels_of_the_whole() {
     let (map, known, grid) = (map(), known(), grid(30, 23));
     let settings = BasinSettings { max_impacts: 400, ..BasinSettings::default() };
-    let whole = map.basins(grid, &known, settings).expect("no failure");
+    let whole = map.basins(grid, &known, settings, &Unobserved).expect("no failure");
     let begin = || BasinRun::new(map, grid, &known, settings).expect("few cells");
     for part in [0..23, 0..1, 5..11, 22..23, 7..7, 20..90, 90..99] {
         let mut run = begin();

@@ -1,6 +1,7 @@
 use super::*;
 use crate::analysis::lyapunov::lyapunov_exponents;
 use crate::analysis::periodic::Multipliers;
+use crate::observer::Unobserved;
 use crate::platform::vibration::Vibration;
 use crate::testing::{StopAfter, golden_spread};
 
@@ -25,7 +26,7 @@ fn starts(count: u64) -> Vec<(ImpactMap, ImpactState)> {
 /// The sum is known exactly (docs/numerics/dynamics.md): the second exponent is found without it.
 #[test]
 fn the_sum_of_the_exponents_is_the_exact_one() {
-    let outcomes = lyapunov_spectra(&starts(300), 100, 3_000).expect("no failure");
+    let outcomes = lyapunov_spectra(&starts(300), 100, 3_000, &Unobserved).expect("no failure");
     let mut chaotic = 0;
     for spectrum in outcomes.iter().filter_map(LyapunovOutcome::spectrum) {
         let sum = spectrum.largest + spectrum.second.expect("restitution above 0");
@@ -47,7 +48,7 @@ fn the_exponents_of_a_periodic_orbit_are_those_of_its_multipliers() {
     let Multipliers::Real(large, small) = Multipliers::of(derivative) else { panic!("real") };
     // The first impacts turn the directions into those of the multipliers: they are in both sums.
     let sums = [1_000, 3_000].map(|impacts| {
-        let outcome = lyapunov_spectra(&[(map, state)], 100, impacts).expect("no failure")[0];
+        let outcome = lyapunov_spectra(&[(map, state)], 100, impacts, &Unobserved).expect("no failure")[0];
         let spectrum = *outcome.spectrum().expect("bounces on");
         assert!(spectrum.standard_error < 1e-3 && spectrum.impacts == impacts, "{spectrum:?}");
         [spectrum.largest, spectrum.second.expect("two")].map(|exponent| exponent * impacts as f64)
@@ -73,7 +74,8 @@ fn the_exponent_lies_within_its_errors() {
             })
             .collect();
         let spectra = |orbits: usize, impacts| -> Vec<LyapunovSpectrum> {
-            let outcomes = lyapunov_spectra(&starts[..orbits], 2_000, impacts).expect("no failure");
+            let outcomes =
+                lyapunov_spectra(&starts[..orbits], 2_000, impacts, &Unobserved).expect("no failure");
             outcomes.iter().filter_map(|outcome| outcome.spectrum().copied()).collect()
         };
         let mean_of = |all: &[LyapunovSpectrum], of: fn(&LyapunovSpectrum) -> f64| {
@@ -92,8 +94,8 @@ fn the_exponent_lies_within_its_errors() {
 #[test]
 fn the_largest_exponent_is_the_known_one() {
     let starts = starts(60);
-    let spectra = lyapunov_spectra(&starts, 50, 500).expect("no failure");
-    let exponents = lyapunov_exponents(&starts, 50, 500).expect("no failure");
+    let spectra = lyapunov_spectra(&starts, 50, 500, &Unobserved).expect("no failure");
+    let exponents = lyapunov_exponents(&starts, 50, 500, &Unobserved).expect("no failure");
     for (outcome, exponent) in spectra.iter().zip(exponents) {
         match (outcome, exponent) {
             (LyapunovOutcome::Exponents(spectrum), Some(exponent)) => {
@@ -107,7 +109,9 @@ fn the_largest_exponent_is_the_known_one() {
 
 #[test]
 fn what_has_no_exponent_says_why() {
-    let fails = |map: ImpactMap, state| lyapunov_spectra(&[(map, state)], 3, 100).expect("no failure")[0];
+    let fails = |map: ImpactMap, state| {
+        lyapunov_spectra(&[(map, state)], 3, 100, &Unobserved).expect("no failure")[0]
+    };
     // A weak vibration, a still one, and a disk that never left.
     let resting = fails(map(0.2, 0.5), start());
     assert!(matches!(resting, LyapunovOutcome::Rested { impacts: 1.. }), "{resting:?}");
@@ -124,7 +128,7 @@ fn what_has_no_exponent_says_why() {
 #[test]
 fn without_restitution_there_is_one_exponent() {
     let outcomes: Vec<_> = (0..200)
-        .map(|k| lyapunov_spectra(&[(map(0.5 + 0.02 * f64::from(k), 0.0), start())], 0, 16))
+        .map(|k| lyapunov_spectra(&[(map(0.5 + 0.02 * f64::from(k), 0.0), start())], 0, 16, &Unobserved))
         .map(|outcomes| outcomes.expect("no failure")[0])
         .collect();
     assert!(outcomes.iter().any(|outcome| matches!(outcome, LyapunovOutcome::Rested { .. })));
@@ -137,10 +141,10 @@ fn without_restitution_there_is_one_exponent() {
 #[test]
 fn too_few_impacts_are_refused_and_a_call_can_be_stopped() {
     for impacts in [0, 15] {
-        let error = lyapunov_spectra(&starts(3), 0, impacts).expect_err("too few");
+        let error = lyapunov_spectra(&starts(3), 0, impacts, &Unobserved).expect_err("too few");
         assert!(matches!(error, Error::OutOfRange { field: "impacts", .. }), "{error}");
     }
-    assert_eq!(lyapunov_spectra(&[], 0, 16), Ok(Vec::new()));
-    let stopped = lyapunov_spectra_observed(&starts(200), 100, 2_000, &StopAfter::calls(12));
+    assert_eq!(lyapunov_spectra(&[], 0, 16, &Unobserved), Ok(Vec::new()));
+    let stopped = lyapunov_spectra(&starts(200), 100, 2_000, &StopAfter::calls(12));
     assert!(matches!(stopped, Err(Error::Stopped { done: 1..200, total: 200 })), "{stopped:?}");
 }

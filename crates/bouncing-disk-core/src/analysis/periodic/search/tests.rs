@@ -1,3 +1,4 @@
+use crate::observer::Unobserved;
 use core::f64::consts::PI;
 
 use super::super::newton::same_orbit;
@@ -15,7 +16,7 @@ fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
 fn found(map: &ImpactMap, impacts: usize, periods: u64, starts: u32) -> OrbitsFound {
     let search =
         OrbitSearch::new(impacts, periods).expect("legal").with_starts(starts, starts).expect("legal");
-    map.periodic_orbits(&search).expect("no failure")
+    map.periodic_orbits(&search, &Unobserved).expect("no failure")
 }
 
 /// Two flights of together 2 pi k, as a function of the first phase and the first duration: nothing of the
@@ -198,7 +199,7 @@ fn every_attractor_that_random_starts_settle_on_is_found() {
         for _ in 0..60 {
             let phase = Phase::new(TAU * random.unit()).expect("finite");
             let start = ImpactState::new(phase, -map.impact_speed_bound() * random.unit()).expect("legal");
-            let Ok(Some(orbit)) = map.settled_orbit(start, 3_000, 4, 1e-9) else { continue };
+            let Ok(Some(orbit)) = map.settled_orbit(start, 3_000, 4, 1e-9, &Unobserved) else { continue };
             if orbit.platform_periods > 12 {
                 continue;
             }
@@ -295,7 +296,7 @@ fn a_search_of_many_short_rows_can_be_stopped() {
     let map = map(0.5, 0.5);
     let search = OrbitSearch::new(1, 1).expect("legal").with_starts(4_096, 2).expect("legal");
     let calls = StopAfter::calls(10);
-    let stopped = map.periodic_orbits_observed(&search, &calls);
+    let stopped = map.periodic_orbits(&search, &calls);
     assert!(matches!(stopped, Err(Error::Stopped { done: 0..4_096, total: 8_192 })), "{stopped:?}");
     assert_eq!(calls.asked(), 10);
 }

@@ -62,13 +62,13 @@ fn a_run_that_is_stopped_ends_in_the_results_of_one_call() {
     for count in [5, 11, 300, 1_500] {
         let orbits = orbits(count);
         let impacts = if count < 12 { 40_000 } else { 900 };
-        let lives = survival_times(&orbits, impacts).expect("no failure");
-        let columns = orbit_diagram(&orbits, impacts - 100, 100).expect("no failure");
+        let lives = survival_times(&orbits, impacts, &Unobserved).expect("no failure");
+        let columns = orbit_diagram(&orbits, impacts - 100, 100, &Unobserved).expect("no failure");
         let counted = |events: &mut usize, _: &SweepEvent| {
             *events += 1;
             if *events < impacts { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
-        let swept = sweep(&orbits, |index| index % 7, counted).expect("no failure");
+        let swept = sweep(&orbits, |index| index % 7, counted, &Unobserved).expect("no failure");
         for threads in [1, 2, 7] {
             let items = count as usize;
             let parts = in_parts(items, threads, |run, observer| {

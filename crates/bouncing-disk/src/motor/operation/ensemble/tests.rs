@@ -137,7 +137,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
         });
         let sheet = sheet.expect("legal");
         for torque in [sheet.largest_torque(), newtons * 0.1 * 0.0125, 0.1 * (0.0125 * newtons)] {
-            let operation = sheet.operating_point(torque, &settings).expect("no failure");
+            let operation = sheet.operating_point(torque, &settings, &Unobserved).expect("no failure");
             assert!(matches!(operation, Operation::Runaway { .. }), "{newtons} {operation:?}");
         }
     }
@@ -199,7 +199,7 @@ fn the_speed_without_load_is_that_of_the_transients() {
     let point =
         *operated(&[loaded(&system, 0.0)], &OperatingSettings::default())[0].steady().expect("steady");
     let long = TransientSettings { duration: 100.0, intervals: 100, ..TransientSettings::default() };
-    let runs = ensemble(&system, &long, 16).expect("no failure");
+    let runs = ensemble(&system, &long, 16, &Unobserved).expect("no failure");
     let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.7).expect("legal")).collect();
     let transient = Spread::of(&means).expect("finite");
     let (one, another) = (point.speed.standard_error, transient.standard_error);

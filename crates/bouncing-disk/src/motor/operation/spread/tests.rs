@@ -1,4 +1,5 @@
 use super::*;
+use bouncing_disk_core::Unobserved;
 
 fn quick() -> OperatingSettings {
     OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() }
@@ -35,7 +36,8 @@ fn the_spread_of_known_draws_is_found() {
 #[test]
 fn a_motor_that_is_exactly_known_has_no_spread() {
     let exact = InputTolerance { preload: 0.0, amplitude: 0.0, perturbation_decades: 0.0, draws: 16 };
-    let spread = Motor::paper_70_khz().speed_spreads(&[0.0], &quick(), &exact).expect("no failure")[0];
+    let spread =
+        Motor::paper_70_khz().speed_spreads(&[0.0], &quick(), &exact, &Unobserved).expect("no failure")[0];
     let spread = spread.expect("each draw turns");
     assert!(spread.standard_deviation.value < 0.01 * spread.mean.value, "{spread:?}");
 }
@@ -46,13 +48,13 @@ fn the_spread_of_a_motor_is_that_of_its_neighbours() {
     let motor = small_motor(5.0);
     let tolerance = InputTolerance { preload: 0.02, draws: 24, ..InputTolerance::default() };
     let loads = [0.0, 0.5 * motor.largest_torque(), 1.1 * motor.largest_torque()];
-    let spreads = motor.speed_spreads(&loads, &quick(), &tolerance).expect("no failure");
+    let spreads = motor.speed_spreads(&loads, &quick(), &tolerance, &Unobserved).expect("no failure");
     let spread = spreads[0].expect("each draw turns");
     let [low, high] = spread.from_to;
     assert!(spread.standard_deviation.value > 2.0 * spread.standard_deviation.standard_error, "{spread:?}");
     assert!(high - low > 0.5 && spread.draws == 24 && spread.without == 0, "{spread:?}");
     assert_eq!(spreads[2], None);
-    let again = motor.speed_spreads(&loads[..1], &quick(), &tolerance).expect("no failure");
+    let again = motor.speed_spreads(&loads[..1], &quick(), &tolerance, &Unobserved).expect("no failure");
     assert_eq!(again[0].map(|spread| spread.draws), Some(24));
 }
 
@@ -76,15 +78,16 @@ fn small_motor(preload: f64) -> Motor {
 #[test]
 fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
     let motor = small_motor(6.0);
-    assert!(motor.report().expect("no failure").regime.is_locked());
+    assert!(motor.report(&Unobserved).expect("no failure").regime.is_locked());
     let settings = OperatingSettings { most_impacts: 1_000_000, ..quick() };
-    let speed = motor.operating_point(0.0, &settings).expect("no failure").point().expect("turns").speed;
+    let speed =
+        motor.operating_point(0.0, &settings, &Unobserved).expect("no failure").point().expect("turns").speed;
     let tolerance = InputTolerance { draws: 16, ..InputTolerance::default() };
-    let spread =
-        motor.speed_spreads(&[0.0], &settings, &tolerance).expect("no failure")[0].expect("all turn");
+    let spread = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved).expect("no failure")[0]
+        .expect("all turn");
     assert!(spread.standard_deviation.value > 20.0 * speed.standard_error, "{speed:?} {spread:?}");
     let motor = small_motor(2.0);
-    let stall = motor.stall_load(&settings).expect("it turns");
+    let stall = motor.stall_load(&settings, &Unobserved).expect("it turns");
     let [below, above] = stall.bracket;
     assert!(stall.share > 0.95 && above <= motor.largest_torque() * (1.0 + 1e-12), "{stall:?}");
     assert!(below < stall.torque.value && stall.torque.value <= above, "{stall:?}");
@@ -102,10 +105,10 @@ fn tolerances_that_are_none_are_refused() {
         InputTolerance { draws: 7, ..usual },
         InputTolerance { draws: usize::MAX, ..usual },
     ] {
-        assert!(motor.stall_spread(&quick(), &bad).is_err(), "{bad:?}");
+        assert!(motor.stall_spread(&quick(), &bad, &Unobserved).is_err(), "{bad:?}");
     }
     let stop = |_: Progress| std::ops::ControlFlow::Break(());
-    assert!(motor.speed_spreads_observed(&[0.0], &quick(), &usual, &stop).is_err());
+    assert!(motor.speed_spreads(&[0.0], &quick(), &usual, &stop).is_err());
 }
 
 /// What never leaves the stator has an exact operation at once, which rests on friction and lag: none without lag.
@@ -114,12 +117,13 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let began = std::time::Instant::now();
     let settings = OperatingSettings::default();
     let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 4e-11).expect("legal");
-    assert!(matches!(still.stall_load(&settings), Err(Error::DoesNotTurn { .. })));
+    assert!(matches!(still.stall_load(&settings, &Unobserved), Err(Error::DoesNotTurn { .. })));
     // The rotor slides, and is dragged by where the stator presses harder: S(x) of a normal force 1 - P sin tau, whose half
     // where cos(tau + theta) > x is, with c = acos x, (c + P sin c sin theta)/pi; it balances at 1/2.
     let lag: f64 = 0.9;
     let motor = still.with(|sheet| sheet.phase_lag = lag).expect("legal");
-    let point = *motor.operating_point(0.0, &settings).expect("no failure").steady().expect("steady");
+    let point =
+        *motor.operating_point(0.0, &settings, &Unobserved).expect("no failure").steady().expect("steady");
     let peak = motor.system().peak_acceleration();
     let (mut low, mut high) = (-1.0_f64, 1.0_f64);
     for _ in 0..60 {
@@ -133,14 +137,15 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let expected = low * motor.system().platform().peak_angular_speed();
     assert!((point.speed.value / expected - 1.0).abs() < 1e-4, "{point:?} {expected}");
     assert!(point.speed.standard_error < 1e-9 * expected && point.energy_residual < 1e-9, "{point:?}");
-    let stall = motor.stall_load(&settings).expect("it turns");
+    let stall = motor.stall_load(&settings, &Unobserved).expect("it turns");
     // S(0) of the same normal force.
     let share = 2.0 * peak * bouncing_disk_core::elementary::sin(lag) / std::f64::consts::PI;
     assert!((stall.share - share).abs() < 2e-3, "{stall:?} {share}");
     // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a deviation of
     // 1 %/sqrt(3).
     let tolerance = InputTolerance { draws: 12, ..InputTolerance::default() };
-    let spread = motor.stall_spread(&settings, &tolerance).expect("no failure").expect("each turns");
+    let spread =
+        motor.stall_spread(&settings, &tolerance, &Unobserved).expect("no failure").expect("each turns");
     let Estimate { value, standard_error } = spread.standard_deviation;
     let expected = 0.01 / 3.0_f64.sqrt() * stall.torque.value;
     assert!((value - expected).abs() < 3.0 * standard_error.max(0.05 * expected), "{spread:?} {expected}");

@@ -1,4 +1,5 @@
 use SensitivityParameter as P;
+use bouncing_disk_core::Unobserved;
 
 use super::*;
 
@@ -13,14 +14,17 @@ fn twist_and_lag_make_the_speed() {
     let ranges = [(P::Friction, [0.2, 0.4]), (P::PeakAngularSpeed, [20.0, 40.0]), (P::PhaseLag, [-0.8, 0.8])];
     let sampling = SamplingSettings { rows: 48, seed: 1 };
     let of = SensitivityQuantity::SteadySpeed;
-    let [friction, twist, lag] =
-        motor.sobol_indices(of, &ranges, sampling, &quick()).expect("turns").try_into().expect("three");
+    let [friction, twist, lag] = motor
+        .sobol_indices(of, &ranges, sampling, &quick(), &Unobserved)
+        .expect("turns")
+        .try_into()
+        .expect("three");
     assert!(friction.total.value < 0.05, "{friction:?}");
     assert!(twist.first.value > 0.4 && lag.total.value > 0.05, "{twist:?} {lag:?}");
     let sum = friction.first.value + twist.first.value + lag.first.value;
     assert!((sum - 1.0).abs() < 0.25, "{sum}");
     let [friction, twist, lag] = motor
-        .elementary_effects(of, &ranges, SamplingSettings { rows: 8, seed: 1 }, &quick())
+        .elementary_effects(of, &ranges, SamplingSettings { rows: 8, seed: 1 }, &quick(), &Unobserved)
         .expect("turns")
         .try_into()
         .expect("three");
@@ -59,13 +63,13 @@ fn ranges_that_leave_what_is_legal_are_refused() {
         ((P::Preload, [0.0, 0.0]), "preload_acceleration"),
         ((P::Amplitude, [f64::NAN, 1.0]), "range (low)"),
     ] {
-        let error = motor.sobol_indices(of, &[range], sampling, &quick()).expect_err("illegal");
+        let error = motor.sobol_indices(of, &[range], sampling, &quick(), &Unobserved).expect_err("illegal");
         assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
     }
     let heavy = [(P::LoadTorque, [2.0, 3.0].map(|share| share * motor.largest_torque()))];
-    let error = motor.elementary_effects(of, &heavy, sampling, &quick()).expect_err("runs away");
+    let error = motor.elementary_effects(of, &heavy, sampling, &quick(), &Unobserved).expect_err("runs away");
     assert!(matches!(error, Error::Overpowered { .. }), "{error}");
     let stop = |_: Progress| std::ops::ControlFlow::Break(());
     let ranges = [(P::PhaseLag, [0.0, 1.0])];
-    assert!(motor.sobol_indices_observed(of, &ranges, sampling, &quick(), &stop).is_err());
+    assert!(motor.sobol_indices(of, &ranges, sampling, &quick(), &stop).is_err());
 }

@@ -1,4 +1,5 @@
 use SensitivityParameter as P;
+use bouncing_disk_core::Unobserved;
 
 use super::*;
 
@@ -20,8 +21,9 @@ const RELATED: [P; 5] =
 #[test]
 fn exponents_of_the_speed_obey_the_units() {
     let motor = Motor::paper_70_khz();
-    let speed =
-        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &RELATED, &quick()).expect("turns");
+    let speed = motor
+        .local_sensitivities(SensitivityQuantity::SteadySpeed, &RELATED, &quick(), &Unobserved)
+        .expect("turns");
     let [friction, twist, contact, gyration, load] = speed.try_into().expect("as many as parameters");
     // Speed = omega Phi f(a_g^2 omega Phi/(mu a_e)).
     assert!(near(&twist, 1.0 - friction.derivative.value), "{twist:?} {friction:?}");
@@ -42,8 +44,9 @@ fn exponents_of_the_speed_obey_the_units() {
 #[test]
 fn exponents_of_the_stall_obey_the_units() {
     let motor = Motor::paper_70_khz();
-    let stall =
-        motor.local_sensitivities(SensitivityQuantity::StallTorque, &RELATED, &quick()).expect("turns");
+    let stall = motor
+        .local_sensitivities(SensitivityQuantity::StallTorque, &RELATED, &quick(), &Unobserved)
+        .expect("turns");
     let [friction, twist, contact, gyration, load] = stall.try_into().expect("as many as parameters");
     assert!(near(&friction, 1.0 - twist.derivative.value), "{twist:?} {friction:?}");
     assert!(near(&contact, 1.0 - twist.derivative.value), "{contact:?} {twist:?}");
@@ -62,7 +65,7 @@ fn differences_are_those_of_whole_operations() {
         })
         .expect("legal");
     let lag = motor
-        .local_sensitivities(SensitivityQuantity::SteadySpeed, &[P::PhaseLag], &quick())
+        .local_sensitivities(SensitivityQuantity::SteadySpeed, &[P::PhaseLag], &quick(), &Unobserved)
         .expect("turns")[0];
     let settings = OperatingSettings { relative_error: 0.005, ..OperatingSettings::default() };
     let at = |lag: f64| {
@@ -84,8 +87,9 @@ fn differences_are_those_of_whole_operations() {
 fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
     let motor = Motor::paper_70_khz();
     let parameters = [P::Preload, P::Amplitude];
-    let speed =
-        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &parameters, &quick()).expect("turns");
+    let speed = motor
+        .local_sensitivities(SensitivityQuantity::SteadySpeed, &parameters, &quick(), &Unobserved)
+        .expect("turns");
     for one in &speed {
         let SensitivityMethod::Regression { points, traps, scatter } = one.method else { panic!("{one:?}") };
         assert!(points + traps == 8 && scatter < 0.2, "{one:?}");
@@ -98,7 +102,7 @@ fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
 fn the_stall_is_fitted_over_a_range_of_preloads() {
     let motor = Motor::paper_70_khz();
     let stall = motor
-        .local_sensitivities(SensitivityQuantity::StallTorque, &[P::Preload], &quick())
+        .local_sensitivities(SensitivityQuantity::StallTorque, &[P::Preload], &quick(), &Unobserved)
         .expect("turns")[0];
     assert!((stall.derivative.value - 1.0).abs() < 0.1 + 3.0 * stall.derivative.standard_error, "{stall:?}");
 }
@@ -130,7 +134,7 @@ fn slopes_are_those_of_odd_polynomials() {
 fn what_has_no_sensitivity_is_refused() {
     let motor = Motor::paper_70_khz();
     let of = |motor: &Motor, parameters: &[P], settings: &SensitivitySettings| {
-        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, parameters, settings)
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, parameters, settings, &Unobserved)
     };
     assert_eq!(of(&motor, &[], &quick()), Ok(Vec::new()));
     // Zero has no logarithm.
@@ -163,7 +167,7 @@ fn what_has_no_sensitivity_is_refused() {
     assert!(matches!(error, Error::TooFewMotors { left, traps, needed: 5 } if left + traps == 8), "{error}");
     let stop = |_: Progress| std::ops::ControlFlow::Break(());
     let stopped =
-        motor.local_sensitivities_observed(SensitivityQuantity::SteadySpeed, &[P::Friction], &quick(), &stop);
+        motor.local_sensitivities(SensitivityQuantity::SteadySpeed, &[P::Friction], &quick(), &stop);
     assert!(stopped.is_err());
 }
 

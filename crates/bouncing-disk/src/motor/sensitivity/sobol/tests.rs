@@ -1,3 +1,4 @@
+use bouncing_disk_core::Unobserved;
 use std::f64::consts::PI;
 
 use bouncing_disk_core::elementary::sin;
@@ -29,7 +30,7 @@ fn the_function_of_ishigami_has_its_indices() {
     let variance = x + y + xz;
     let truth = [(x, x + xz), (y, y), (0.0, xz)];
     let settings = SamplingSettings { rows: 4_000, seed: 3 };
-    let indices = sobol_indices(batched(function), &[[-PI, PI]; 3], settings).unwrap();
+    let indices = sobol_indices(batched(function), &[[-PI, PI]; 3], settings, &Unobserved).unwrap();
     for (indices, (first, total)) in indices.iter().zip(truth) {
         assert!(
             holds(indices.first, first / variance) && holds(indices.total, total / variance),
@@ -49,7 +50,7 @@ fn the_g_function_has_its_indices() {
     let partial = weights.map(|a: f64| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
     let variance = partial.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
     let settings = SamplingSettings { rows: 4_000, seed: 11 };
-    let indices = sobol_indices(batched(function), &[[0.0, 1.0]; 4], settings).unwrap();
+    let indices = sobol_indices(batched(function), &[[0.0, 1.0]; 4], settings, &Unobserved).unwrap();
     for (own, indices) in indices.iter().enumerate() {
         let others: f64 = (0..4).filter(|other| *other != own).map(|other| 1.0 + partial[other]).product();
         assert!(holds(indices.first, partial[own] / variance), "{own} {indices:?}");
@@ -67,7 +68,7 @@ fn the_errors_are_those_of_other_samples() {
     let (mut inside, mut tried) = (0, 0);
     for seed in 0..50 {
         let settings = SamplingSettings { rows: 200, seed };
-        let indices = sobol_indices(batched(function), &[[0.0, 1.0]; 2], settings).unwrap();
+        let indices = sobol_indices(batched(function), &[[0.0, 1.0]; 2], settings, &Unobserved).unwrap();
         for (estimate, truth) in [
             (indices[0].first, first / variance),
             (indices[0].total, (first + both) / variance),
@@ -87,7 +88,7 @@ fn elementary_effects_are_slopes() {
     let function = |at: &[f64]| 3.0 * at[0] - 2.0 * at[1] + at[2] * at[3];
     let settings = SamplingSettings { rows: 200, seed: 5 };
     let ranges = [[0.0, 2.0], [-1.0, 3.0], [-1.0, 1.0], [-1.0, 1.0]];
-    let effects = elementary_effects(batched(function), &ranges, settings).unwrap();
+    let effects = elementary_effects(batched(function), &ranges, settings, &Unobserved).unwrap();
     for (effects, slope) in effects.iter().zip([6.0, -8.0]) {
         let ElementaryEffects { mean, mean_size, deviation } = *effects;
         assert!((mean.value - slope).abs() < 1e-12 && (mean_size.value - slope.abs()).abs() < 1e-12);
@@ -104,14 +105,15 @@ fn elementary_effects_are_slopes() {
 #[test]
 fn what_does_not_change_has_no_share() {
     let settings = SamplingSettings { rows: 8, seed: 0 };
-    let indices = sobol_indices(batched(|_| 7.0), &[[0.0, 1.0]; 2], settings).unwrap();
+    let indices = sobol_indices(batched(|_| 7.0), &[[0.0, 1.0]; 2], settings, &Unobserved).unwrap();
     for indices in indices {
         for estimate in [indices.first, indices.total] {
             assert!(estimate.value.abs() <= 0.0 && estimate.standard_error.abs() <= 0.0, "{indices:?}");
         }
     }
     // A range without width does not change anything, either.
-    let indices = sobol_indices(batched(|at| at[0] + at[1]), &[[0.0, 1.0], [5.0; 2]], settings).unwrap();
+    let indices =
+        sobol_indices(batched(|at| at[0] + at[1]), &[[0.0, 1.0], [5.0; 2]], settings, &Unobserved).unwrap();
     assert!(indices[1].total.value.abs() <= 0.0 && (indices[0].total.value - 1.0).abs() < 0.8, "{indices:?}");
     assert!(!indices[0].total.standard_error.is_nan());
 }
@@ -120,7 +122,7 @@ fn what_does_not_change_has_no_share() {
 fn samples_that_are_none_are_refused_by_name() {
     let of = |ranges: &[[f64; 2]], rows: usize| {
         let settings = SamplingSettings { rows, seed: 0 };
-        sobol_indices(batched(|at| at[0]), ranges, settings).expect_err("illegal").to_string()
+        sobol_indices(batched(|at| at[0]), ranges, settings, &Unobserved).expect_err("illegal").to_string()
     };
     for (ranges, rows, name) in [
         (vec![], 8, "number of ranges"),
@@ -136,13 +138,14 @@ fn samples_that_are_none_are_refused_by_name() {
         assert!(of(&ranges, rows).contains(name), "{name}: {}", of(&ranges, rows));
     }
     let settings = SamplingSettings { rows: 8, seed: 0 };
-    let error = sobol_indices(batched(|_| f64::NAN), &[[0.0, 1.0]], settings).expect_err("no number");
+    let error =
+        sobol_indices(batched(|_| f64::NAN), &[[0.0, 1.0]], settings, &Unobserved).expect_err("no number");
     assert!(error.to_string().contains("value"), "{error}");
     let few = |points: &[Vec<f64>]| Ok(vec![0.0; points.len() - 1]);
-    assert!(sobol_indices(few, &[[0.0, 1.0]], settings).is_err());
+    assert!(sobol_indices(few, &[[0.0, 1.0]], settings, &Unobserved).is_err());
     let own = Error::NotGiven { field: "anything" };
-    assert_eq!(sobol_indices(|_| Err(own), &[[0.0, 1.0]], settings), Err(own));
-    assert_eq!(elementary_effects(|_| Err(own), &[[0.0, 1.0]], settings), Err(own));
+    assert_eq!(sobol_indices(|_| Err(own), &[[0.0, 1.0]], settings, &Unobserved), Err(own));
+    assert_eq!(elementary_effects(|_| Err(own), &[[0.0, 1.0]], settings, &Unobserved), Err(own));
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
-    assert!(sobol_indices_observed(batched(|at| at[0]), &[[0.0, 1.0]], settings, &stop).is_err());
+    assert!(sobol_indices(batched(|at| at[0]), &[[0.0, 1.0]], settings, &stop).is_err());
 }

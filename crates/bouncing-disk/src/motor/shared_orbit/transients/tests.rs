@@ -39,7 +39,7 @@ fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSetting
         let curves = with_instructions(systems, phase, settings, set, &mut watch.work()).expect("no failure");
         assert_eq!(curves.len(), systems.len());
         for (system, curve) in systems.iter().zip(&curves) {
-            let alone = transient(system, phase, settings).expect("no failure");
+            let alone = transient(system, phase, settings, &Unobserved).expect("no failure");
             assert_eq!(*curve, alone, "{set:?}");
         }
     }
