@@ -212,15 +212,9 @@ pub(crate) fn of_named(py: Python<'_>, error: impl Into<Error>, names: &[Name]) 
 pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError, names: &[Name]) -> PyErr {
     let number = |line: usize| Detail::Count(line as u64);
     let details = match error {
-        MotorFileError::Illegal { error: illegal, .. } => return of_named(py, *illegal, names),
-        MotorFileError::Syntax { line, column, .. } => {
+        MotorFileError::Illegal(illegal) => return of_named(py, *illegal, names),
+        MotorFileError::Text { line, column, .. } => {
             vec![("line", number(*line)), ("column", number(*column))]
-        }
-        MotorFileError::UnknownKey { key, line, .. } => {
-            vec![("field", Detail::Text(key.clone())), ("line", number(*line))]
-        }
-        MotorFileError::Repeated { key, line, .. } | MotorFileError::NotANumber { key, line, .. } => {
-            vec![("field", (*key).into()), ("line", number(*line))]
         }
         _ => Vec::new(),
     };

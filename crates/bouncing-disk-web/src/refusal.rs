@@ -58,7 +58,7 @@ impl From<CoreError> for Refusal {
 impl From<MotorFileError> for Refusal {
     fn from(error: MotorFileError) -> Self {
         match error {
-            MotorFileError::Illegal { error, .. } => error.into(),
+            MotorFileError::Illegal(error) => error.into(),
             _ => Self::new("text", error.to_string()),
         }
     }

@@ -87,8 +87,8 @@ impl MotorArgs {
             Format::Toml => Motor::from_toml_with(&text, &changes),
         };
         read.map_err(|error| {
-            // What is illegal and not of a line of the file is of a setting, or of what the file lacks.
-            let set = matches!(error, MotorFileError::Illegal { line: None, .. }) && !changes.is_empty();
+            // An illegal value may be that of a setting.
+            let set = matches!(error, MotorFileError::Illegal(_)) && !changes.is_empty();
             let place =
                 if set { format!("{} with --set", path.display()) } else { path.display().to_string() };
             Failure::usage(format!("{place}: {error}"))

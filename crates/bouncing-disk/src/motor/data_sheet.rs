@@ -2,14 +2,12 @@
 //! [`System`].
 //!
 //! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
-//! sheets are read and written as JSON and TOML (`file.rs`). A field may be named as a value (`motor_field.rs`).
+//! sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the fields.
 
 mod facts;
-mod fields;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;
 pub(crate) mod motor_field;
-mod nearest;
 pub(crate) mod parameters;
 mod presets;
 pub(crate) mod regime;

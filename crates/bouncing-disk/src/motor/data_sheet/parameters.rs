@@ -86,6 +86,27 @@ fn one_of(
 }
 
 impl MotorParameters {
+    /// A sheet without a number. A needed one that stays NaN is refused before anybody sees it.
+    pub(super) const EMPTY: Self = Self {
+        drive_frequency: f64::NAN,
+        amplitude: f64::NAN,
+        peak_angular_speed: None,
+        twist_amplitude: None,
+        phase_lag: 0.0,
+        mass: None,
+        density: None,
+        rotor_radius: None,
+        rotor_thickness: None,
+        contact_radius: f64::NAN,
+        gyration_radius: None,
+        preload_force: None,
+        preload_acceleration: None,
+        spring_constant: None,
+        friction: f64::NAN,
+        restitution: f64::NAN,
+        load_torque: 0.0,
+    };
+
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload acceleration of the
     /// system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The frequency omega/(2 pi) is
     /// rounded, so that the angular frequency of the motor may differ in the last bit.
@@ -105,21 +126,16 @@ impl MotorParameters {
         Self {
             drive_frequency: platform.angular_frequency() / TAU,
             amplitude: platform.amplitude(),
-            peak_angular_speed: None,
             twist_amplitude: Some(platform.twist_amplitude()),
             phase_lag: platform.phase_lag(),
             mass: Some(mass),
-            density: None,
-            rotor_radius: None,
-            rotor_thickness: None,
             contact_radius: disk.contact_radius(),
             gyration_radius: Some(gyration_radius),
-            preload_force: None,
             preload_acceleration: Some(disk.preload_acceleration()),
-            spring_constant: None,
             friction: disk.friction(),
             restitution: disk.restitution(),
             load_torque: disk.load_acceleration() * (mass * gyration_radius * gyration_radius),
+            ..Self::EMPTY
         }
     }
 

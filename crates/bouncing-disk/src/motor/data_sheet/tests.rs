@@ -9,8 +9,8 @@ use bouncing_disk_core::{
 };
 use proptest::prelude::*;
 
-use super::fields::FIELDS;
 use super::*;
+use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 use crate::motor::ensemble::ensemble;
@@ -147,7 +147,7 @@ fn every_field_is_checked_at_every_seam() {
         ["twist_speed", "moment of inertia", "load", "load_acceleration", "friction", "twist_amplitude"];
     for base in [designers(), disc()] {
         let motor = base.build().expect("legal");
-        for field in FIELDS.iter().filter(|field| (field.get)(&base).is_some()) {
+        for field in MotorField::ALL.into_iter().filter(|field| field.value(&base).is_some()) {
             for value in [
                 f64::NAN,
                 f64::INFINITY,
@@ -163,10 +163,10 @@ fn every_field_is_checked_at_every_seam() {
                 1e160,
                 f64::MAX,
             ] {
-                let place = format!("{} = {value:e}", field.name);
-                match motor.with(|sheet| set(sheet, field.name, value)) {
+                let place = format!("{field} = {value:e}");
+                match motor.with(|sheet| field.set(sheet, value)) {
                     Err(Error::OutOfRange { field: named, .. }) => {
-                        let derived = named.contains(field.name)
+                        let derived = named.contains(field.name())
                             || named.starts_with("unit of")
                             || COMBINED.contains(&named);
                         assert!(derived, "{place}: {named}");
@@ -184,37 +184,13 @@ fn every_field_is_checked_at_every_seam() {
                     }
                 }
             }
-            let negative = motor.with(|sheet| set(sheet, field.name, -1.0));
+            let negative = motor.with(|sheet| field.set(sheet, -1.0));
             assert_eq!(
                 negative.is_ok(),
-                ["phase_lag", "load_torque"].contains(&field.name),
-                "{}",
-                field.name
+                ["phase_lag", "load_torque"].contains(&field.name()),
+                "{field}"
             );
         }
-    }
-}
-
-fn set(sheet: &mut MotorParameters, name: &str, value: f64) {
-    match name {
-        "drive_frequency" => sheet.drive_frequency = value,
-        "amplitude" => sheet.amplitude = value,
-        "peak_angular_speed" => sheet.peak_angular_speed = Some(value),
-        "twist_amplitude" => sheet.twist_amplitude = Some(value),
-        "phase_lag" => sheet.phase_lag = value,
-        "mass" => sheet.mass = Some(value),
-        "density" => sheet.density = Some(value),
-        "rotor_radius" => sheet.rotor_radius = Some(value),
-        "rotor_thickness" => sheet.rotor_thickness = Some(value),
-        "contact_radius" => sheet.contact_radius = value,
-        "gyration_radius" => sheet.gyration_radius = Some(value),
-        "preload_force" => sheet.preload_force = Some(value),
-        "preload_acceleration" => sheet.preload_acceleration = Some(value),
-        "spring_constant" => sheet.spring_constant = Some(value),
-        "friction" => sheet.friction = value,
-        "restitution" => sheet.restitution = value,
-        "load_torque" => sheet.load_torque = value,
-        other => panic!("{other} is no field"),
     }
 }
 

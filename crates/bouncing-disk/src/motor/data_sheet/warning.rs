@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::fields::{FIELDS, Field};
+use crate::motor::data_sheet::motor_field::{Field, MotorField};
 use crate::motor::measured_speeds::MeasuredSpeeds;
 
 /// A value this many times outside of what such motors have is far outside.
@@ -131,9 +131,9 @@ impl Motor {
     #[must_use]
     pub fn warnings(&self) -> Vec<MotorWarning> {
         let sheet = self.parameters();
-        let mut warnings: Vec<_> = FIELDS
-            .iter()
-            .filter_map(|field| (field.get)(&sheet).and_then(|value| of_field(field, value)))
+        let mut warnings: Vec<_> = MotorField::ALL
+            .into_iter()
+            .filter_map(|field| of_field(field.field(), field.value(&sheet)?))
             .collect();
         if let Some(rotor_radius) = sheet.rotor_radius {
             let disk = self.system().disk();

@@ -2,7 +2,7 @@ use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Phase, Progress};
+use bouncing_disk_core::{Phase, Progress, Unobserved};
 
 use super::measured_transient::RunPreload;
 use super::*;
