@@ -33,7 +33,7 @@
 //! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
 //! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
-//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
+//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `MotorSweep::run_with_journal`; `StorageError` |
 //! | vertical motion | [`mod@core`] |
 //!
 //! | feature | default | what it does |
@@ -160,11 +160,7 @@ pub use storage::error::StorageError;
 #[cfg(feature = "storage")]
 pub use storage::journal::{JOURNAL, Journal};
 #[cfg(feature = "storage")]
-pub use storage::motor_sweep::MOTOR_SWEEP;
-#[cfg(feature = "storage")]
 pub use storage::provenance::{Format, Provenance};
-#[cfg(feature = "storage")]
-pub use storage::transients::transients_with_journal;
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};

@@ -5,4 +5,3 @@ pub(crate) mod error;
 pub(crate) mod journal;
 pub(crate) mod motor_sweep;
 pub(crate) mod provenance;
-pub(crate) mod transients;

@@ -1,8 +1,7 @@
 //! The state of the disk and of the platform at an instant.
 
-use bouncing_disk_core::{Phase, read_checked};
+use bouncing_disk_core::Phase;
 
-use crate::error::{Error, all_finite};
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -62,7 +61,7 @@ pub enum Mode {
 /// The disk's state, dimensionless (see [`crate::Scales`] for the units).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDisk"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DiskState {
     /// How it moves.
     pub mode: Mode,
@@ -78,36 +77,9 @@ pub struct DiskState {
     pub angular_speed: f64,
 }
 
-read_checked!(DiskState as UncheckedDisk {
-    mode: Mode,
-    height: f64,
-    axial_velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-});
-
-impl DiskState {
-    /// Checks what is read.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        let Self { mode: _, height, axial_velocity, angle, angular_speed } = *self;
-        check_state(height, axial_velocity, angle, angular_speed)
-    }
-}
-
-/// Checks the numbers of a state of the disk or of the platform.
-fn check_state(height: f64, axial_velocity: f64, angle: f64, angular_speed: f64) -> Result<(), Error> {
-    all_finite([
-        ("height", height),
-        ("axial_velocity", axial_velocity),
-        ("angle", angle),
-        ("angular_speed", angular_speed),
-    ])
-}
-
 /// The platform's state, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPlatform"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlatformState {
     /// Height, in units of g/omega^2.
     pub height: f64,
@@ -119,20 +91,7 @@ pub struct PlatformState {
     pub angular_speed: f64,
 }
 
-read_checked!(PlatformState as UncheckedPlatform {
-    height: f64,
-    axial_velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-});
-
 impl PlatformState {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let Self { height, axial_velocity, angle, angular_speed } = *self;
-        check_state(height, axial_velocity, angle, angular_speed)
-    }
-
     /// The platform at `phase`.
     #[must_use]
     pub fn at(system: &DimensionlessSystem, phase: Phase) -> Self {
@@ -147,8 +106,7 @@ impl PlatformState {
 
 /// Disk and platform at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Snapshot {
     /// The instant.
     pub time: PhaseTime,

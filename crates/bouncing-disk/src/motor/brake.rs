@@ -1,13 +1,10 @@
 //! Braking, Eq. (17): the friction coefficient from the deceleration of a disk on a platform at rest.
 
-use bouncing_disk_core::read_checked;
-
 use crate::error::{Error, check, finite, not_negative, positive};
 
 /// A disk that slides on a platform at rest, and how its angular speed changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedBraking"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Braking {
     /// Angular acceleration (rad/s^2) of a disk with a positive angular speed: not positive, since it slows down.
     pub angular_acceleration: f64,
@@ -20,14 +17,6 @@ pub struct Braking {
     /// Radius of gyration a_g (m), positive.
     pub gyration_radius: f64,
 }
-
-read_checked!(Braking as UncheckedBraking {
-    angular_acceleration: f64,
-    normal_force: f64,
-    mass: f64,
-    contact_radius: f64,
-    gyration_radius: f64,
-});
 
 impl Braking {
     fn check(&self) -> Result<(), Error> {

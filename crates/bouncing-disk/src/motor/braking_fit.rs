@@ -3,7 +3,6 @@
 //! docs/numerics/motors.md, "Friction from a braking curve", derives the part that is fitted and the error.
 
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, within_limit};
 use crate::motor::brake::{Braking, friction_from_braking};
@@ -36,8 +35,7 @@ const ROUNDS: usize = 50;
 
 /// The rotor whose braking was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRotor"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BrakingRotor {
     /// Normal force N (N), positive: the preload, m g.
     pub normal_force: f64,
@@ -48,13 +46,6 @@ pub struct BrakingRotor {
     /// Radius of gyration a_g (m), positive.
     pub gyration_radius: f64,
 }
-
-read_checked!(BrakingRotor as UncheckedRotor {
-    normal_force: f64,
-    mass: f64,
-    contact_radius: f64,
-    gyration_radius: f64,
-});
 
 impl BrakingRotor {
     fn check(&self) -> Result<(), Error> {

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Phase, Watch, WorkCount, read_checked};
+use bouncing_disk_core::{Observer, Phase, Watch, WorkCount};
 
 use crate::error::{Error, check, finite, not_negative, room_for, within_limit};
 use crate::motor::fit::ExponentialFit;
@@ -20,7 +20,7 @@ use crate::parameters::system::System;
 /// A mean over the members of an ensemble, with its spread.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpread"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Spread {
     /// Mean.
     pub mean: f64,
@@ -31,13 +31,6 @@ pub struct Spread {
 }
 
 impl Spread {
-    fn check(&self) -> Result<(), Error> {
-        finite("mean", self.mean)?;
-        not_negative("deviation", self.deviation)?;
-        not_negative("standard_error", self.standard_error)?;
-        Ok(())
-    }
-
     /// Of at least one value, all finite.
     ///
     /// # Errors
@@ -52,12 +45,6 @@ impl Spread {
         Ok(Self { mean, deviation, standard_error: deviation / (values.len() as f64).sqrt() })
     }
 }
-
-read_checked!(Spread as UncheckedSpread {
-    mean: f64,
-    deviation: f64,
-    standard_error: f64,
-});
 
 /// Most members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;

@@ -3,7 +3,6 @@
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::read_checked;
 use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
 
 use crate::error::{Error, check, finite, not_negative, positive};
@@ -24,7 +23,7 @@ const POINTS_OF_FLIGHT: usize = 2;
 /// refuses curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedExponentialFit"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ExponentialFit {
     /// Steady speed alpha_ss (rad/s).
     pub steady_speed: f64,
@@ -34,20 +33,7 @@ pub struct ExponentialFit {
     pub residual: f64,
 }
 
-read_checked!(ExponentialFit as UncheckedExponentialFit {
-    steady_speed: f64,
-    time_constant: f64,
-    residual: f64,
-});
-
 impl ExponentialFit {
-    fn check(&self) -> Result<(), Error> {
-        finite("steady_speed", self.steady_speed)?;
-        positive("time_constant", self.time_constant)?;
-        not_negative("residual", self.residual)?;
-        Ok(())
-    }
-
     /// Fits times (s, not negative, rising) and speeds (rad/s): at least three points.
     ///
     /// The model is linear in the steady speed, so the search is over the time constant alone (variable

@@ -58,8 +58,7 @@ pub enum RiseForm {
 
 /// Ensemble statistics of one motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorStatistics {
     /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over
     /// the last half of each.

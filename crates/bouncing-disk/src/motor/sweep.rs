@@ -12,7 +12,7 @@ pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;
 
-use bouncing_disk_core::{Observer, read_checked};
+use bouncing_disk_core::Observer;
 
 use self::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 use self::result::MotorSweepResult;
@@ -59,8 +59,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweep"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorSweep {
     motor: Motor,
     axes: Vec<SweepAxis>,
@@ -68,12 +67,6 @@ pub struct MotorSweep {
     #[cfg_attr(feature = "serde", serde(skip_serializing))]
     groups: Vec<Vec<usize>>,
 }
-
-read_checked!(MotorSweep as UncheckedSweep {
-    motor: Motor,
-    axes: Vec<SweepAxis>,
-    settings: OperatingSettings,
-} => MotorSweep::new);
 
 impl MotorSweep {
     /// A sweep over one or two axes.

@@ -12,7 +12,7 @@ mod shape_grid;
 
 use bouncing_disk_core::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount, read_checked};
+use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
 
 use self::blocks::Blocks;
 use self::members::Members;
@@ -60,8 +60,7 @@ const AT_LIMIT: f64 = 0.01;
 
 /// What a fit with intervals asks of a curve, and how it is resampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
     /// Number of resampled curves, in [200, 100000]. Default 1000: the ends of an interval then scatter by 5 % of its
     /// half width.
@@ -96,14 +95,6 @@ impl FitSettings {
         Ok(())
     }
 }
-
-read_checked!(FitSettings as UncheckedSettings {
-    resamples: usize,
-    seed: u64,
-    least_duration: f64,
-    largest_residual: f64,
-    from_rest: bool,
-});
 
 /// The rise of one form, with intervals.
 ///

@@ -20,8 +20,7 @@ const BATCHES: usize = 8;
 
 /// The arguments of one [`transient`](crate::transient()).
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientMember {
     /// The motor.
     pub system: System,
@@ -142,34 +141,19 @@ impl TransientsRun {
     /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another number of members than the run has. An
     /// error of a member is its result.
     pub fn advance(&mut self, members: &[TransientMember], observer: &dyn Observer) -> Result<(), Error> {
-        self.advance_with(members, (observer, &|_, _| {}), InstructionSet::best())
-    }
-
-    /// [`Self::advance`] which tells what became of each member as soon as it is finished: for those who store
-    /// it. `record` is given the index of the member; it is called by the threads that do the work, several at
-    /// a time and in no certain order.
-    ///
-    /// # Errors
-    /// Those of [`Self::advance`].
-    pub fn advance_recording(
-        &mut self,
-        members: &[TransientMember],
-        observer: &dyn Observer,
-        record: &(dyn Fn(usize, &Result<SpeedCurve, Error>) + Sync),
-    ) -> Result<(), Error> {
-        self.advance_with(members, (observer, record), InstructionSet::best())
+        self.advance_with(members, observer, InstructionSet::best())
     }
 
     fn advance_with(
         &mut self,
         members: &[TransientMember],
-        (observer, record): (&dyn Observer, Record<'_>),
+        observer: &dyn Observer,
         set: InstructionSet,
     ) -> Result<(), Error> {
         let open = self.results.open(members.len())?;
         let watch = Watch::begin(observer, self.results.done(), self.results.total())?;
         let (next, queue) = (AtomicUsize::new(0), (members, &*open));
-        let begin = |lanes| Worker::new(queue, &next, lanes, set, (&watch, record));
+        let begin = |lanes| Worker::new(queue, &next, lanes, set, &watch);
         self.results.extend(workers(open.len(), |lanes| begin(lanes).run()));
         if !self.is_done() {
             return Err(self.results.stopped().into());
@@ -199,9 +183,6 @@ impl TransientsRun {
         Ok(self.results.into_results()?)
     }
 }
-
-/// Is told the index of each member that is finished, and what became of it.
-type Record<'r> = &'r (dyn Fn(usize, &Result<SpeedCurve, Error>) + Sync);
 
 /// What became of the member of an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
@@ -235,7 +216,6 @@ struct Worker<'a> {
     /// Their curves, close together: a run is large, and seldom looked at.
     curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
-    record: Record<'a>,
     work: WorkCount<'a>,
 }
 
@@ -245,10 +225,10 @@ impl<'a> Worker<'a> {
         next: &'a AtomicUsize,
         lanes: usize,
         set: InstructionSet,
-        (watch, record): (&'a Watch<'a>, Record<'a>),
+        watch: &'a Watch<'a>,
     ) -> Self {
         let (runs, curves, outcomes, work) = (Vec::new(), Vec::new(), Vec::new(), watch.work());
-        Self { members, open, next, lanes, set, runs, curves, outcomes, record, work }
+        Self { members, open, next, lanes, set, runs, curves, outcomes, work }
     }
 
     fn take(&self) -> Option<(usize, &'a TransientMember)> {
@@ -279,7 +259,6 @@ impl<'a> Worker<'a> {
         if let Err(stopped @ Error::Core(bouncing_disk_core::Error::Stopped { .. })) = outcome {
             return Err(stopped);
         }
-        (self.record)(index, &outcome);
         self.work.watch().finish(1);
         self.outcomes.push((index, outcome));
         Ok(())

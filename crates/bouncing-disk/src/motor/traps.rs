@@ -34,8 +34,7 @@ const SEED: u64 = 1;
 
 /// Whether a motor is in a low-period trap, with the evidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TrapVerdict {
     /// Preload as an acceleration g (m/s^2).
     pub preload_acceleration: f64,

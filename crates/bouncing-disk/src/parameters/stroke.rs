@@ -29,8 +29,7 @@ pub struct Stroke {
 
 /// What Eq. (14) reads a toss from: a video shows how fast the disk rises and turns as it leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaunchSpeeds {
     /// Axial speed at separation (m/s), positive.
     pub axial_speed: f64,

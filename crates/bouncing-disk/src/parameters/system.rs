@@ -294,16 +294,8 @@ mod tests {
             serde_json::from_str::<DimensionlessSystem>(&text.replace("load", "lode")).unwrap_err(),
             "lode",
         );
-        let braking = r#"{"angular_acceleration":-1.0,"normal_force":1.0,"mass":1.0,"contact_radius":1.0,"gyration_radius":1.0,"mas":2.0}"#;
-        refused(serde_json::from_str::<crate::Braking>(braking).unwrap_err(), "mas");
         let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
         refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
-        let launch =
-            r#"{"axial_speed":1.0,"angular_speed":1.0,"stroke":1.0,"contact_radius":1.0,"radius":2.0}"#;
-        refused(serde_json::from_str::<crate::LaunchSpeeds>(launch).unwrap_err(), "radius");
-        let forcing =
-            r#"{"axial_forcing":1.0,"angular_forcing":1.0,"phase_lag":0.0,"restitution":0.5,"friction":0.1}"#;
-        refused(serde_json::from_str::<crate::ForcingParameters>(forcing).unwrap_err(), "friction");
         let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
         refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
     }

@@ -115,14 +115,6 @@ pub enum StorageError {
         /// Where and why.
         source: serde_json::Error,
     },
-    /// A file whose content cannot be read: it is no JSON, lacks something, or holds what is not legal.
-    #[error("the content of {path:?} cannot be read")]
-    Content {
-        /// The file.
-        path: PathBuf,
-        /// Where and why.
-        source: serde_json::Error,
-    },
     /// A value that JSON cannot hold so that it can be read again; a number that is not finite is one.
     #[error("{what} cannot be stored")]
     NotStorable {

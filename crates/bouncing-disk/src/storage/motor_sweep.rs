@@ -1,14 +1,11 @@
 //! A sweep of a motor with a journal, and the files of its result.
 
-use std::fs::File;
-use std::io::{self, Read as _};
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use bouncing_disk_core::{ChatterPolicy, Observer, Progress};
-use serde::Deserialize as _;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::complete_file::write_complete;
 use super::error::StorageError;
@@ -22,7 +19,7 @@ use crate::motor::sweep::result::MotorSweepResult;
 use crate::motor::sweep::run::MotorSweepRun;
 
 /// The format of a [`MotorSweepResult`] as JSON and CSV. Its provenance has the motor and the settings.
-pub const MOTOR_SWEEP: Format = Format { name: "bouncing-disk motor sweep", version: 1, oldest: 1 };
+const MOTOR_SWEEP: Format = Format { name: "bouncing-disk motor sweep", version: 1, oldest: 1 };
 
 /// Says where a sweep comes from.
 fn provenance(
@@ -142,11 +139,8 @@ impl MotorSweepResult {
     /// Those of [`Self::provenance`].
     pub fn to_json(&self) -> Result<String, StorageError> {
         let failed = |source| StorageError::NotStorable { what: "the result of a sweep".to_owned(), source };
-        let provenance = self.provenance()?;
-        let content = json!({ "provenance": provenance, "axes": self.axes(), "cells": self.cells() });
+        let content = json!({ "provenance": self.provenance()?, "axes": self.axes(), "cells": self.cells() });
         let text = serde_json::to_string_pretty(&content).map_err(failed)?;
-        // A number that JSON does not have would be found by those who read it.
-        of_content(content, &provenance).map_err(failed)?;
         Ok(text + "\n")
     }
 
@@ -156,24 +150,6 @@ impl MotorSweepResult {
     /// Those of [`Self::to_json`]; [`StorageError::Io`] if the system refuses.
     pub fn write_json(&self, path: impl AsRef<Path>) -> Result<(), StorageError> {
         write_complete(path.as_ref(), self.to_json()?.as_bytes())
-    }
-
-    /// Reads what [`Self::write_json`] has written.
-    ///
-    /// # Errors
-    /// [`StorageError::Io`] if the system refuses; [`StorageError::NewerFormat`] and the others of [`Provenance::read`];
-    /// [`StorageError::Content`] for a file that is no JSON, lacks something, or holds what is not legal.
-    pub fn read_json(path: impl AsRef<Path>) -> Result<Self, StorageError> {
-        let path = path.as_ref();
-        let text = read_text(path).map_err(|source| StorageError::Io {
-            action: "read",
-            path: path.to_owned(),
-            source,
-        })?;
-        let unfit = |source| StorageError::Content { path: path.to_owned(), source };
-        let content: Value = serde_json::from_str(&text).map_err(unfit)?;
-        let provenance = Provenance::read(MOTOR_SWEEP, &content["provenance"], path)?;
-        of_content(content, &provenance).map_err(unfit)
     }
 
     /// Writes the table of [`Self::to_csv`] to a file, behind a first line that says where it comes from:
@@ -188,29 +164,6 @@ impl MotorSweepResult {
         let text = format!("# provenance: {provenance}\n{}", self.to_csv());
         write_complete(path.as_ref(), text.as_bytes())
     }
-}
-
-/// The result of which a file has axes and cells, and its provenance the rest.
-fn of_content(mut content: Value, provenance: &Provenance) -> serde_json::Result<MotorSweepResult> {
-    let parameters = provenance.parameters();
-    let [axes, cells] = ["axes", "cells"].map(|name| content[name].take());
-    MotorSweepResult::deserialize(json!({
-        "motor": parameters.get("motor"),
-        "settings": parameters.get("settings"),
-        "axes": axes,
-        "cells": cells,
-    }))
-}
-
-/// The text of a regular file.
-fn read_text(path: &Path) -> io::Result<String> {
-    // Looked at before it is opened: to open a pipe may take for ever.
-    if !std::fs::metadata(path)?.is_file() {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file"));
-    }
-    let mut text = String::new();
-    File::open(path)?.read_to_string(&mut text)?;
-    Ok(text)
 }
 
 #[cfg(test)]

@@ -11,7 +11,6 @@ pub const LONG_FLIGHT: f64 = PI;
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ChatteringCycle {
     /// Impacts, without those that the complete policy sums.
     pub impacts: usize,

@@ -53,7 +53,6 @@ pub enum OverFriction {
 /// What a hand motion may be, and what it is to be best at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossConstraints {
     /// The dough. Its friction is not looked at ([`Self::friction`] is), nor is its restitution.
     pub dough: DiskParameters,
@@ -148,7 +147,6 @@ impl TossConstraints {
 /// How an optimum is certified: by the grid from which it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossCertificate {
     /// Hand motions on the grid.
     pub grid_points: usize,
@@ -163,7 +161,6 @@ pub struct TossCertificate {
 /// The best hand motion, and what it gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossDesign {
     /// What was asked for.
     pub constraints: TossConstraints,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{
     ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer, Stability,
-    TangentGrowth, Watch, WorkCount, read_checked,
+    TangentGrowth, Watch, WorkCount,
 };
 
 use crate::error::{Error, check, not_negative, room_for};
@@ -22,8 +22,7 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MultiTossSettings {
     /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
@@ -61,18 +60,9 @@ impl MultiTossSettings {
     }
 }
 
-read_checked!(MultiTossSettings as UncheckedSettings {
-    policy: ChatterPolicy,
-    transient_impacts: usize,
-    examined_impacts: usize,
-    longest_period: usize,
-    tolerance: f64,
-});
-
 /// What a motion has settled on, judged from the impacts examined.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedClass"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum OrbitClass {
     /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
@@ -109,29 +99,6 @@ pub enum OrbitClass {
     },
     /// The disk rests on the platform for ever.
     AtRest,
-}
-
-read_checked!(enum OrbitClass as UncheckedClass {
-    Periodic { period: usize, platform_periods: u64, vertical: Multipliers, rotary: f64 },
-    Chattering(cycle: ChatteringCycle),
-    Chaotic { lyapunov_exponent: LyapunovEstimate },
-    Undecided { impacts: usize, lyapunov_exponent: Option<LyapunovEstimate> },
-    AtRest,
-});
-
-impl OrbitClass {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        match *self {
-            Self::Periodic { period, platform_periods, rotary, .. } => {
-                check(period > 0, "period", 0.0, "at least 1")?;
-                check(platform_periods > 0, "platform_periods", 0.0, "at least 1")?;
-                check((0.0..=1.0).contains(&rotary), "rotary multiplier", rotary, "[0, 1]")?;
-            }
-            Self::Chaotic { .. } | Self::Undecided { .. } | Self::Chattering(_) | Self::AtRest => {}
-        }
-        Ok(())
-    }
 }
 
 /// A motion after its transient.

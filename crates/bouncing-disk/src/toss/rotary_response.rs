@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{PeriodicOrbit, read_checked};
+use bouncing_disk_core::PeriodicOrbit;
 
 use crate::error::{Error, all_finite, check};
 use crate::motion::impact::{available_impulse, axial_impulse};
@@ -16,8 +16,7 @@ const CLOSES: f64 = 1.0e-6;
 
 /// What becomes of the spin of a disk on a periodic orbit.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum RotaryOutcome {
     /// From every spin the disk comes to this one, in finitely many impacts: the rotary multiplier is 0.
@@ -61,8 +60,7 @@ impl RotaryOutcome {
 
 /// The steady spin on a periodic orbit; lists run over its impacts.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedResponse"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RotaryResponse {
     /// The disk's angular speed just before each impact, in units of g a_e/(a_g^2 omega).
     pub angular_speeds: Vec<f64>,
@@ -78,28 +76,7 @@ pub struct RotaryResponse {
     pub mean_angular_speed: f64,
 }
 
-read_checked!(RotaryResponse as UncheckedResponse {
-    angular_speeds: Vec<f64>,
-    slips: Vec<f64>,
-    sliding: Vec<Option<SlipDirection>>,
-    stick_margin: f64,
-    mean_angular_speed: f64,
-});
-
 impl RotaryResponse {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let impacts = self.angular_speeds.len();
-        for (field, count) in [("slips", self.slips.len()), ("sliding", self.sliding.len())] {
-            check(count == impacts, field, count as f64, "one for each impact")?;
-        }
-        check(self.sliding.contains(&None), "sliding", impacts as f64, "with an impact that ends its slip")?;
-        for value in self.angular_speeds.iter().chain(&self.slips) {
-            all_finite([("angular_speed", *value)])?;
-        }
-        all_finite([("stick_margin", self.stick_margin), ("mean_angular_speed", self.mean_angular_speed)])
-    }
-
     /// How many impacts end the slip.
     #[must_use]
     pub fn sticking_impacts(&self) -> usize {
@@ -109,8 +86,7 @@ impl RotaryResponse {
 
 /// One period of a periodic orbit with some spin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,

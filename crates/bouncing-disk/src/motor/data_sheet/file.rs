@@ -267,7 +267,10 @@ mod tests {
                 let mut less = LINES.to_vec();
                 let (key, _) = less.remove(index);
                 let error = read(&write(&less), &[]).expect_err(key);
-                assert!(matches!(error, MotorFileError::Illegal(_)) && error.to_string().contains(key), "{error}");
+                assert!(
+                    matches!(error, MotorFileError::Illegal(_)) && error.to_string().contains(key),
+                    "{error}"
+                );
             }
             let both = Error::BothGiven { one: "preload_force", other: "preload_acceleration" };
             let more = [&LINES[..], &[("preload_acceleration", "250")]].concat();
@@ -295,9 +298,12 @@ mod tests {
             let expected = motor.with(|sheet| MotorField::PreloadForce.set(sheet, 0.4));
             let set = [(MotorField::PreloadForce, 0.4), change];
             assert_eq!(read(&write(&both), &set).ok(), expected.ok());
-            for (text, change) in [("0.3", (MotorField::Friction, -1.0)), ("-1", (MotorField::Amplitude, 1e-8))] {
+            for (text, change) in
+                [("0.3", (MotorField::Friction, -1.0)), ("-1", (MotorField::Amplitude, 1e-8))]
+            {
                 let error = read(&write(&with(text)), &[change]).expect_err("negative");
-                let named = matches!(error, MotorFileError::Illegal(Error::OutOfRange { field: "friction", .. }));
+                let named =
+                    matches!(error, MotorFileError::Illegal(Error::OutOfRange { field: "friction", .. }));
                 assert!(named, "{error}");
             }
             assert!(read("}", &[change]).is_err());
@@ -355,7 +361,20 @@ mod tests {
         for form in ["70_000", "70_000.0", "7e4", "+70000", "0x11170", "70e3"] {
             assert_eq!(Motor::from_toml(&text.replace("70000.0", form)), Ok(motor), "{form}");
         }
-        for form in ["nan", "inf", "-inf", "1e999", "0", "-0x1", "2009-11-23", "{ Hz = 7 }", "'70'", "7,0", "7.0.0", ""] {
+        for form in [
+            "nan",
+            "inf",
+            "-inf",
+            "1e999",
+            "0",
+            "-0x1",
+            "2009-11-23",
+            "{ Hz = 7 }",
+            "'70'",
+            "7,0",
+            "7.0.0",
+            "",
+        ] {
             assert!(Motor::from_toml(&text.replace("70000.0", form)).is_err(), "{form}");
         }
         for (from, to) in [("phase_lag", "friction"), ("friction = 0.1", "friction")] {

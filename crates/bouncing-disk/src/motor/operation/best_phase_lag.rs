@@ -18,8 +18,7 @@ const FINE: usize = 16;
 
 /// The phase lag at which a motor turns fastest forwards, under its load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BestPhaseLag {
     /// The lag theta (rad), in (-pi, pi]. The other direction is best half a circle away.
     pub phase_lag: Estimate,

@@ -27,8 +27,7 @@ const SIGNIFICANT: f64 = 3.0;
 /// ([`ExponentialFit::stall_acceleration`](crate::ExponentialFit::stall_acceleration)), which is an estimate from the
 /// transient without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
     /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
     /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) says what their tolerances make of it.

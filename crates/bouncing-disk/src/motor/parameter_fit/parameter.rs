@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::elementary::{exp, ln};
-use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check, finite, positive};
 use crate::motor::data_sheet::Motor;
@@ -14,7 +13,7 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 /// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in
 /// [0, 1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum FitParameter {
     /// Coefficient of friction mu. Coordinate: its logarithm.
@@ -120,8 +119,7 @@ impl std::fmt::Display for FitParameter {
 /// The range is also what "determined" is measured by: a direction in which the data leave more than half of
 /// the ranges open is none that they determine.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRange"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitRange {
     /// The parameter.
     pub parameter: FitParameter,
@@ -131,8 +129,6 @@ pub struct FitRange {
     /// lag.
     pub high: f64,
 }
-
-read_checked!(FitRange as UncheckedRange { parameter: FitParameter, low: f64, high: f64 });
 
 impl FitRange {
     fn check(&self) -> Result<(), Error> {

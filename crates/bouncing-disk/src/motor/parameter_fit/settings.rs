@@ -1,13 +1,10 @@
 //! How parameters are fitted to transients.
 
-use bouncing_disk_core::read_checked;
-
 use crate::error::{Error, check};
 
 /// How parameters are fitted.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ParameterFitSettings {
     /// Computed members at each preload, in [24, 4096]: what a run scatters by is known from them. Default
     /// 64.
@@ -29,16 +26,6 @@ pub struct ParameterFitSettings {
     /// the root of the sum over its expectation.
     pub largest_misfit: f64,
 }
-
-read_checked!(ParameterFitSettings as UncheckedSettings {
-    members: usize,
-    windows: usize,
-    relaunch_perturbation: f64,
-    seed: u64,
-    most_evaluations: usize,
-    resamples: usize,
-    largest_misfit: f64,
-});
 
 impl Default for ParameterFitSettings {
     fn default() -> Self {

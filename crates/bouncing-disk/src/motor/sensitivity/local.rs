@@ -3,7 +3,7 @@
 use bouncing_disk_core::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
-use bouncing_disk_core::{Observer, Progress, read_checked};
+use bouncing_disk_core::{Observer, Progress};
 
 use super::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
@@ -27,8 +27,7 @@ const LEAST_POINTS: usize = 5;
 
 /// How local sensitivities are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SensitivitySettings {
     /// How each motor is operated.
     pub operating: OperatingSettings,
@@ -38,12 +37,6 @@ pub struct SensitivitySettings {
     /// Motors that are drawn over it, in [5, 10000]. Default 24.
     pub points: usize,
 }
-
-read_checked!(SensitivitySettings as UncheckedSettings {
-    operating: OperatingSettings,
-    half_range: f64,
-    points: usize,
-});
 
 impl Default for SensitivitySettings {
     fn default() -> Self {

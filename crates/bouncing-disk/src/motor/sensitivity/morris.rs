@@ -16,8 +16,7 @@ const STEP: f64 = 4.0 / 7.0;
 
 /// The elementary effects of one argument: by how much the function changes per range of the argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ElementaryEffects {
     /// Mean, mu.
     pub mean: Estimate,

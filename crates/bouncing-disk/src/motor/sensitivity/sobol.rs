@@ -2,7 +2,7 @@
 //! has.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Observer, Watch, read_checked};
+use bouncing_disk_core::{Observer, Watch};
 
 use super::resamples::standard_errors;
 use crate::error::{Error, check, finite};
@@ -16,8 +16,7 @@ const MOST_ARGUMENTS: usize = 64;
 
 /// How a function is sampled over ranges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSampling"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingSettings {
     /// Rows of the sample, in [8, 1e6]; of d arguments a row takes d + 2 evaluations for Sobol' indices, and
     /// d + 1 for elementary effects. Default 256.
@@ -25,8 +24,6 @@ pub struct SamplingSettings {
     /// Seed of the sample and of the resampling that gives the errors. Default 1.
     pub seed: u64,
 }
-
-read_checked!(SamplingSettings as UncheckedSampling { rows: usize, seed: u64 });
 
 impl Default for SamplingSettings {
     fn default() -> Self {
@@ -43,8 +40,7 @@ impl SamplingSettings {
 
 /// The Sobol' indices of one argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SobolIndices {
     /// First order: the share of the variance that goes if this argument alone is known. An estimate near
     /// zero may be negative.

@@ -271,29 +271,3 @@ fn a_run_of_another_sweep_is_refused() {
     assert_eq!(run.advance(&other, &Unobserved), Err(wrong));
     assert_eq!(run.into_result(&other), Err(wrong));
 }
-
-#[cfg(feature = "json")]
-#[test]
-fn what_is_stored_comes_back_and_what_is_not_legal_does_not() {
-    let sweep = mixed();
-    let text = serde_json::to_string(&sweep).expect("writes");
-    assert_eq!(serde_json::from_str::<MotorSweep>(&text).expect("legal"), sweep);
-    for (good, bad, complaint) in [
-        ("[1e-8,0.0,", "[1e-8,-1.0,", "amplitude = -1 is"),
-        ("\"load_torque\",", "\"amplitude\",", "two axes vary amplitude"),
-        ("\"parameter\":\"load_torque\"", "\"parameter\":\"load\"", "did you mean \"load_torque\"?"),
-        ("\"axes\"", "\"axis\"", "axis"),
-    ] {
-        assert!(text.contains(good), "{text}");
-        let error = serde_json::from_str::<MotorSweep>(&text.replacen(good, bad, 1)).expect_err(bad);
-        assert!(error.to_string().contains(complaint), "{error}");
-    }
-    let result = sweep.run(&Unobserved).expect("no failure");
-    let text = serde_json::to_string(&result).expect("writes");
-    assert_eq!(serde_json::from_str::<MotorSweepResult>(&text).expect("legal"), result);
-    // A value more on an axis, and no cells for it.
-    let more = text.replacen("[1e-8,0.0,", "[1e-8,1e-8,0.0,", 1);
-    assert_ne!(more, text);
-    let error = serde_json::from_str::<MotorSweepResult>(&more).expect_err("cells are missing");
-    assert!(error.to_string().contains("cells of a sweep: 21 where 24 would be legal"), "{error}");
-}

@@ -69,7 +69,7 @@ fn alone(member: &TransientMember) -> Result<SpeedCurve, Error> {
 
 fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
     let mut run = TransientsRun::new(members.len());
-    run.advance_with(members, (&Unobserved, &|_, _| {}), set).expect("nobody stops it");
+    run.advance_with(members, &Unobserved, set).expect("nobody stops it");
     run.into_results().expect("done")
 }
 

@@ -49,8 +49,7 @@ pub struct TrapRange {
 /// Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
 /// amplitude or of frequency: the near edge is given for each of them, the others kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearestTrap {
     /// Distance of the near edge: the relative change of amplitude or preload that reaches it, the smaller of
     /// the two in size; zero for a motor in the trap.

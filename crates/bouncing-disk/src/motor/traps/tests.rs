@@ -1,7 +1,5 @@
 use super::*;
 use crate::MotorRegime;
-#[cfg(feature = "serde")]
-use crate::NearestTrap;
 
 fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
     let preload = motor.system().platform().peak_acceleration() / (PI * forcing);
@@ -155,18 +153,4 @@ fn a_motor_far_from_every_trap_has_none() {
     }
     let stop = |_: bouncing_disk_core::Progress| std::ops::ControlFlow::Break(());
     assert!(motor.nearest_trap(0.1, &stop).is_err());
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn what_is_stored_comes_back() {
-    let motor = at_forcing(&Motor::paper_70_khz(), 12.45);
-    let trap = motor.nearest_trap(0.1, &Unobserved).expect("no failure").expect("one");
-    let text = serde_json::to_string(&trap).expect("writes");
-    assert_eq!(serde_json::from_str::<NearestTrap>(&text).expect("legal"), trap);
-    let unknown = text.replacen("is_trap", "is_hole", 1);
-    assert!(serde_json::from_str::<NearestTrap>(&unknown).is_err());
-    let none = motor.trap_verdict().expect("no failure");
-    let text = serde_json::to_string(&none).expect("writes");
-    assert_eq!(serde_json::from_str::<TrapVerdict>(&text).expect("legal"), none);
 }

@@ -5,10 +5,6 @@ use std::process::id;
 use bouncing_disk_core::{Progress, Unobserved};
 
 use super::*;
-use crate::{
-    Error, SpeedCurve, System, TransientMember, TransientSettings, ensemble_members, transients,
-    transients_with_journal,
-};
 
 /// A path at which nothing is, removed at the end.
 struct Scratch(PathBuf);
@@ -236,101 +232,39 @@ fn what_could_not_be_read_again_is_not_written() {
     assert_eq!((scratch.bytes(), journal.done()), (before, 1));
 }
 
-fn members() -> Vec<TransientMember> {
-    let settings = TransientSettings { duration: 0.05, intervals: 10, ..TransientSettings::default() };
-    let mut members = ensemble_members(&System::motor(), &settings, 120).expect("legal");
-    // So that not all are finished at once.
-    members.iter_mut().enumerate().for_each(|(k, member)| member.settings.duration += 0.01 * k as f64);
-    members
-}
-
-fn curve_bits(curves: &[Result<SpeedCurve, Error>]) -> Vec<u64> {
-    let curves = curves.iter().map(|curve| curve.as_ref().expect("no error"));
-    curves.flat_map(|curve| curve.times.iter().chain(&curve.speeds).map(|x| x.to_bits())).collect()
-}
-
 /// Where a process that is to be killed writes its journal.
 const TO_BE_KILLED: &str = "BOUNCING_DISK_TEST_JOURNAL";
 
-/// Runs itself as a process of its own, which it kills as soon as some members more are finished.
+/// Runs itself as a process of its own, which it kills as soon as some items more are finished.
 #[test]
 fn a_process_that_is_killed_goes_on_where_it_was() {
-    let (mut members, key) = (members(), key(0.1));
-    // Long enough that the process is killed before it has done them all.
-    members.iter_mut().for_each(|member| member.settings.duration *= 30.0);
+    const ITEMS: usize = 1_000_000;
     if let Some(path) = std::env::var_os(TO_BE_KILLED) {
-        transients_with_journal(path, &key, &members, &crate::Unobserved).expect("killed before");
+        let (mut journal, finished) = Journal::open(path, &key(0.1), ITEMS).expect("free");
+        for index in finished.open(ITEMS).expect("as many") {
+            journal.append(index, &result(index)).expect("writable");
+        }
         return;
     }
     let scratch = Scratch::new("killed");
     let lines = || fs::read(&scratch.0).map_or(0, |bytes| bytes.split(|byte| *byte == b'\n').count());
-    let mut killed = 0;
     for _ in 0..3 {
         let before = lines();
         let mut command = std::process::Command::new(std::env::current_exe().expect("runs"));
-        let name = "storage::journal::tests::a_process_that_is_killed_goes_on_where_it_was";
+        let name = concat!(module_path!(), "::a_process_that_is_killed_goes_on_where_it_was");
+        let name = name.split_once("::").expect("a crate").1;
         command.args(["--exact", name]).env(TO_BE_KILLED, &scratch.0).stdout(std::process::Stdio::null());
         let mut child = command.spawn().expect("starts");
         while lines() < before + 8 && child.try_wait().expect("its own child").is_none() {
             std::thread::sleep(std::time::Duration::from_millis(1));
         }
         child.kill().expect("its own child");
-        // A machine of many processors may have done all before.
-        if child.wait().expect("its own child").success() {
-            break;
-        }
+        assert!(!child.wait().expect("its own child").success(), "it was never killed on the way");
         assert!(lines() >= before + 8, "{} lines after {before}", lines());
-        killed += 1;
     }
-    assert!(killed > 0, "it was never killed on the way");
-    let curves = transients_with_journal(&scratch.0, &key, &members, &crate::Unobserved).expect("free again");
-    assert_eq!(curve_bits(&curves), curve_bits(&transients(&members, &Unobserved).expect("unobserved")));
-}
-
-/// Stops a run again and again; each time the file ends in half a line.
-#[test]
-fn transients_that_are_killed_again_and_again_end_as_those_of_one_call() {
-    let (scratch, members) = (Scratch::new("transients"), members());
-    let key = Provenance::new(JOURNAL).with("motor", &"of Table III").expect("storable").with_seed(1);
-    let expected = curve_bits(&transients(&members, &Unobserved).expect("unobserved"));
-    let mut lengths = Vec::new();
-    let (mut before, mut kills) = (0, 0);
-    let curves = loop {
-        let finished = before;
-        let observer = |progress: Progress| {
-            if progress.done < finished + 15 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        match transients_with_journal(&scratch.0, &key, &members, &observer) {
-            Ok(curves) => break curves,
-            Err(StorageError::Model(Error::Core(bouncing_disk_core::Error::Stopped {
-                done,
-                total: 120,
-            }))) => {
-                assert!(done >= before, "{done} after {before}");
-                before = done;
-            }
-            Err(error) => panic!("{error:?}"),
-        }
-        kills += 1;
-        assert!(kills < 1_000, "{lengths:?}");
-        // Killed in the midst of the next line.
-        let mut bytes = scratch.bytes();
-        lengths.push(bytes.len());
-        bytes.extend(b"{\"digest\":\"0123");
-        scratch.write(bytes);
-    };
-    assert!(lengths.len() > 2 && lengths.windows(2).all(|pair| pair[1] > pair[0]), "{lengths:?}");
-    assert_eq!(curve_bits(&curves), expected);
-    // All is there: nothing is computed again.
-    let again = transients_with_journal(&scratch.0, &key, &members, &|_: Progress| ControlFlow::Continue(()));
-    assert_eq!(curve_bits(&again.expect("done")), expected);
-    // Other members are another computation, though the caller's key is the same.
-    let error = transients_with_journal(&scratch.0, &key, &members[..119], &crate::Unobserved);
-    assert!(matches!(error, Err(StorageError::OtherKey { .. })), "{error:?}");
-    let mut others = members.clone();
-    others[7].settings.seed += 1;
-    let error = transients_with_journal(&scratch.0, &key, &others, &crate::Unobserved).expect_err("others");
-    assert!(error.to_string().contains("provenance.parameters.members_digest"), "{error}");
+    let (_, finished) = Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), ITEMS).expect("free again");
+    let expected = (0..finished.done() as usize).map(|index| (index, result(index)));
+    assert!(finished.iter().map(|(index, own)| (index, own.clone())).eq(expected));
 }
 
 #[test]

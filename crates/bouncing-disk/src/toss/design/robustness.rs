@@ -55,8 +55,7 @@ const ALL: [TossInput; INPUTS] = [
 /// 0.25 m. The default is none: all inputs are exact. Friction has its range in
 /// [`TossConstraints::friction`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TossHalfUnits {
     /// Of the stroke c (m).
     pub stroke: f64,
@@ -91,7 +90,6 @@ impl TossHalfUnits {
 /// The spread of an objective about its nominal value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Robustness {
     /// At the inputs as given.
     pub nominal: f64,
@@ -108,7 +106,6 @@ pub struct Robustness {
 /// What is left of a toss where hand and dough are not quite those of the design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossRobustness {
     /// Over everything that rounds to the same digits; the objective is taken over the range of friction, as
     /// in the design. A dough that never leaves has none of it.

@@ -280,22 +280,6 @@ fn a_search_can_be_stopped() {
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{error}");
 }
 
-#[cfg(feature = "serde")]
-#[test]
-fn what_is_stored_comes_back() {
-    let design = designed(&cases()[6]);
-    let text = serde_json::to_string(&design).expect("writes");
-    let read: TossDesign = serde_json::from_str(&text).expect("legal");
-    assert_eq!(read, design);
-    let half_units = TossHalfUnits { stroke: 0.005, ..TossHalfUnits::default() };
-    let robustness = design.robustness(&half_units).expect("legal");
-    assert_eq!(read.robustness(&half_units).expect("legal"), robustness);
-    let stored = serde_json::to_string(&robustness).expect("writes");
-    assert_eq!(serde_json::from_str::<crate::TossRobustness>(&stored).expect("legal"), robustness);
-    let unknown = text.replacen("flight_height", "flight_hight", 1);
-    assert!(serde_json::from_str::<TossDesign>(&unknown).is_err());
-}
-
 /// The toss of the design is that of its system, to the last bit.
 #[test]
 fn the_system_of_a_design_tosses_as_it_says() {
