@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-use crate::motor::fit_refusal::FitRefusal;
+use crate::estimate::refusal::FitRefusal;
 
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///

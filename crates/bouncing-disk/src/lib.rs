@@ -91,8 +91,8 @@ pub use motion::si::{SiEnergy, SiState};
 pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
-pub use motor::brake::{Braking, friction_from_braking};
-pub use motor::braking_fit::{BrakingFit, BrakingRotor};
+pub use estimate::brake::{Braking, friction_from_braking};
+pub use estimate::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;
@@ -101,17 +101,17 @@ pub use motor::data_sheet::parameters::MotorParameters;
 pub use motor::data_sheet::regime::MotorRegime;
 pub use motor::data_sheet::report::MotorReport;
 pub use motor::data_sheet::warning::MotorWarning;
-pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members};
-pub use motor::fit::{ExponentialFit, RampFit};
-pub use motor::fit_refusal::FitRefusal;
+pub use estimate::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members};
+pub use estimate::fit::{ExponentialFit, RampFit};
+pub use estimate::refusal::FitRefusal;
 pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
-pub use motor::interval_estimate::IntervalEstimate;
+pub use estimate::interval::IntervalEstimate;
 #[cfg(feature = "csv")]
-pub use motor::measured_speeds::csv_file::CsvColumns;
+pub use estimate::measured_speeds::csv_file::CsvColumns;
 #[cfg(feature = "csv")]
-pub use motor::measured_speeds::error::MeasuredSpeedsError;
-pub use motor::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
-pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+pub use estimate::measured_speeds::error::MeasuredSpeedsError;
+pub use estimate::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
+pub use estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
 pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::operations;
@@ -120,23 +120,23 @@ pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::spread::{InputSpread, InputTolerance};
 pub use motor::operation::stall_load::StallLoad;
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::ParameterFit;
+pub use estimate::parameter_fit::ParameterFit;
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+pub use estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+pub use estimate::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
+pub use estimate::parameter_fit::parameter::{FitParameter, FitRange};
 #[cfg(feature = "fit")]
-pub use motor::parameter_fit::settings::ParameterFitSettings;
+pub use estimate::parameter_fit::settings::ParameterFitSettings;
 pub use motor::sensitivity::global::ParameterRange;
 pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
 pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
 pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
-pub use motor::shared_orbit::transients::shared_transients;
+pub use motor::batch::shared_orbit::transients::shared_transients;
 pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
-pub use motor::statistics::{
+pub use estimate::statistics::{
     EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
 };
 pub use motor::sweep::MotorSweep;
@@ -144,11 +144,11 @@ pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
 pub use motor::sweep::quantity::SweepQuantity;
 pub use motor::sweep::result::MotorSweepResult;
 pub use motor::sweep::run::MotorSweepRun;
-pub use motor::transient::{SpeedCurve, TransientSettings, transient};
-pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
-pub use motor::transients::{TransientMember, TransientsRun, transients};
-pub use motor::traps::ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
-pub use motor::traps::{TrapVerdict, low_period_traps};
+pub use motor::rotor::transient::{SpeedCurve, TransientSettings, transient};
+pub use estimate::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
+pub use motor::batch::transients::{TransientMember, TransientsRun, transients};
+pub use motor::operation::trap_ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
+pub use motor::data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
@@ -156,11 +156,11 @@ pub use parameters::scales::Scales;
 pub use parameters::stroke::{LaunchSpeeds, Stroke};
 pub use parameters::system::System;
 #[cfg(feature = "storage")]
-pub use storage::error::StorageError;
+pub use store::error::StorageError;
 #[cfg(feature = "storage")]
-pub use storage::journal::{JOURNAL, Journal};
+pub use store::journal::{JOURNAL, Journal};
 #[cfg(feature = "storage")]
-pub use storage::provenance::{Format, Provenance};
+pub use store::provenance::{Format, Provenance};
 pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
 pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};

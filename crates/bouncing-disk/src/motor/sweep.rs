@@ -14,9 +14,9 @@ pub(crate) mod run;
 
 use bouncing_disk_core::Observer;
 
-use self::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
-use self::result::MotorSweepResult;
-use self::run::MotorSweepRun;
+use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
+use crate::motor::sweep::result::MotorSweepResult;
+use crate::motor::sweep::run::MotorSweepRun;
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;

@@ -3,7 +3,7 @@
 use bouncing_disk_core::elementary::sin_cos;
 use bouncing_disk_core::{ChatterSeries, ImpactRange, Launch, Phase, PowerSeries};
 
-use super::Chatter;
+use crate::motion::chatter::Chatter;
 use crate::motion::impact::friction_impact;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::motion::sliding::RotaryChange;

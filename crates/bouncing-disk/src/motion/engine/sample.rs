@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use bouncing_disk_core::{Observer, RestitutionLaw, Watch};
 
-use super::Engine;
+use crate::motion::engine::Engine;
 use crate::error::{Error, check, room_for};
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;

@@ -7,17 +7,17 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::warning::MotorWarning;
 
 /// The numbers that a motor and its report both print.
-pub(super) struct Facts {
-    pub(super) axial_forcing: f64,
-    pub(super) angular_forcing: Option<f64>,
-    pub(super) peak_acceleration: f64,
-    pub(super) largest_torque: f64,
-    pub(super) static_deflection: Option<f64>,
-    pub(super) preload_change_bound: Option<f64>,
+pub(crate) struct Facts {
+    pub(crate) axial_forcing: f64,
+    pub(crate) angular_forcing: Option<f64>,
+    pub(crate) peak_acceleration: f64,
+    pub(crate) largest_torque: f64,
+    pub(crate) static_deflection: Option<f64>,
+    pub(crate) preload_change_bound: Option<f64>,
 }
 
 impl Facts {
-    pub(super) fn of(motor: &Motor) -> Self {
+    pub(crate) fn of(motor: &Motor) -> Self {
         let system = motor.system();
         Self {
             axial_forcing: system.axial_forcing(),
@@ -30,7 +30,7 @@ impl Facts {
     }
 
     /// The forcing parameters, on one line.
-    pub(super) fn write_forcing(&self, f: &mut Formatter<'_>) -> fmt::Result {
+    pub(crate) fn write_forcing(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "Gamma = {}, Gamma_T = ", number(self.axial_forcing))?;
         match self.angular_forcing {
             Some(forcing) => number(forcing).fmt(f)?,
@@ -40,7 +40,7 @@ impl Facts {
     }
 
     /// Torque and spring, on lines of their own.
-    pub(super) fn write_rest(&self, f: &mut Formatter<'_>) -> fmt::Result {
+    pub(crate) fn write_rest(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "\nlargest torque mu m g a_e = {} N m", number(self.largest_torque))?;
         if let Some(deflection) = self.static_deflection {
             write!(f, "\nstatic deflection of the spring = {} m", number(deflection))?;
@@ -57,7 +57,7 @@ impl Facts {
 }
 
 /// Each warning on a line of its own.
-pub(super) fn write_warnings(f: &mut Formatter<'_>, warnings: &[MotorWarning]) -> fmt::Result {
+pub(crate) fn write_warnings(f: &mut Formatter<'_>, warnings: &[MotorWarning]) -> fmt::Result {
     warnings.iter().try_for_each(|warning| write!(f, "\nwarning: {warning}"))
 }
 

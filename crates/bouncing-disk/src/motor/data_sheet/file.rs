@@ -5,9 +5,9 @@ use std::fmt;
 
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 
-use super::Motor;
-use super::motor_field::MotorField;
-use super::parameters::MotorParameters;
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::error::Error;
 
 /// Why the text of a data sheet gives no motor.

@@ -5,34 +5,34 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
-use super::parameters::MotorParameters;
+use crate::motor::data_sheet::parameters::MotorParameters;
 
 /// Another unit in which a number may have been meant.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Reading {
+pub(crate) struct Reading {
     /// The other meaning: "a length in mm".
-    pub(super) meant: &'static str,
+    pub(crate) meant: &'static str,
     /// Factor from the number to the unit of `usual`.
-    pub(super) factor: f64,
+    pub(crate) factor: f64,
     /// The values that such motors have in the other meaning.
-    pub(super) usual: (f64, f64),
+    pub(crate) usual: (f64, f64),
 }
 
 /// One field.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Field {
-    pub(super) name: &'static str,
-    pub(super) unit: &'static str,
+pub(crate) struct Field {
+    pub(crate) name: &'static str,
+    pub(crate) unit: &'static str,
     /// The sizes that such motors have; `None` where there is no rule.
-    pub(super) usual: Option<(f64, f64)>,
+    pub(crate) usual: Option<(f64, f64)>,
     /// Other units in which the number may have been meant.
-    pub(super) readings: &'static [Reading],
-    pub(super) get: fn(&MotorParameters) -> Option<f64>,
+    pub(crate) readings: &'static [Reading],
+    pub(crate) get: fn(&MotorParameters) -> Option<f64>,
     /// `None` clears an optional field, and leaves another one as it is.
-    pub(super) set: fn(&mut MotorParameters, Option<f64>),
+    pub(crate) set: fn(&mut MotorParameters, Option<f64>),
     /// Whether a file must have it.
     #[cfg(any(feature = "json", feature = "toml"))]
-    pub(super) needed: bool,
+    pub(crate) needed: bool,
     /// The paper's symbol, and other names under which a user may look for it.
     also: &'static [&'static str],
 }
@@ -163,7 +163,7 @@ motor_fields! {
 
 impl MotorField {
     /// Its line of the table, which has the same order.
-    pub(super) const fn field(self) -> &'static Field {
+    pub(crate) const fn field(self) -> &'static Field {
         &FIELDS[self as usize]
     }
 

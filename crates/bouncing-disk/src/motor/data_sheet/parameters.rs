@@ -87,7 +87,7 @@ fn one_of(
 
 impl MotorParameters {
     /// A sheet without a number. A needed one that stays NaN is refused before anybody sees it.
-    pub(super) const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         drive_frequency: f64::NAN,
         amplitude: f64::NAN,
         peak_angular_speed: None,

@@ -13,9 +13,9 @@ use super::*;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
-use crate::motor::ensemble::ensemble;
-use crate::motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
-use crate::motor::transient::TransientSettings;
+use crate::estimate::ensemble::ensemble;
+use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+use crate::motor::rotor::transient::TransientSettings;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 
 /// A motor with many traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{Field, MotorField};
-use crate::motor::measured_speeds::MeasuredSpeeds;
+use crate::estimate::measured_speeds::MeasuredSpeeds;
 
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;

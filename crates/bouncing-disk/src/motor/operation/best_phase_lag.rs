@@ -5,9 +5,9 @@ use std::f64::consts::{PI, TAU};
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::elementary::wrapped_angle;
 
-use super::ensemble::{LoadedMotor, Operations, operate};
-use super::point::Estimate;
-use super::settings::OperatingSettings;
+use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate};
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
 use crate::error::Error;
 
 /// Lags around the whole circle.

@@ -11,10 +11,10 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress};
 
-use super::ensemble::{LoadedMotor, Operations, operate, operate_for};
-use super::point::Estimate;
-use super::settings::OperatingSettings;
-use super::stall_load::stall_share;
+use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate, operate_for};
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::stall_load::stall_share;
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
 

@@ -5,10 +5,10 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::{Observer, Progress};
 
-use super::parameter::{SensitivityParameter, SensitivityQuantity};
+use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
-use crate::motor::interval_estimate::student_quantile;
+use crate::estimate::interval::student_quantile;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
@@ -160,7 +160,7 @@ impl Motor {
 }
 
 /// The quantity of a motor.
-pub(super) fn quantity_of(
+pub(crate) fn quantity_of(
     motor: &Motor,
     quantity: SensitivityQuantity,
     settings: &OperatingSettings,

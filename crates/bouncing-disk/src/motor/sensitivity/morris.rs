@@ -4,8 +4,8 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Watch};
 
-use super::resamples::standard_errors;
-use super::sobol::{SamplingSettings, check_ranges, evaluated};
+use crate::motor::sensitivity::resamples::standard_errors;
+use crate::motor::sensitivity::sobol::{SamplingSettings, check_ranges, evaluated};
 use crate::error::Error;
 use crate::motor::operation::point::Estimate;
 

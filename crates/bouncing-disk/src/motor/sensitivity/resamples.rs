@@ -9,7 +9,7 @@ const RESAMPLES: usize = 300;
 
 /// The standard errors of `N` statistics of `rows` rows. `statistics` is given the numbers of the rows that
 /// are drawn.
-pub(super) fn standard_errors<const N: usize>(
+pub(crate) fn standard_errors<const N: usize>(
     rows: usize,
     seed: u64,
     statistics: impl Fn(&[usize]) -> [f64; N],

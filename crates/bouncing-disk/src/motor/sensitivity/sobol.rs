@@ -4,7 +4,7 @@
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{Observer, Watch};
 
-use super::resamples::standard_errors;
+use crate::motor::sensitivity::resamples::standard_errors;
 use crate::error::{Error, check, finite};
 use crate::motor::operation::point::Estimate;
 
@@ -32,7 +32,7 @@ impl Default for SamplingSettings {
 }
 
 impl SamplingSettings {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         check(ROWS.contains(&self.rows), "rows", self.rows as f64, "[8, 1000000]")?;
         Ok(())
     }
@@ -51,7 +51,7 @@ pub struct SobolIndices {
 }
 
 /// Checks the ranges of arguments.
-pub(super) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
+pub(crate) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
     let count = ranges.len();
     check((1..=MOST_ARGUMENTS).contains(&count), "number of ranges", count as f64, "[1, 64]")?;
     for &[low, high] in ranges {
@@ -64,7 +64,7 @@ pub(super) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
 }
 
 /// The values of a batch of points, as many as points, finite.
-pub(super) fn evaluated(
+pub(crate) fn evaluated(
     points: &[Vec<f64>],
     evaluate: &mut impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
 ) -> Result<Vec<f64>, Error> {

@@ -1,7 +1,7 @@
 //! The result of a sweep as comma-separated text.
 
-use super::quantity::SweepQuantity;
-use super::result::MotorSweepResult;
+use crate::motor::sweep::quantity::SweepQuantity;
+use crate::motor::sweep::result::MotorSweepResult;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::{OperatingPoint, Operation, Shortfall};
 

@@ -1,8 +1,8 @@
 //! What comes out of a sweep.
 
-use super::MotorSweep;
-use super::axis::{SweepAxis, values_of_cell};
-use super::quantity::SweepQuantity;
+use crate::motor::sweep::MotorSweep;
+use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
+use crate::motor::sweep::quantity::SweepQuantity;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::Operation;
@@ -20,7 +20,7 @@ pub struct MotorSweepResult {
 
 impl MotorSweepResult {
     /// `operations` of all cells.
-    pub(super) fn of(sweep: &MotorSweep, operations: Vec<Operation>) -> Self {
+    pub(crate) fn of(sweep: &MotorSweep, operations: Vec<Operation>) -> Self {
         let (motor, settings, axes) = (*sweep.motor(), *sweep.settings(), sweep.axes().to_vec());
         Self { motor, settings, axes, cells: operations }
     }

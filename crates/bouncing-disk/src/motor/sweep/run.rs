@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bouncing_disk_core::{Observer, PartialResults, Progress, Watch};
 
-use super::MotorSweep;
-use super::axis::sheet_of_cell;
-use super::result::MotorSweepResult;
+use crate::motor::sweep::MotorSweep;
+use crate::motor::sweep::axis::sheet_of_cell;
+use crate::motor::sweep::result::MotorSweepResult;
 use crate::error::Error;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;

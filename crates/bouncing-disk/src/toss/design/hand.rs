@@ -80,7 +80,7 @@ pub(super) fn over_frictions(
     let [least, most] = constraints.friction;
     let count = if least < most { frictions } else { 1 };
     let at = |friction: f64| toss(hand, dough, friction, constraints.initial);
-    let Some(middle) = at(self::middle([least, most]))? else { return Ok((0.0, None)) };
+    let Some(middle) = at(crate::toss::design::hand::middle([least, most]))? else { return Ok((0.0, None)) };
     let forwards = 1.0_f64.copysign(middle.airborne_speed);
     let gravity = dough.preload_acceleration;
     let of = |toss: &TossPerformance| of_toss(constraints.objective, toss, forwards, gravity);

@@ -184,7 +184,7 @@ fn parameters_are_set_one_by_one() {
         }
         assert_eq!(
             parameter.shares_vertical_motion(),
-            crate::motor::shared_orbit::is_shared(motor.system(), changed.system()),
+            crate::motor::batch::shared_orbit::is_shared(motor.system(), changed.system()),
             "{parameter}"
         );
         assert!(parameter.set(&motor, f64::NAN).is_err(), "{parameter}");

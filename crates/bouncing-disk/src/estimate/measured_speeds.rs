@@ -1,0 +1,106 @@
+//! Measured speeds against time: one run or several of the same motor.
+
+#[cfg(feature = "csv")]
+pub(crate) mod csv_file;
+#[cfg(feature = "csv")]
+pub(crate) mod error;
+pub(crate) mod units;
+
+use bouncing_disk_core::Observer;
+
+use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
+use crate::error::{Error, check, within_limit};
+use crate::estimate::braking_fit::{BrakingFit, BrakingRotor};
+use crate::estimate::ensemble::MAX_SPEEDS;
+use crate::estimate::fit::check_rows;
+use crate::estimate::transient_fit::{FitSettings, TransientFit};
+
+/// One run: angular speed against time.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MeasuredRun {
+    /// Number by which the run is known; 0 where there is only one.
+    pub member: u32,
+    /// Times (s), rising, also below zero: those of the switch-on and of a dead time need not be known.
+    pub times: Vec<f64>,
+    /// Angular speeds (rad/s).
+    pub speeds: Vec<f64>,
+}
+
+/// Measured speeds of one motor, in one run or several.
+///
+/// ```
+/// # use bouncing_disk::core::Unobserved;
+/// use bouncing_disk::core::elementary::exp;
+/// use bouncing_disk::{FitSettings, MeasuredRun, MeasuredSpeeds};
+///
+/// // Synthetic: every 20 ms, rounded to a tenth of a rad/s as an instrument shows it.
+/// let times: Vec<f64> = (0..200).map(|i| 0.02 * f64::from(i)).collect();
+/// let speeds = times.iter().map(|time| 200.0 * (1.0 - exp(-time / 0.5))).map(|speed| speed.round() / 10.0);
+/// let measured = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, speeds: speeds.collect(), times }])?;
+/// let fit = measured.fit(&FitSettings::default(), &Unobserved)?;
+/// assert!((fit.time_constant().value - 0.5).abs() < 1e-3);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MeasuredSpeeds {
+    runs: Vec<MeasuredRun>,
+    #[cfg_attr(feature = "serde", serde(skip))]
+    units: (TimeUnit, SpeedUnit),
+}
+
+impl MeasuredSpeeds {
+    /// Of at least one run, their numbers rising.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for no run, numbers that do not rise, fewer than three points in a run, lists of
+    /// different lengths, times that do not rise and numbers that are not finite; an error of the core for
+    /// more than [`MAX_SPEEDS`] speeds.
+    pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
+        check(!runs.is_empty(), "runs", 0.0, "[1, inf)")?;
+        for (k, run) in runs.iter().enumerate() {
+            check_rows(&run.times, &run.speeds)?;
+            let again = k > 0 && runs[k - 1].member >= run.member;
+            check(!again, "member", f64::from(run.member), "rising from run to run")?;
+        }
+        let speeds = runs.iter().map(|run| run.speeds.len()).sum();
+        within_limit("speeds of all runs", speeds, MAX_SPEEDS)?;
+        Ok(Self { runs, units: Default::default() })
+    }
+
+    /// The runs, at least one.
+    #[must_use]
+    pub fn runs(&self) -> &[MeasuredRun] {
+        &self.runs
+    }
+
+    /// The units that the file had, from which times and speeds were converted.
+    #[must_use]
+    pub const fn file_units(&self) -> (TimeUnit, SpeedUnit) {
+        self.units
+    }
+
+    /// Steady speed and time constant with intervals, of all runs together ([`TransientFit::of_measured`]).
+    ///
+    /// The items of `observer` are the resampled curves, once for each form.
+    ///
+    /// # Errors
+    /// Those of [`TransientFit::of_measured`].
+    pub fn fit(&self, settings: &FitSettings, observer: &dyn Observer) -> Result<TransientFit, Error> {
+        let runs: Vec<_> =
+            self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
+        TransientFit::of_measured(&runs, settings, observer)
+    }
+
+    /// The friction with its interval from each run, all of which are braking curves of this rotor.
+    ///
+    /// # Errors
+    /// Those of [`BrakingFit::new`], for the first run that has one.
+    pub fn fit_braking(&self, rotor: &BrakingRotor) -> Result<Vec<BrakingFit>, Error> {
+        self.runs.iter().map(|run| BrakingFit::new(&run.times, &run.speeds, rotor)).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests;
