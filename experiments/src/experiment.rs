@@ -129,6 +129,12 @@ impl From<StorageError> for ExperimentError {
     }
 }
 
+impl From<bouncing_disk::FitError> for ExperimentError {
+    fn from(error: bouncing_disk::FitError) -> Self {
+        Self::model(error)
+    }
+}
+
 impl From<bouncing_disk::Error> for ExperimentError {
     fn from(error: bouncing_disk::Error) -> Self {
         Self::model(error)

@@ -71,7 +71,7 @@ pub(crate) fn fit_braking<'py>(
         gyration_radius: gyration_radius.0,
     };
     let fit = py
-        .detach(|| -> Result<BrakingFit, Error> { BrakingFit::new(&times, &speeds, &rotor) })
+        .detach(|| BrakingFit::new(&times, &speeds, &rotor))
         .map_err(|error| errors::of_named(py, error, &[&fits::NAMES[..], &OF_ROTOR[..]].concat()))?;
     let fields = (
         interval(py, &fit.friction)?,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use bouncing_disk::core::{Error as CoreError, NoCrisis};
-use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
+use bouncing_disk::{Error, FitError, MeasuredSpeedsError, MotorFileError};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -111,7 +111,7 @@ fn of_core(error: CoreError) -> Raised {
 }
 
 fn of_model(error: Error) -> Raised {
-    use Raised::{Computation, FitRefused, Invalid, OutOfRange};
+    use Raised::{Computation, Invalid, OutOfRange};
     match error {
         Error::Core(error) => of_core(error),
         Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
@@ -134,7 +134,6 @@ fn of_model(error: Error) -> Raised {
         Error::BothGiven { one, other } => Invalid("both-given", details![one, other]),
         Error::EmptyAxis { parameter } => Invalid("empty-axis", details![parameter]),
         Error::RepeatedAxis { parameter } => Invalid("repeated-axis", details![parameter]),
-        Error::FitRefused { .. } => FitRefused,
         _ => Computation("other", Vec::new()),
     }
 }
@@ -184,13 +183,16 @@ fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
 }
 
 /// The exception of an error of the model or of the core.
-pub(crate) fn of(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
     of_named(py, error, &[])
 }
 
 /// The same where the library has other names for the arguments.
-pub(crate) fn of_named(py: Python<'_>, error: impl Into<Error>, names: &[Name]) -> PyErr {
-    let error = error.into();
+pub(crate) fn of_named(py: Python<'_>, error: impl Into<FitError>, names: &[Name]) -> PyErr {
+    let error = match error.into() {
+        FitError::Model(error) => error,
+        refused => return raise(py, refused.to_string(), Raised::FitRefused),
+    };
     match names::told(&error, names) {
         Some(Told::Argument(field, value, legal)) => {
             // The words of the library for a value and its range, which here need not be its own.

@@ -150,7 +150,7 @@ pub(crate) fn fit_transients<'py>(
         largest_residual: largest_residual.0,
         from_rest,
     };
-    let fit = long_call::run_named(py, progress.0, &NAMES, |observer| -> Result<TransientFit, Error> {
+    let fit = long_call::run_named(py, progress.0, &NAMES, |observer| {
         let runs: Vec<(&[f64], &[f64])> =
             runs.iter().map(|speeds| (times.as_slice(), speeds.as_slice())).collect();
         TransientFit::of_measured(&runs, &settings, observer)

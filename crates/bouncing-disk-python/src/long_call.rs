@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use bouncing_disk::{Error, Observer, Progress};
+use bouncing_disk::{FitError, Observer, Progress};
 use pyo3::prelude::*;
 
 use crate::names::Name;
@@ -54,20 +54,20 @@ impl Watched {
 }
 
 /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the callable raises.
-pub(crate) fn run<T: Send>(
+pub(crate) fn run<T: Send, E: Into<FitError> + Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
 ) -> PyResult<T> {
     run_named(py, progress, &[], work)
 }
 
 /// The same where the library has other names for the arguments.
-pub(crate) fn run_named<T: Send>(
+pub(crate) fn run_named<T: Send, E: Into<FitError> + Send>(
     py: Python<'_>,
     progress: Option<Py<PyAny>>,
     names: &[Name],
-    work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
 ) -> PyResult<T> {
     let watched = Watched::default();
     let callable = progress.as_ref();
@@ -109,10 +109,10 @@ pub(crate) fn run_named<T: Send>(
 }
 
 /// Runs what takes microseconds, where it is.
-pub(crate) fn short<T>(
+pub(crate) fn short<T, E: Into<FitError>>(
     py: Python<'_>,
     names: &[Name],
-    work: impl FnOnce() -> Result<T, Error>,
+    work: impl FnOnce() -> Result<T, E>,
 ) -> PyResult<T> {
     match catch_unwind(AssertUnwindSafe(work)) {
         Ok(result) => result.map_err(|error| errors::of_named(py, error, names)),

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
-    Error, Estimate, FitRefusal, FitSettings, IntervalEstimate, Motor, MotorParameters, OperatingPoint,
+    Error, Estimate, FitError, FitRefusal, FitSettings, IntervalEstimate, Motor, MotorParameters, OperatingPoint,
     OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
     TransientSettings, ensemble_members, transients,
 };
@@ -100,8 +100,9 @@ pub(crate) fn transient(
     }
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
-        Err(Error::FitRefused { reason }) => (None, Some(refused_since(&reason))),
-        Err(error) => return Err(error.into()),
+        Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
+        Err(FitError::Model(error)) => return Err(error.into()),
+        Err(error) => return Err(Refusal::computation(&error)),
     };
     Reply::new(&TransientJson { points: times.len(), rise, refusal }, numbers, Vec::new())
 }

@@ -25,6 +25,11 @@ impl Refusal {
         Self::new("request", format!("the request cannot be read: {error}"))
     }
 
+    /// A computation that has no result.
+    pub(crate) fn computation(error: &dyn std::error::Error) -> Self {
+        Self::new("computation", error.to_string())
+    }
+
     /// A number of a request that no value of the library would refuse.
     pub(crate) fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> Self {
         Error::OutOfRange { field, value, legal }.into()

@@ -4,9 +4,11 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{Error, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientSettings, ensemble};
+use bouncing_disk::{
+    FitError, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientSettings, ensemble,
+};
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), FitError> {
     // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
     // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };

@@ -1,7 +1,5 @@
 //! The errors of this crate.
 
-use crate::estimate::refusal::FitRefusal;
-
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
@@ -127,12 +125,6 @@ pub enum Error {
     RepeatedAxis {
         /// The parameter.
         parameter: &'static str,
-    },
-    /// A curve gives no fit that could be trusted.
-    #[error("the curve is not fitted: {reason}")]
-    FitRefused {
-        /// Why, with the numbers.
-        reason: FitRefusal,
     },
     /// An error of the math core.
     #[error(transparent)]

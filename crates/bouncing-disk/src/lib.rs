@@ -28,7 +28,7 @@
 //! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
 //! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
 //! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
-//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
+//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitError`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`], [`TimeUnit`], [`SpeedUnit`] (from files with the feature `csv`: `CsvColumns`) |
 //! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
@@ -60,6 +60,7 @@
 pub mod csv_records;
 mod display;
 mod error;
+mod estimate;
 mod motion;
 mod motor;
 mod parameters;
@@ -67,8 +68,9 @@ mod parameters;
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod regular_file;
+mod statistics;
 #[cfg(feature = "storage")]
-mod storage;
+mod store;
 #[cfg(test)]
 mod testing;
 mod toss;
@@ -78,6 +80,31 @@ pub use bouncing_disk_core as core;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
+pub use estimate::braking_fit::{BrakingFit, BrakingRotor};
+pub use estimate::ensemble::{Spread, TransientEnsemble, ensemble};
+pub use estimate::fit::{ExponentialFit, RampFit};
+pub use estimate::interval::IntervalEstimate;
+#[cfg(feature = "csv")]
+pub use estimate::measured_speeds::csv_file::CsvColumns;
+#[cfg(feature = "csv")]
+pub use estimate::measured_speeds::error::MeasuredSpeedsError;
+pub use estimate::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
+pub use estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+#[cfg(feature = "fit")]
+pub use estimate::parameter_fit::ParameterFit;
+#[cfg(feature = "fit")]
+pub use estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+#[cfg(feature = "fit")]
+pub use estimate::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+#[cfg(feature = "fit")]
+pub use estimate::parameter_fit::parameter::{FitParameter, FitRange};
+#[cfg(feature = "fit")]
+pub use estimate::parameter_fit::settings::ParameterFitSettings;
+pub use estimate::refusal::{FitError, FitRefusal};
+pub use estimate::statistics::{
+    LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
+};
+pub use estimate::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
 pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
 pub use motion::engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
@@ -91,8 +118,10 @@ pub use motion::si::{SiEnergy, SiState};
 pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
-pub use estimate::brake::{Braking, friction_from_braking};
-pub use estimate::braking_fit::{BrakingFit, BrakingRotor};
+pub use motor::batch::members::TransientMember;
+pub use motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS, ensemble_members};
+pub use motor::batch::shared_orbit::transients::shared_transients;
+pub use motor::batch::transients::{TransientsRun, transients};
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;
@@ -100,18 +129,9 @@ pub use motor::data_sheet::motor_field::{MotorField, UnknownMotorField};
 pub use motor::data_sheet::parameters::MotorParameters;
 pub use motor::data_sheet::regime::MotorRegime;
 pub use motor::data_sheet::report::MotorReport;
+pub use motor::data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use motor::data_sheet::warning::MotorWarning;
-pub use estimate::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members};
-pub use estimate::fit::{ExponentialFit, RampFit};
-pub use estimate::refusal::FitRefusal;
-pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
-pub use estimate::interval::IntervalEstimate;
-#[cfg(feature = "csv")]
-pub use estimate::measured_speeds::csv_file::CsvColumns;
-#[cfg(feature = "csv")]
-pub use estimate::measured_speeds::error::MeasuredSpeedsError;
-pub use estimate::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
-pub use estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+pub use motor::impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
 pub use motor::operation::best_phase_lag::BestPhaseLag;
 pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
 pub use motor::operation::of_motor::operations;
@@ -119,36 +139,18 @@ pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall
 pub use motor::operation::settings::OperatingSettings;
 pub use motor::operation::spread::{InputSpread, InputTolerance};
 pub use motor::operation::stall_load::StallLoad;
-#[cfg(feature = "fit")]
-pub use estimate::parameter_fit::ParameterFit;
-#[cfg(feature = "fit")]
-pub use estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
-#[cfg(feature = "fit")]
-pub use estimate::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
-#[cfg(feature = "fit")]
-pub use estimate::parameter_fit::parameter::{FitParameter, FitRange};
-#[cfg(feature = "fit")]
-pub use estimate::parameter_fit::settings::ParameterFitSettings;
+pub use motor::operation::trap_ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
+pub use motor::rotor::transient::{SpeedCurve, TransientSettings, transient};
 pub use motor::sensitivity::global::ParameterRange;
 pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
 pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
 pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
-pub use motor::batch::shared_orbit::transients::shared_transients;
-pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
-pub use estimate::statistics::{
-    EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
-};
 pub use motor::sweep::MotorSweep;
 pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
 pub use motor::sweep::quantity::SweepQuantity;
 pub use motor::sweep::result::MotorSweepResult;
 pub use motor::sweep::run::MotorSweepRun;
-pub use motor::rotor::transient::{SpeedCurve, TransientSettings, transient};
-pub use estimate::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
-pub use motor::batch::transients::{TransientMember, TransientsRun, transients};
-pub use motor::operation::trap_ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
-pub use motor::data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
@@ -161,12 +163,11 @@ pub use store::error::StorageError;
 pub use store::journal::{JOURNAL, Journal};
 #[cfg(feature = "storage")]
 pub use store::provenance::{Format, Provenance};
-pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
+pub use toss::chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LONG_FLIGHT};
 pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
+pub use toss::design::constraints::{OverFriction, TossCertificate, TossConstraints, TossObjective};
 pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
-pub use toss::design::{
-    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss,
-};
+pub use toss::design::{TossDesign, best_toss};
 pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 pub use toss::period_one::period_one_rotary_speed;
 pub use toss::rotary_response::{RotaryOutcome, RotaryResponse, RotaryRound, rotary_response, rotary_round};

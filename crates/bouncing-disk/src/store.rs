@@ -1,7 +1,6 @@
-//! What is stored: where a file comes from, the journal of a long computation, and the files of a sweep.
+//! What is stored: where a file comes from, and the journal of a long computation.
 
-mod complete_file;
+pub(crate) mod complete_file;
 pub(crate) mod error;
 pub(crate) mod journal;
-pub(crate) mod motor_sweep;
 pub(crate) mod provenance;

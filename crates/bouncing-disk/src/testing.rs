@@ -105,8 +105,7 @@ impl Noise {
 
     /// The next number of mean 0 and deviation 1 (Box and Muller).
     pub(crate) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * bouncing_disk_core::elementary::ln(1.0 - self.0.unit())).sqrt();
-        radius * bouncing_disk_core::elementary::cos(TAU * self.0.unit())
+        crate::statistics::normal(&mut self.0)
     }
 
     /// Numbers of deviation 1 of which each remembers the share `memory` of the one before.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use bouncing_disk::{
-    CsvColumns, Error, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
+    CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
     ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
 use clap::Args;
@@ -202,9 +202,9 @@ pub(crate) fn estimates(fit: &TransientFit, list: &mut Quantities) {
 }
 
 /// The words of a fit that is refused; another error is a failure.
-pub(crate) fn refusal(error: &Error) -> Result<String, Failure> {
+pub(crate) fn refusal(error: &FitError) -> Result<String, Failure> {
     match error {
-        Error::FitRefused { .. } => Ok(error.to_string()),
+        FitError::Refused(_) => Ok(error.to_string()),
         other => Err((*other).into()),
     }
 }

@@ -4,13 +4,14 @@
 
 use bouncing_disk_core::numerics::statistics::summing_scale;
 
-use crate::error::{Error, within_limit};
-use crate::estimate::brake::{Braking, friction_from_braking};
+use crate::error::{Error, check, finite, not_negative, positive, within_limit};
+use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
+use crate::motor::batch::members::MAX_SPEEDS;
+use crate::motor::rotor::transient::check_rows;
 use crate::statistics::correlation_time;
-use crate::estimate::ensemble::MAX_SPEEDS;
-use crate::estimate::fit::check_rows;
-use crate::estimate::refusal::FitRefusal;
-use crate::estimate::interval::{IntervalEstimate, student_quantile};
+use crate::statistics::group_means;
+use crate::statistics::student_quantile;
 
 /// The fewest points of the sliding part.
 const LEAST_POINTS: usize = 8;
@@ -48,21 +49,26 @@ pub struct BrakingRotor {
 }
 
 impl BrakingRotor {
-    fn check(&self) -> Result<(), Error> {
-        self.friction(0.0).map(|_| ())
-    }
-
-    /// The coefficient of friction of an angular deceleration (rad/s^2), Eq. (17).
-    fn friction(&self, deceleration: f64) -> Result<f64, Error> {
-        let Self { normal_force, mass, contact_radius, gyration_radius } = *self;
-        let angular_acceleration = -deceleration;
-        friction_from_braking(&Braking {
-            angular_acceleration,
-            normal_force,
-            mass,
-            contact_radius,
-            gyration_radius,
-        })
+    /// The coefficient of friction mu = -m a_g^2 alpha_brake/(a_e N) of a disk that brakes with this angular
+    /// acceleration alpha_brake (rad/s^2), Eq. (17): not positive for a disk with a positive angular speed, since it
+    /// slows down. The caption of Fig. 9 writes the same letter for its absolute value.
+    ///
+    /// It is Eq. (12) of a sliding disk, solved for mu.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the field, its value and its legal range.
+    pub fn friction(&self, angular_acceleration: f64) -> Result<f64, Error> {
+        let slowing = finite("angular_acceleration", angular_acceleration)?;
+        check(slowing <= 0.0, "angular_acceleration", slowing, "(-inf, 0] (rad/s^2)")?;
+        positive("normal_force", self.normal_force)?;
+        positive("mass", self.mass)?;
+        positive("contact_radius", self.contact_radius)?;
+        positive("gyration_radius", self.gyration_radius)?;
+        let inertia = self.mass * self.gyration_radius * self.gyration_radius;
+        check(inertia.is_normal(), "moment of inertia", inertia, "[2.3e-308, 1.7e308] (kg m^2)")?;
+        let arm = self.contact_radius * self.normal_force;
+        check(arm.is_normal(), "contact radius times normal force", arm, "[2.3e-308, 1.7e308] (N m)")?;
+        not_negative("friction", -inertia * angular_acceleration / arm)
     }
 }
 
@@ -78,7 +84,7 @@ impl BrakingRotor {
 ///     BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
 /// let fit = BrakingFit::new(&times, &speeds, &rotor)?;
 /// assert!((fit.friction.value - 0.1).abs() < 1e-12);
-/// # Ok::<(), bouncing_disk::Error>(())
+/// # Ok::<(), bouncing_disk::FitError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -108,20 +114,20 @@ impl BrakingFit {
     /// groups of points first.
     ///
     /// # Errors
-    /// [`Error::FitRefused`] where the speed does not fall, the sliding part has fewer than eight points, its deceleration
+    /// [`FitError::Refused`] where the speed does not fall, the sliding part has fewer than eight points, its deceleration
     /// changes by more than a fifth, or its residuals are correlated for too long; [`Error::OutOfRange`] names what is
     /// illegal of the curve or the rotor; an error of the core for more than [`MAX_SPEEDS`] points.
-    pub fn new(times: &[f64], speeds: &[f64], rotor: &BrakingRotor) -> Result<Self, Error> {
-        rotor.check()?;
+    pub fn new(times: &[f64], speeds: &[f64], rotor: &BrakingRotor) -> Result<Self, FitError> {
+        rotor.friction(0.0)?;
         within_limit("speeds of a curve", times.len(), MAX_SPEEDS)?;
         check_rows(times, speeds)?;
-        let refused = |reason| Err(Error::FitRefused { reason });
         if speeds.iter().all(|speed| speed.abs() <= 0.0) {
             return refused(FitRefusal::NotBraking { deceleration: 0.0, low: 0.0 });
         }
         let (all, group) = (times.len(), times.len().div_ceil(MOST_POINTS));
         let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
-        let (times, speeds) = (means(times, group, time_scale), means(speeds, group, speed_scale));
+        let (times, speeds) =
+            (group_means(times, group, time_scale), group_means(speeds, group, speed_scale));
         // Whichever way it turns.
         let turn = speeds.iter().sum::<f64>();
         let sign = if turn < 0.0 { -1.0 } else { 1.0 };
@@ -152,9 +158,9 @@ impl BrakingFit {
         let [deceleration, low, high] = [deceleration, low, deceleration + reach].map(|own| own * slope_unit);
         let deceleration = IntervalEstimate::about(deceleration, low, high)?;
         let friction = IntervalEstimate::about(
-            rotor.friction(deceleration.value)?,
-            rotor.friction(deceleration.low)?,
-            rotor.friction(deceleration.high)?,
+            rotor.friction(-deceleration.value)?,
+            rotor.friction(-deceleration.low)?,
+            rotor.friction(-deceleration.high)?,
         )?;
         let lasts = times[points - 1] - times[0];
         Ok(Self {
@@ -166,12 +172,6 @@ impl BrakingFit {
             residual: scatter.residual / speed_scale,
         })
     }
-}
-
-/// The means of groups of numbers, scaled.
-fn means(values: &[f64], group: usize, scale: f64) -> Vec<f64> {
-    let mean = |values: &[f64]| values.iter().map(|value| value * scale).sum::<f64>() / values.len() as f64;
-    values.chunks(group).map(mean).collect()
 }
 
 /// A straight line of the least squares.

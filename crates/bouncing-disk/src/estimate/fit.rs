@@ -1,11 +1,14 @@
 //! Least-squares fits of measured or computed curves.
 
+use crate::display::numbers;
 use bouncing_disk_core::elementary::{exp, exp_m1, ln};
 use bouncing_disk_core::numerics::minimum::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
 use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
+use std::fmt::{self, Display, Formatter};
 
-use crate::error::{Error, check, finite, not_negative, positive};
+use crate::error::{Error, finite, not_negative, positive};
+use crate::motor::rotor::transient::{SpeedCurve, check_curve};
 
 /// Steps of the golden-section search: the interval shrinks by 0.618 each.
 const GOLDEN_STEPS: u32 = 80;
@@ -137,33 +140,6 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// Checks that times and speeds are those of a curve that can be fitted, and begins at time zero or later.
-pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
-    let first = times.first().copied().unwrap_or(0.0);
-    check(
-        first >= 0.0 || first.is_nan(),
-        "times of the speed curve",
-        first,
-        "finite, not negative, rising (s)",
-    )?;
-    check_rows(times, speeds)
-}
-
-/// [`check_curve`] of a record that may begin before time zero.
-pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
-    let n = times.len();
-    check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
-    check(speeds.len() == n, "number of speeds", speeds.len() as f64, "the number of times")?;
-    for (k, &time) in times.iter().enumerate() {
-        let rises = time.is_finite() && (k == 0 || time > times[k - 1]);
-        check(rises, "times of the speed curve", time, "finite, rising (s)")?;
-    }
-    for &speed in speeds {
-        check(speed.is_finite(), "speed", speed, "finite (rad/s)")?;
-    }
-    Ok(())
-}
-
 /// What is known of a rise where it begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
@@ -255,6 +231,42 @@ impl Saturation {
         let centre = low + step * f64::from(best.1);
         let log = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost)?;
         Ok(at(exp(log)))
+    }
+}
+
+impl SpeedCurve {
+    /// The fit of alpha_ss (1 - exp(-t/t_c)).
+    ///
+    /// # Errors
+    /// Those of [`ExponentialFit::new`].
+    pub fn fit(&self) -> Result<ExponentialFit, Error> {
+        ExponentialFit::new(&self.times, &self.speeds, &Unobserved)
+    }
+}
+
+impl Display for ExponentialFit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(
+            f,
+            "{} rad/s (1 - exp(-t/{} s)), residual {} rad/s",
+            n(self.steady_speed),
+            n(self.time_constant),
+            n(self.residual)
+        )
+    }
+}
+
+impl Display for RampFit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(
+            f,
+            "{} rad/s min(t/{} s, 1), residual {} rad/s",
+            n(self.steady_speed),
+            n(self.rise_time),
+            n(self.residual)
+        )
     }
 }
 

@@ -8,12 +8,18 @@ pub(crate) mod units;
 
 use bouncing_disk_core::Observer;
 
-use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::error::{Error, check, within_limit};
 use crate::estimate::braking_fit::{BrakingFit, BrakingRotor};
-use crate::estimate::ensemble::MAX_SPEEDS;
-use crate::estimate::fit::check_rows;
+use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
+use crate::estimate::refusal::FitError;
 use crate::estimate::transient_fit::{FitSettings, TransientFit};
+use crate::motor::batch::members::MAX_SPEEDS;
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::warning::MotorWarning;
+use crate::motor::rotor::transient::check_rows;
+
+/// A measurement this many times above or below what the drive gives is in another unit.
+const OTHER_SCALE: f64 = 100.0;
 
 /// One run: angular speed against time.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,7 +46,7 @@ pub struct MeasuredRun {
 /// let measured = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, speeds: speeds.collect(), times }])?;
 /// let fit = measured.fit(&FitSettings::default(), &Unobserved)?;
 /// assert!((fit.time_constant().value - 0.5).abs() < 1e-3);
-/// # Ok::<(), bouncing_disk::Error>(())
+/// # Ok::<(), bouncing_disk::FitError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -87,7 +93,7 @@ impl MeasuredSpeeds {
     ///
     /// # Errors
     /// Those of [`TransientFit::of_measured`].
-    pub fn fit(&self, settings: &FitSettings, observer: &dyn Observer) -> Result<TransientFit, Error> {
+    pub fn fit(&self, settings: &FitSettings, observer: &dyn Observer) -> Result<TransientFit, FitError> {
         let runs: Vec<_> =
             self.runs.iter().map(|run| (run.times.as_slice(), run.speeds.as_slice())).collect();
         TransientFit::of_measured(&runs, settings, observer)
@@ -97,8 +103,34 @@ impl MeasuredSpeeds {
     ///
     /// # Errors
     /// Those of [`BrakingFit::new`], for the first run that has one.
-    pub fn fit_braking(&self, rotor: &BrakingRotor) -> Result<Vec<BrakingFit>, Error> {
+    pub fn fit_braking(&self, rotor: &BrakingRotor) -> Result<Vec<BrakingFit>, FitError> {
         self.runs.iter().map(|run| BrakingFit::new(&run.times, &run.speeds, rotor)).collect()
+    }
+}
+
+impl Motor {
+    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed against
+    /// omega Phi, and the time from the first row to half of it against the shortest rise
+    /// ([`System::rise_time`](crate::System::rise_time)).
+    #[must_use]
+    pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {
+        let system = self.system();
+        let mut warnings = Vec::new();
+        for run in speeds.runs() {
+            let fastest = run.speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
+            let half = run.speeds.iter().position(|speed| speed.abs() >= 0.5 * fastest);
+            let rise = half.map_or(0.0, |row| run.times[row] - run.times[0]);
+            for (measured, drive, unit) in
+                [(fastest, system.platform().peak_angular_speed(), "rad/s"), (rise, system.rise_time(), "s")]
+            {
+                // Nothing measured, and a stator that does not twist, are no unit.
+                let ratio = measured / drive;
+                if ratio > 0.0 && ratio.is_finite() && !(1.0 / OTHER_SCALE..=OTHER_SCALE).contains(&ratio) {
+                    warnings.push(MotorWarning::OtherScale { measured, drive, unit });
+                }
+            }
+        }
+        warnings
     }
 }
 

@@ -21,27 +21,23 @@ use bouncing_disk_core::numerics::statistics::NORMAL_975;
 use bouncing_disk_core::{Observer, Watch};
 use nalgebra::DVector;
 
-use crate::estimate::parameter_fit::bootstrap::{percentile, resampled_places};
-use crate::estimate::parameter_fit::determined::Directions;
-use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
-use crate::estimate::parameter_fit::measured_transient::{MeasuredTransient, refused};
-use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
-use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
-use crate::estimate::parameter_fit::search::{Evaluations, least_squares};
-use crate::estimate::parameter_fit::settings::ParameterFitSettings;
-use crate::estimate::parameter_fit::weights::Weights;
-use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
 use crate::error::{Error, check, within_limit};
+use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::parameter_fit::bootstrap::resampled_places;
+use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
+use crate::estimate::parameter_fit::model::{Model, mean_of};
+use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
+use crate::estimate::parameter_fit::search::{Evaluations, Linearised, least_squares};
+use crate::estimate::parameter_fit::settings::ParameterFitSettings;
+use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
 use crate::motor::data_sheet::Motor;
-use crate::estimate::refusal::FitRefusal;
-use crate::estimate::interval::{IntervalEstimate, small_sample_widening};
+use crate::statistics::percentile;
+use crate::statistics::small_sample_widening;
 
 /// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
 const MOST_TRANSIENTS: usize = 1_000;
-
-/// A search that has moved by less than this many standard errors has weights and directions that are those
-/// of its end. The luck of other vertical motions is about an eighth of one, with 64 members.
-const NEAR: f64 = 0.3;
 
 /// The normal quantile that one of 10,000 exceeds.
 const RARE: f64 = 3.719_016_485_455_709;
@@ -79,7 +75,7 @@ const AT_END: f64 = 1.0e-6;
 /// assert!((found.value - 0.2).abs() < 0.04);
 /// // Printed, it is a table.
 /// assert!(fit.to_string().contains("friction   0.1"));
-/// # Ok::<(), bouncing_disk::Error>(())
+/// # Ok::<(), bouncing_disk::FitError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -100,35 +96,6 @@ pub struct ParameterFit {
     pub evaluations: usize,
 }
 
-/// A place in the ranges and all that is known there.
-struct Linearised {
-    places: DVector<f64>,
-    local: Local,
-    weights: Weights,
-    directions: Directions,
-}
-
-impl Linearised {
-    fn at(
-        model: &Model<'_>,
-        places: DVector<f64>,
-        evaluations: &mut Evaluations,
-        watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
-        evaluations.spend(watch)?;
-        let local = model.with_derivatives(&places, |_| true, watch)?;
-        let weights = Weights::of(model, &local)?;
-        let directions = Directions::of(&weights, &local);
-        Ok(Self { places, local, weights, directions })
-    }
-
-    /// Whether the weights and directions are those of the other place as well.
-    fn is_near(&self, other: &Self) -> bool {
-        let moved = &self.directions.derivatives * (&self.places - &other.places);
-        self.directions.determined.ncols() == other.directions.determined.ncols() && moved.norm() < NEAR
-    }
-}
-
 impl ParameterFit {
     /// Fits the parameters that have a range to the transients, which may be at different preloads. All else
     /// is that of the data sheet, also the load; its preload is not used.
@@ -136,7 +103,7 @@ impl ParameterFit {
     /// The items of `observer` are the evaluations that the search may spend.
     ///
     /// # Errors
-    /// [`Error::FitRefused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
+    /// [`FitError::Refused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
     /// times that do not count from the switch-on, a parameter at the end of its range, a search that found no end, a model
     /// that does not describe the transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
     /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
@@ -147,7 +114,7 @@ impl ParameterFit {
         ranges: &[FitRange],
         settings: &ParameterFitSettings,
         observer: &dyn Observer,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FitError> {
         let model = checked(nominal, transients, ranges, settings)?;
         let watch = Watch::begin(observer, 0, settings.most_evaluations as u64)?;
         let mut evaluations = Evaluations { spent: 0, most: settings.most_evaluations };
@@ -171,7 +138,7 @@ impl ParameterFit {
         state: &Linearised,
         evaluations: usize,
         watch: &Watch<'_>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FitError> {
         check_clocks(model, state, watch)?;
         let Linearised { places, local, weights, directions } = state;
         let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
@@ -226,7 +193,7 @@ fn checked<'a>(
     transients: &'a [MeasuredTransient],
     ranges: &'a [FitRange],
     settings: &'a ParameterFitSettings,
-) -> Result<Model<'a>, Error> {
+) -> Result<Model<'a>, FitError> {
     settings.check()?;
     check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
     within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
@@ -241,7 +208,7 @@ fn checked<'a>(
         transient.check_for_fit()?;
         let peak_acceleration = transient.motor(nominal)?.system().peak_acceleration();
         if peak_acceleration <= 1.0 {
-            return Err(Error::NeverLeaves { peak_acceleration });
+            return Err(Error::NeverLeaves { peak_acceleration }.into());
         }
         windows.push(Windows::of(transient, settings.windows, transient.error_variance()?, 0.0));
     }
@@ -250,7 +217,7 @@ fn checked<'a>(
 
 /// Refuses transients whose times do not count from the switch-on. To first order a clock that is off leaves of the means a
 /// part in proportion to the acceleration, of which the fitted parameters have taken what they can.
-fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Result<(), Error> {
+fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Result<(), FitError> {
     let Linearised { places, local, weights, directions } = state;
     let step = |windows: &Windows| windows.duration / INTERVALS as f64;
     let all = || model.windows.iter().zip(model.transients);
@@ -280,7 +247,7 @@ fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Res
 }
 
 /// What the intervals are multiplied by because of a misfit that was allowed.
-fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, Error> {
+fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, FitError> {
     if degrees == 0 {
         return Ok(1.0);
     }

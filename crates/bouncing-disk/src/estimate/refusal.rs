@@ -1,8 +1,32 @@
-//! Why a fit was refused.
+//! Why a fit has no result.
 
+use crate::error::Error;
 use crate::estimate::interval::IntervalEstimate;
 #[cfg(feature = "fit")]
 use crate::estimate::parameter_fit::parameter::FitParameter;
+
+/// Why a fit has no result.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FitError {
+    /// A curve gives no fit that could be trusted.
+    #[error("the curve is not fitted: {0}")]
+    Refused(FitRefusal),
+    /// An error of the model, or of the core: also that the observer has stopped the call.
+    #[error(transparent)]
+    Model(#[from] Error),
+}
+
+impl From<bouncing_disk_core::Error> for FitError {
+    fn from(error: bouncing_disk_core::Error) -> Self {
+        Self::Model(error.into())
+    }
+}
+
+/// A fit that is refused.
+pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
+    Err(FitError::Refused(reason))
+}
 
 /// Why a curve gives no fit that could be trusted. Every reason carries the numbers that it was judged by.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]

@@ -2,15 +2,16 @@
 //! it.
 
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use crate::error::Error;
-use crate::motion::initial_condition::InitialCondition;
 use crate::estimate::ensemble::{Spread, TransientEnsemble};
 use crate::estimate::fit::RampFit;
+use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::system::System;
-use crate::toss::chattering_cycle::ChatteringCycle;
+use crate::toss::chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
 use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
 use crate::toss::single::TOSS_START;
 
@@ -19,15 +20,6 @@ use crate::toss::single::TOSS_START;
 pub const LARGEST_CONSTANT: f64 = 0.5;
 /// See [`LARGEST_CONSTANT`].
 pub const LARGEST_RESIDUAL: f64 = 0.25;
-
-/// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
-/// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
-pub(crate) const LOCKED_WITHIN: f64 = 0.05;
-/// See [`LOCKED_WITHIN`].
-pub(crate) const LOCKED_FLIGHTS: usize = 8;
-
-/// Impacts in which an unperturbed cycle is looked for: one of up to half of them is found.
-pub const EXAMINED_IMPACTS: usize = 2_048;
 
 /// What the motor repeats if nothing perturbs it, from a rotor at rest on the stator at its lowest point.
 ///
@@ -138,6 +130,19 @@ fn repeats(motor: &System, runs: &TransientEnsemble, duration: f64, cycle: Chatt
     let between = duration * frequency * runs.curves.len() as f64 / separations.max(1) as f64;
     cycle.long_flights <= LOCKED_FLIGHTS
         && (between / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN
+}
+
+impl Display for MotorStatistics {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("steady speed (rad/s) ")?;
+        self.steady_speed.fmt(f)?;
+        f.write_str(", stall acceleration (rad/s^2) ")?;
+        match self.stall_acceleration {
+            Some(stall) => stall.fmt(f)?,
+            None => f.write_str("without a fit")?,
+        }
+        write!(f, ", undisturbed: {}", self.orbit)
+    }
 }
 
 #[cfg(test)]

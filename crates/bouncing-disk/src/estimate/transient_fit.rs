@@ -14,24 +14,23 @@ use bouncing_disk_core::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::summing_scale;
 use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
 
+use crate::error::{check, within_limit};
+use crate::estimate::fit::{ExponentialFit, Saturation, Start};
+use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
+use crate::estimate::statistics::RiseForm;
 use crate::estimate::transient_fit::blocks::Blocks;
 use crate::estimate::transient_fit::members::Members;
-use crate::estimate::transient_fit::onset::rows_before_rise;
+use crate::estimate::transient_fit::onset::{LEAST_POINTS, rows_before_rise};
 use crate::estimate::transient_fit::resamples::{Resampled, Resamples};
-use crate::estimate::transient_fit::shape_grid::{Rise, ShapeGrid, exponential, ramp};
-use crate::error::{Error, check, within_limit};
-use crate::estimate::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
-use crate::estimate::fit::{ExponentialFit, Saturation, Start, check_curve, check_rows};
-use crate::estimate::refusal::FitRefusal;
-use crate::estimate::interval::IntervalEstimate;
-use crate::estimate::statistics::RiseForm;
+use crate::estimate::transient_fit::shape_grid::{Rise, Run, ShapeGrid, exponential, ramp};
+use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::rotor::transient::SpeedCurve;
+use crate::motor::rotor::transient::{check_curve, check_rows};
+use crate::statistics::group_means;
 
 /// The fewest members whose scatter is resampled: with fewer, Student's quantile makes any interval useless.
 pub const LEAST_MEMBERS: usize = 5;
-
-/// The fewest points of a curve that is fitted.
-const LEAST_POINTS: usize = 8;
 
 /// The fewest points up to the time constant: intervals of a fourth of it lose 0.3 % of the rise by their averaging.
 const LEAST_POINTS_OF_RISE: usize = 4;
@@ -85,7 +84,7 @@ impl Default for FitSettings {
 }
 
 impl FitSettings {
-    fn check(&self) -> Result<(), Error> {
+    fn check(&self) -> Result<(), FitError> {
         let resamples = self.resamples as f64;
         check((200..=100_000).contains(&self.resamples), "resamples", resamples, "[200, 100000]")?;
         let least = self.least_duration;
@@ -126,7 +125,7 @@ pub struct RiseEstimate {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{Error, FitRefusal, FitSettings, System, TransientFit, TransientSettings, ensemble};
+/// use bouncing_disk::{FitError, FitRefusal, FitSettings, System, TransientFit, TransientSettings, ensemble};
 ///
 /// let motor = System::motor();
 /// let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
@@ -136,8 +135,8 @@ pub struct RiseEstimate {
 /// // Too short for any statement: the speed still rises at the end.
 /// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
 /// let refused = TransientFit::new(&ensemble(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
-/// assert!(matches!(refused, Err(Error::FitRefused { .. })));
-/// # Ok::<(), bouncing_disk::Error>(())
+/// assert!(matches!(refused, Err(FitError::Refused(_))));
+/// # Ok::<(), bouncing_disk::FitError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -204,10 +203,10 @@ impl TransientFit {
     /// of neighbours.
     ///
     /// # Errors
-    /// [`Error::FitRefused`] says why the fit would mean nothing; [`Error::OutOfRange`] names illegal settings, curves that
+    /// [`FitError::Refused`] says why the fit would mean nothing; [`Error::OutOfRange`] names illegal settings, curves that
     /// cannot be fitted, or times that differ between members; an error of the core for more than
     /// [`MAX_MEMBERS`] members or more than [`MAX_SPEEDS`] speeds of all together.
-    pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, Error> {
+    pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, FitError> {
         settings.check()?;
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
         for curve in members {
@@ -238,7 +237,7 @@ impl TransientFit {
         runs: &[(&[f64], &[f64])],
         settings: &FitSettings,
         observer: &dyn Observer,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FitError> {
         settings.check()?;
         for (times, speeds) in runs {
             if settings.from_rest { check_curve(times, speeds) } else { check_rows(times, speeds) }?;
@@ -252,7 +251,7 @@ impl TransientFit {
             let fit = rows.fit(Start::FromRest, settings, &mut work)?;
             match free {
                 Ok(free) => fit.refuse_other_start(&free)?,
-                Err(Error::FitRefused { .. }) => {}
+                Err(FitError::Refused(_)) => {}
                 Err(other) => return Err(other),
             }
             fit
@@ -264,7 +263,7 @@ impl TransientFit {
     }
 
     /// Refuses a start from rest that a fit without it denies.
-    fn refuse_other_start(&self, free: &Self) -> Result<(), Error> {
+    fn refuse_other_start(&self, free: &Self) -> Result<(), FitError> {
         let (own, other, shape): (_, _, fn(f64) -> f64) = match free.form {
             RiseForm::Exponential => (Some(self.exponential), Some(free.exponential), exponential),
             RiseForm::Ramp => (self.ramp, free.ramp, ramp),
@@ -280,24 +279,12 @@ impl TransientFit {
     }
 }
 
-fn refused<T>(reason: FitRefusal) -> Result<T, Error> {
-    Err(Error::FitRefused { reason })
-}
-
 /// The form with the smaller residual.
 fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseForm {
     match ramp {
         Some(ramp) if ramp.residual < exponential.residual => RiseForm::Ramp,
         _ => RiseForm::Exponential,
     }
-}
-
-/// A run, or the mean of a group of runs with the same times.
-struct Run {
-    times: Vec<f64>,
-    speeds: Vec<f64>,
-    /// How many runs it stands for.
-    weight: f64,
 }
 
 /// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
@@ -320,7 +307,7 @@ impl Rows {
         curves: &[(&[f64], &[f64])],
         flights: Option<f64>,
         work: &mut WorkCount<'_>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, FitError> {
         let members = curves.len();
         if members < LEAST_MEMBERS && (members != 1 || flights.is_some()) {
             return refused(FitRefusal::TooFewMembers { members, least: LEAST_MEMBERS });
@@ -336,14 +323,14 @@ impl Rows {
         let mut runs: Vec<Run> = Vec::with_capacity(groups);
         for (member, (times, speeds)) in curves.iter().enumerate() {
             let group = times.len().div_ceil(MOST_POINTS);
-            let own = means(speeds, group, scale);
+            let own = group_means(speeds, group, scale);
             if member * groups / members < runs.len() {
                 let run = &mut runs[member * groups / members];
                 run.weight += 1.0;
                 run.speeds.iter_mut().zip(&own).for_each(|(mean, own)| *mean += (own - *mean) / run.weight);
             } else {
                 let unit = summing_scale(times);
-                let times = means(times, group, unit).iter().map(|time| time / unit).collect();
+                let times = group_means(times, group, unit).iter().map(|time| time / unit).collect();
                 runs.push(Run { times, speeds: own, weight: 1.0 });
             }
             work.spend(1 + speeds.len() as u64 / 64)?;
@@ -409,7 +396,7 @@ impl Rows {
         start: Start,
         settings: &FitSettings,
         work: &mut WorkCount<'_>,
-    ) -> Result<TransientFit, Error> {
+    ) -> Result<TransientFit, FitError> {
         let before = if start == Start::AnySpeed && self.times.len() > LEAST_POINTS {
             rows_before_rise(&self.times, &self.speeds, work)?
         } else {
@@ -443,12 +430,6 @@ impl Rows {
             members: self.members,
         })
     }
-}
-
-/// The means of groups of numbers, scaled.
-fn means(values: &[f64], group: usize, scale: f64) -> Vec<f64> {
-    let mean = |values: &[f64]| values.iter().map(|value| value * scale).sum::<f64>() / values.len() as f64;
-    values.chunks(group).map(mean).collect()
 }
 
 /// The part of the rows that is fitted: from the start of the rise on, from which its times count.
@@ -513,7 +494,7 @@ impl Part<'_> {
         fit: &Saturation,
         settings: &FitSettings,
         work: &mut WorkCount<'_>,
-    ) -> Result<Result<RiseEstimate, FitRefusal>, Error> {
+    ) -> Result<Result<RiseEstimate, FitRefusal>, FitError> {
         let grid = ShapeGrid::new(fit.constant, shape, self.start);
         let at = |time: f64, constant: f64| fit.steady - fit.rise * (1.0 - shape(time / constant));
         let parameters = if self.start == Start::AnySpeed { 3 } else { 2 };
@@ -554,7 +535,7 @@ impl Part<'_> {
         is_ramp: bool,
         fit: &Saturation,
         resamples: &Resamples,
-    ) -> Result<RiseEstimate, Error> {
+    ) -> Result<RiseEstimate, FitError> {
         let (scale, centre) = (self.rows.scale, resamples.centre());
         // The mean of rows that do not have the same times is not at its fit: all rows together are.
         let Rise { steady, rise, log_constant } = if self.rows.have_same_times {

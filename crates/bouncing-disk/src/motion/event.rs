@@ -1,10 +1,12 @@
 //! What ends a segment of motion.
 
+use crate::display::numbers;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, SlipDirection, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
+use std::fmt::{self, Display, Formatter};
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,5 +77,30 @@ impl EventRecord {
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
         self.segment.evaluate(system, self.span, fraction)
+    }
+}
+
+impl Display for Event {
+    /// With its numbers in the units of the motion.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(f, "{}", self.kind())?;
+        match self {
+            Self::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+                let ends = if *capped { ", slip ends" } else { "" };
+                write!(
+                    f,
+                    " with w_A = {} g/omega, w_T = {} g a_e/(a_g^2 omega)",
+                    n(*axial_impact_velocity),
+                    n(*tangential_impact_velocity)
+                )?;
+                f.write_str(ends)
+            }
+            Self::Attachment { impacts, error_bound } => {
+                write!(f, " after {impacts} summed impacts, phase within {} rad", n(*error_bound))
+            }
+            Self::StickToSlip(direction) | Self::SlipReversal(direction) => write!(f, ", {direction}"),
+            Self::Separation | Self::SlipToStick => Ok(()),
+        }
     }
 }

@@ -1,7 +1,9 @@
 //! Time as a whole number of periods and a phase, so that long runs lose no precision.
 
+use crate::display::numbers;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::wrapped_angle;
@@ -125,6 +127,12 @@ impl PhaseSpan {
 pub(crate) fn phase_at(angle: f64) -> Phase {
     // Only a non-finite angle is refused, and none can arise from validated parameters.
     Phase::new(angle).unwrap_or_else(|_| unreachable!("angle {angle}"))
+}
+
+impl Display for PhaseTime {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} periods and {} rad", self.periods, numbers(f)(self.phase.angle()))
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The state of the disk and of the platform at an instant.
 
 use bouncing_disk_core::Phase;
+use std::fmt::{self, Display, Formatter};
 
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -138,6 +139,25 @@ impl LongSum {
 
     pub(crate) fn value(&self) -> f64 {
         self.high + self.low
+    }
+}
+
+impl Display for SlipDirection {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Forward => "forward",
+            Self::Backward => "backward",
+        })
+    }
+}
+
+impl Display for Mode {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sliding(SlipDirection::Forward) => f.pad("sliding forward"),
+            Self::Sliding(SlipDirection::Backward) => f.pad("sliding backward"),
+            Self::Flight | Self::Sticking => self.kind().fmt(f),
+        }
     }
 }
 

@@ -13,6 +13,7 @@ mod presets;
 pub(crate) mod regime;
 pub(crate) mod report;
 mod rise_bound;
+pub(crate) mod traps;
 pub(crate) mod warning;
 
 use crate::error::Error;

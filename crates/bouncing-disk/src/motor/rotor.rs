@@ -4,6 +4,8 @@
 //! chattering sequence is shorter where every impact of it slides the same way: then the summed impulse is
 //! known in closed form.
 
+pub(crate) mod transient;
+
 use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::Error;

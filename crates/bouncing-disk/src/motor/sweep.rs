@@ -2,25 +2,23 @@
 //!
 //! What is varied is in `sweep/axis.rs`; which cells are computed together in `sweep/groups.rs`; the run, which may
 //! be stopped and gone on with, in `sweep/run.rs`; what comes out, as numbers and as a table, in `sweep/result.rs`,
-//! `sweep/quantity.rs` and `sweep/csv_table.rs`. The journal and the files are in `storage/motor_sweep.rs`.
+//! `sweep/quantity.rs` and `sweep/csv_table.rs`. The journal and the files are in `sweep/files.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
 mod csv_table;
+#[cfg(feature = "storage")]
+mod files;
 mod groups;
 pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;
 
-use bouncing_disk_core::Observer;
-
-use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
-use crate::motor::sweep::result::MotorSweepResult;
-use crate::motor::sweep::run::MotorSweepRun;
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
@@ -136,19 +134,6 @@ impl MotorSweep {
             return Err(Error::OutOfRange { field: "cell of a sweep", value: cell as f64, legal });
         }
         sheet_of_cell(self.motor.parameters(), &self.axes, cell).build()
-    }
-
-    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
-    ///
-    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
-    /// finished.
-    ///
-    /// # Errors
-    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
-    pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
-        let mut run = MotorSweepRun::new(self);
-        run.advance(self, observer)?;
-        run.into_result(self)
     }
 }
 

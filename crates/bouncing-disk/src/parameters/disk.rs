@@ -1,6 +1,8 @@
 //! The disk: the dough, or the rotor.
 
+use crate::display::numbers;
 use crate::error::{Error, check, finite, not_negative, positive, restitution};
+use std::fmt::{self, Display, Formatter};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
@@ -134,5 +136,24 @@ impl TryFrom<DiskParameters> for Disk {
 impl From<Disk> for DiskParameters {
     fn from(disk: Disk) -> Self {
         disk.parameters
+    }
+}
+
+impl Display for Disk {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(
+            f,
+            "a_e = {} m, a_g = {} m, mu = {}, restitution = {}, g = {} m/s^2",
+            n(self.contact_radius()),
+            n(self.gyration_radius()),
+            n(self.friction()),
+            n(self.restitution()),
+            n(self.preload_acceleration())
+        )?;
+        if self.load_acceleration() != 0.0 {
+            write!(f, ", load = {} rad/s^2", n(self.load_acceleration()))?;
+        }
+        Ok(())
     }
 }

@@ -1,6 +1,8 @@
 //! The vibrating and twisting platform, Eq. (1): the hand, or the stator.
 
+use crate::display::numbers;
 use std::f64::consts::PI;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::elementary::sin_cos;
@@ -133,5 +135,19 @@ impl TryFrom<PlatformParameters> for Platform {
 impl From<Platform> for PlatformParameters {
     fn from(platform: Platform) -> Self {
         platform.parameters
+    }
+}
+
+impl Display for Platform {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(
+            f,
+            "A = {} m, Phi = {} rad, omega = {} rad/s, theta = {} rad",
+            n(self.amplitude()),
+            n(self.twist_amplitude()),
+            n(self.angular_frequency()),
+            n(self.phase_lag())
+        )
     }
 }

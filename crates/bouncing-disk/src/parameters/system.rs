@@ -1,6 +1,8 @@
 //! A disk on a platform, in SI units.
 
+use crate::display::numbers;
 use bouncing_disk_core::read_checked;
+use std::fmt::{self, Display, Formatter};
 
 use crate::error::Error;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
@@ -105,6 +107,17 @@ impl From<&System> for DimensionlessSystem {
 }
 
 read_checked!(System as UncheckedSystem { platform: Platform, disk: Disk } => System::new);
+
+impl Display for System {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        f.write_str("platform ")?;
+        self.platform().fmt(f)?;
+        f.write_str("; disk ")?;
+        self.disk().fmt(f)?;
+        write!(f, "; Gamma = {}", n(self.axial_forcing()))
+    }
+}
 
 #[cfg(test)]
 mod tests {

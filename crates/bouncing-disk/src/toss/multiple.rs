@@ -1,6 +1,8 @@
 //! Multiple tosses (Sec. IV): what a motion settles on, and how it is classified.
 
+use crate::display::numbers;
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::{
     ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer, Stability,
@@ -307,6 +309,25 @@ fn growth_rate(
         growths.push(tangent.grow(derivative));
     }
     Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
+}
+
+impl Display for OrbitClass {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        match self {
+            Self::Periodic { period, platform_periods, vertical, .. } => write!(
+                f,
+                "{period} impacts in {platform_periods} periods, largest multiplier {}",
+                n(vertical.spectral_radius())
+            ),
+            Self::Chattering(cycle) => write!(f, "chattering: {cycle}"),
+            Self::Chaotic { lyapunov_exponent: LyapunovEstimate { exponent, standard_error, .. } } => {
+                write!(f, "chaos, exponent {} +- {} per impact", n(*exponent), n(*standard_error))
+            }
+            Self::Undecided { impacts, .. } => write!(f, "undecided within {impacts} impacts"),
+            Self::AtRest => f.write_str("at rest"),
+        }
+    }
 }
 
 #[cfg(test)]

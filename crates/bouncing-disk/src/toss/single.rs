@@ -1,6 +1,8 @@
 //! Single tosses (Sec. III): the dough rests in the hand at its lowest point, and is thrown.
 
+use crate::display::numbers;
 use std::f64::consts::PI;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::elementary::sin;
 use bouncing_disk_core::{ChatterPolicy, Phase};
@@ -131,6 +133,24 @@ fn performance(
 
 const fn never_leaves(system: &System) -> Error {
     Error::NeverLeaves { peak_acceleration: system.peak_acceleration() }
+}
+
+impl Display for TossPerformance {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(
+            f,
+            "airborne at {} rad/s and {} m/s, separation at {} rad, efficiency {}",
+            n(self.airborne_speed),
+            n(self.launch_speed),
+            n(self.separation_phase),
+            n(self.efficiency)
+        )?;
+        match self.speed_ratio {
+            Some(ratio) => write!(f, ", speed ratio {}", n(ratio)),
+            None => Ok(()),
+        }
+    }
 }
 
 #[cfg(test)]

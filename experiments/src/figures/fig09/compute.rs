@@ -2,8 +2,7 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
-    Braking, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System, Trajectory,
-    friction_from_braking,
+    BrakingRotor, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System, Trajectory,
 };
 
 use super::data::{Curve, Fig09Data};
@@ -98,13 +97,13 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
         .collect();
     let line = StraightLine::through(&points);
     let (slope, intercept) = line.map_or((f64::NAN, f64::NAN), |line| (line.slope, line.intercept));
-    let friction = friction_from_braking(&Braking {
-        angular_acceleration: slope,
+    let rotor = BrakingRotor {
         normal_force: preload_n,
         mass,
         contact_radius: case.contact_radius_m,
         gyration_radius: case.gyration_radius_m,
-    })?;
+    };
+    let friction = rotor.friction(slope)?;
     Ok(Curve {
         preload_n,
         time_s: points.iter().map(|point| point.0).collect(),

@@ -22,7 +22,7 @@ fn braking(time: f64) -> f64 {
 fn refusal(times: &[f64], speed: impl Fn(f64) -> f64) -> FitRefusal {
     let speeds: Vec<f64> = times.iter().map(|&time| speed(time)).collect();
     match BrakingFit::new(times, &speeds, &ROTOR) {
-        Err(Error::FitRefused { reason }) => reason,
+        Err(FitError::Refused(reason)) => reason,
         other => panic!("{other:?}"),
     }
 }
@@ -117,7 +117,7 @@ fn curves_that_do_not_brake_straight_are_refused() {
         .collect();
     let curved = BrakingFit::new(&times(400, 0.01), &speeds, &ROTOR).expect_err("curved");
     assert!(
-        matches!(curved, Error::FitRefused { reason: FitRefusal::NotStraight { first_half, last_half } } if first_half > last_half),
+        matches!(curved, FitError::Refused(FitRefusal::NotStraight { first_half, last_half }) if first_half > last_half),
         "{curved:?}"
     );
     // It turns on for a while before anything brakes it.
@@ -134,7 +134,7 @@ fn curves_that_do_not_brake_straight_are_refused() {
     let speeds: Vec<f64> = ordinary.iter().map(|time| 30.0 - time + 5.0 * noise.normal()).collect();
     let hidden = BrakingFit::new(&ordinary, &speeds, &ROTOR).expect_err("hidden");
     assert!(
-        matches!(hidden, Error::FitRefused { reason: FitRefusal::NotBraking { low, .. } } if low < 0.0),
+        matches!(hidden, FitError::Refused(FitRefusal::NotBraking { low, .. }) if low < 0.0),
         "{hidden:?}"
     );
 }
@@ -173,7 +173,7 @@ fn what_is_illegal_of_a_curve_or_a_rotor_is_named() {
     let speeds: Vec<f64> = times.iter().map(|&time| braking(time)).collect();
     let field =
         |times: &[f64], speeds: &[f64], rotor: &BrakingRotor| match BrakingFit::new(times, speeds, rotor) {
-            Err(Error::OutOfRange { field, .. }) => field,
+            Err(FitError::Model(Error::OutOfRange { field, .. })) => field,
             other => panic!("{other:?}"),
         };
     for (rotor, name) in [
@@ -193,4 +193,32 @@ fn what_is_illegal_of_a_curve_or_a_rotor_is_named() {
     let mut bad = times.clone();
     bad[50] = bad[49];
     assert_eq!(field(&bad, &speeds, &ROTOR), "times of the speed curve");
+}
+
+#[test]
+fn eq_17_on_round_numbers_and_on_illegal_ones() {
+    // m a_g^2 = 5e-6 kg m^2, times 20 rad/s^2 is a torque of 1e-4 N m; a_e N = 1e-3 N m.
+    let rotor = BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
+    assert!((rotor.friction(-20.0).expect("legal") - 0.1).abs() < 1e-15);
+    assert!(rotor.friction(0.0).expect("legal").abs() <= 0.0);
+    for (rotor, acceleration, name) in [
+        (rotor, 20.0, "angular_acceleration"),
+        (rotor, f64::NAN, "angular_acceleration"),
+        (BrakingRotor { normal_force: 0.0, ..rotor }, -20.0, "normal_force"),
+        (BrakingRotor { mass: -1.0, ..rotor }, -20.0, "mass"),
+        (BrakingRotor { contact_radius: 0.0, ..rotor }, -20.0, "contact_radius"),
+        (BrakingRotor { gyration_radius: f64::INFINITY, ..rotor }, -20.0, "gyration_radius"),
+        (BrakingRotor { contact_radius: 1e-320, ..rotor }, -20.0, "contact radius times normal force"),
+        // Their product overflows, and the friction vanished.
+        (
+            BrakingRotor { contact_radius: 1e160, normal_force: 1e160, ..rotor },
+            -20.0,
+            "contact radius times normal force",
+        ),
+        // Its square vanishes, and with it the friction did.
+        (BrakingRotor { gyration_radius: 1e-170, ..rotor }, -20.0, "moment of inertia"),
+    ] {
+        let error = rotor.friction(acceleration).expect_err("illegal");
+        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+    }
 }

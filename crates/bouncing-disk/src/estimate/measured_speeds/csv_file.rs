@@ -7,14 +7,11 @@ use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
+use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
 use crate::estimate::measured_speeds::error::MeasuredSpeedsError as Fault;
 use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
-use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
 use crate::regular_file;
-
-/// The columns, the last of which may be missing.
-pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member, or time and speed with other units, such as t (ms) and n (rpm)";
 
 /// The names of columns without their units, in small letters.
 const NAMES: [&[&str]; 3] =

@@ -3,6 +3,9 @@
 
 use crate::error::Error;
 
+/// The columns, the last of which may be missing.
+pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member, or time and speed with other units, such as t (ms) and n (rpm)";
+
 /// A fault in a file of measured speeds, with what to do about it. Lines and fields are counted from 1; texts of files are
 /// shortened, and shown as they are escaped in Rust, so that none can disturb a terminal.
 #[derive(Debug, thiserror::Error)]
@@ -37,7 +40,7 @@ pub enum MeasuredSpeedsError {
         most: usize,
     },
     /// There is no header.
-    #[error("{file:?} is empty; a line must name the columns: {legal}", legal = crate::estimate::measured_speeds::csv_file::HEADER)]
+    #[error("{file:?} is empty; a line must name the columns: {legal}", legal = HEADER)]
     Empty {
         /// The file.
         file: String,
@@ -92,7 +95,7 @@ pub enum MeasuredSpeedsError {
     #[error(
         "{file:?}, line {line}, field {field}: there is no column {name:?}; legal are {legal}. Remove the column, put \
          a # before a line of remarks, or name the columns that count (--time-column, --speed-column)",
-        legal = crate::estimate::measured_speeds::csv_file::HEADER
+        legal = HEADER
     )]
     UnknownColumn {
         /// The file.

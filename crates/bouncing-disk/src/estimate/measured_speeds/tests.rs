@@ -34,7 +34,7 @@ fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
     assert_eq!(fit.expect("fitted").members, 6);
     let few = MeasuredSpeeds::new(runs[..2].to_vec()).expect("legal").fit(&settings, &Unobserved);
     let reason = FitRefusal::TooFewMembers { members: 2, least: 5 };
-    assert_eq!(few, Err(Error::FitRefused { reason }));
+    assert_eq!(few, Err(FitError::Refused(reason)));
 }
 
 /// The same rise, seen at other instants and for another time in each run.
@@ -84,7 +84,10 @@ fn a_fit_can_be_watched_and_stopped() {
         assert_eq!(measured.fit(&settings, &counted), measured.fit(&settings, &Unobserved));
         assert!(calls.into_inner() >= 2);
         let stopped = measured.fit(&settings, &|_: Progress| ControlFlow::Break(()));
-        assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. }))));
+        assert!(matches!(
+            stopped,
+            Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. })))
+        ));
     }
 }
 
@@ -100,7 +103,7 @@ fn each_run_brakes_by_its_own_friction() {
     let fits = measured.fit_braking(&rotor).expect("fitted");
     assert!((fits[0].friction.value - 0.05).abs() < 1e-12 && (fits[1].friction.value - 0.1).abs() < 1e-12);
     let measured = MeasuredSpeeds::new(vec![run(0), run(2)]).expect("legal");
-    assert!(matches!(measured.fit_braking(&rotor), Err(Error::FitRefused { .. })));
+    assert!(matches!(measured.fit_braking(&rotor), Err(FitError::Refused(_))));
 }
 
 #[test]

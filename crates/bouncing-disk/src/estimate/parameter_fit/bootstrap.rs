@@ -1,15 +1,13 @@
 //! Intervals by resampling members and errors of measurement.
 
-use std::f64::consts::TAU;
-
 use bouncing_disk_core::WorkCount;
-use bouncing_disk_core::elementary::{cos, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use nalgebra::{DMatrix, DVector};
 
+use crate::error::Error;
 use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 use crate::estimate::parameter_fit::weights::Weights;
-use crate::error::Error;
+use crate::statistics::{drawn_index, normal};
 
 /// What the places of resampled fits differ by from that of the fit: a column each, sorted in each row.
 ///
@@ -34,7 +32,7 @@ pub(crate) fn resampled_places(
             for (draws, sign) in [(transient.runs.runs().len(), 1.0), (count, -1.0)] {
                 let share = sign / draws as f64;
                 for _ in 0..draws {
-                    let member = ((generator.unit() * count as f64) as usize).min(count - 1);
+                    let member = drawn_index(&mut generator, count);
                     for column in first..first + size {
                         difference[column] += share * (members[(member, column)] - mean[column]);
                     }
@@ -58,18 +56,4 @@ pub(crate) fn resampled_places(
     }
     places.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
     Ok(places)
-}
-
-/// The value below which a share of sorted numbers lies, on the line between two of them.
-pub(crate) fn percentile(sorted: &[f64], share: f64) -> f64 {
-    let place = share * (sorted.len() - 1) as f64;
-    let left = (place as usize).min(sorted.len() - 1);
-    let right = (left + 1).min(sorted.len() - 1);
-    sorted[left] + (place - left as f64) * (sorted[right] - sorted[left])
-}
-
-/// A number of mean 0 and deviation 1 (Box and Muller).
-fn normal(generator: &mut SplitMix64) -> f64 {
-    let radius = (-2.0 * ln(1.0 - generator.unit())).sqrt();
-    radius * cos(TAU * generator.unit())
 }

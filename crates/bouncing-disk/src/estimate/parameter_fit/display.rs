@@ -2,10 +2,10 @@
 
 use std::fmt::{self, Display, Formatter};
 
+use crate::display::numbers;
 use crate::estimate::parameter_fit::ParameterFit;
 use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
-use crate::display::numbers;
 
 /// A unit behind a number, or nothing.
 fn behind(unit: &str) -> String {
@@ -82,8 +82,8 @@ impl Display for ParameterFit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motor::data_sheet::Motor;
     use crate::estimate::interval::IntervalEstimate;
+    use crate::motor::data_sheet::Motor;
 
     fn found(parameter: FitParameter, nominal: f64, interval: [f64; 3]) -> ParameterEstimate {
         let [low, value, high] = interval;

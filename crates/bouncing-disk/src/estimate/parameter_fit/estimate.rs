@@ -1,7 +1,7 @@
 //! What a fit says of a parameter, and of the directions in which it says nothing.
 
-use crate::estimate::parameter_fit::parameter::FitParameter;
 use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::parameter_fit::parameter::FitParameter;
 
 /// A parameter and what the transients say of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

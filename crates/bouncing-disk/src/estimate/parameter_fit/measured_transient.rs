@@ -1,9 +1,9 @@
 //! What was measured: run-ups of one motor at a known preload.
 
 use crate::error::{Error, check, not_negative};
-use crate::motor::data_sheet::Motor;
-use crate::estimate::refusal::FitRefusal;
 use crate::estimate::measured_speeds::MeasuredSpeeds;
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
+use crate::motor::data_sheet::Motor;
 
 /// The fewest points of a run.
 pub(crate) const LEAST_POINTS: usize = 8;
@@ -37,7 +37,7 @@ pub struct MeasuredTransient {
 
 impl MeasuredTransient {
     /// Whether a fit can begin with it.
-    pub(crate) fn check_for_fit(&self) -> Result<(), Error> {
+    pub(crate) fn check_for_fit(&self) -> Result<(), FitError> {
         let (RunPreload::Force(preload) | RunPreload::Acceleration(preload)) = self.preload;
         check(preload.is_finite() && preload > 0.0, "preload", preload, "(0, inf)")?;
         self.speed_error.map_or(Ok(0.0), |error| not_negative("speed_error", error))?;
@@ -90,8 +90,4 @@ impl MeasuredTransient {
         let variance: f64 = sum / count;
         check(variance.is_finite(), "square of a measured speed", variance, "finite")
     }
-}
-
-pub(crate) fn refused<T>(reason: FitRefusal) -> Result<T, Error> {
-    Err(Error::FitRefused { reason })
 }

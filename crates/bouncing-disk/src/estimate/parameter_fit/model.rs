@@ -7,14 +7,14 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{ChatterPolicy, InstructionSet, Phase, Progress, Watch};
 use nalgebra::{DMatrix, DVector};
 
+use crate::error::Error;
 use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
 use crate::estimate::parameter_fit::settings::ParameterFitSettings;
 use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
-use crate::error::Error;
-use crate::motor::data_sheet::Motor;
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::batch::shared_orbit::transients::with_instructions;
+use crate::motor::data_sheet::Motor;
 use crate::motor::rotor::transient::TransientSettings;
 
 /// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of half the range.

@@ -7,14 +7,12 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationRe
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};
 
-use crate::estimate::parameter_fit::Linearised;
+use crate::error::Error;
 use crate::estimate::parameter_fit::determined::Directions;
-use crate::estimate::parameter_fit::measured_transient::refused;
-use crate::estimate::parameter_fit::model::{Model, SPAN, mean_of};
+use crate::estimate::parameter_fit::model::{Local, Model, SPAN, mean_of};
 use crate::estimate::parameter_fit::parameter::FitParameter;
 use crate::estimate::parameter_fit::weights::Weights;
-use crate::error::Error;
-use crate::estimate::refusal::FitRefusal;
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
 
 /// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a standard error changes a
 /// sum of one by 1e-3.
@@ -29,13 +27,46 @@ pub(crate) struct Evaluations {
 
 impl Evaluations {
     /// Counts one more.
-    pub(crate) fn spend(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
+    pub(crate) fn spend(&mut self, watch: &Watch<'_>) -> Result<(), FitError> {
         if self.spent >= self.most {
             return refused(FitRefusal::NotConverged { evaluations: self.spent });
         }
         self.spent += 1;
         watch.set_done(self.spent as u64);
         Ok(())
+    }
+}
+
+/// A search that has moved by less than this many standard errors has weights and directions that are those
+/// of its end. The luck of other vertical motions is about an eighth of one, with 64 members.
+const NEAR: f64 = 0.3;
+
+/// A place in the ranges and all that is known there.
+pub(crate) struct Linearised {
+    pub(crate) places: DVector<f64>,
+    pub(crate) local: Local,
+    pub(crate) weights: Weights,
+    pub(crate) directions: Directions,
+}
+
+impl Linearised {
+    pub(crate) fn at(
+        model: &Model<'_>,
+        places: DVector<f64>,
+        evaluations: &mut Evaluations,
+        watch: &Watch<'_>,
+    ) -> Result<Self, FitError> {
+        evaluations.spend(watch)?;
+        let local = model.with_derivatives(&places, |_| true, watch)?;
+        let weights = Weights::of(model, &local)?;
+        let directions = Directions::of(&weights, &local);
+        Ok(Self { places, local, weights, directions })
+    }
+
+    /// Whether the weights and directions are those of the other place as well.
+    pub(crate) fn is_near(&self, other: &Self) -> bool {
+        let moved = &self.directions.derivatives * (&self.places - &other.places);
+        self.directions.determined.ncols() == other.directions.determined.ncols() && moved.norm() < NEAR
     }
 }
 
@@ -52,7 +83,7 @@ struct Search<'a> {
     from: &'a DVector<f64>,
     directions: &'a Directions,
     along: DVector<f64>,
-    state: RefCell<(Evaluations, Option<Error>)>,
+    state: RefCell<(Evaluations, Option<FitError>)>,
 }
 
 impl Search<'_> {
@@ -83,7 +114,7 @@ impl Search<'_> {
     /// What a computation gives, or nothing once one has failed.
     fn keep<T>(&self, compute: impl FnOnce() -> Result<T, Error>) -> Option<T> {
         let (evaluations, error) = &mut *self.state.borrow_mut();
-        match evaluations.spend(self.watch).and_then(|()| compute()) {
+        match evaluations.spend(self.watch).and_then(|()| Ok(compute()?)) {
             Ok(result) => Some(result),
             Err(failure) => {
                 *error = Some(failure);
@@ -132,7 +163,7 @@ pub(crate) fn least_squares(
     start: &Linearised,
     evaluations: &mut Evaluations,
     watch: &Watch<'_>,
-) -> Result<DVector<f64>, Error> {
+) -> Result<DVector<f64>, FitError> {
     let Linearised { places: from, local, weights, directions } = start;
     let roughness = mean_of(&local.members) - &local.smooth;
     let search = Search {

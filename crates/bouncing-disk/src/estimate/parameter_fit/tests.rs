@@ -7,8 +7,9 @@ use bouncing_disk_core::{Phase, Progress, Unobserved};
 use super::measured_transient::RunPreload;
 use super::*;
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
-use crate::motor::rotor::transient::{TransientSettings, transient};
+use crate::estimate::parameter_fit::weights::Weights;
 use crate::motor::data_sheet::traps::low_period_traps;
+use crate::motor::rotor::transient::{TransientSettings, transient};
 use crate::testing::Noise;
 
 const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
@@ -58,7 +59,7 @@ fn at_all_preloads(duration: f64, seed: u64) -> Vec<MeasuredTransient> {
     PRELOADS.iter().zip(seed..).map(|(&g, seed)| synthetic(&built(), g, duration, 0.2, seed)).collect()
 }
 
-fn fit(transients: &[MeasuredTransient], ranges: &[FitRange]) -> Result<ParameterFit, Error> {
+fn fit(transients: &[MeasuredTransient], ranges: &[FitRange]) -> Result<ParameterFit, FitError> {
     ParameterFit::new(&Motor::paper_70_khz(), transients, ranges, &settings(), &Unobserved)
 }
 
@@ -123,8 +124,7 @@ fn a_clock_that_is_off_is_refused() {
         let times = run.times.iter().map(|time| time + off).collect();
         transients[1] = measured(PRELOADS[1], times, run.speeds.clone(), Some(0.2));
         let error = fit(&transients, &[FRICTION, TWIST]).expect_err("off");
-        let Error::FitRefused { reason: FitRefusal::ShiftedClock { transient: 1, early, standard_error } } =
-            error
+        let FitError::Refused(FitRefusal::ShiftedClock { transient: 1, early, standard_error }) = error
         else {
             panic!("{error}")
         };
@@ -319,7 +319,7 @@ fn input_that_means_nothing_is_refused_by_name() {
     ] {
         let error =
             ParameterFit::new(&sheet, &transients, &[FRICTION], &settings, &Unobserved).expect_err("illegal");
-        assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
+        assert!(matches!(error, FitError::Model(Error::OutOfRange { .. })), "{error}");
     }
 }
 
@@ -333,21 +333,20 @@ fn a_fit_that_describes_nothing_is_refused_with_its_numbers() {
     assert!(
         matches!(
             error,
-            Error::FitRefused {
-                reason: FitRefusal::AtRangeEnd { parameter: FitParameter::Friction, .. }
-                    | FitRefusal::Misfit { .. }
-            }
+            FitError::Refused(
+                FitRefusal::AtRangeEnd { parameter: FitParameter::Friction, .. } | FitRefusal::Misfit { .. }
+            )
         ),
         "{error}"
     );
     // A speed that falls.
     let falling = times.iter().map(|time| 20.0 - 20.0 * time).collect();
     let error = fit(&[measured(9.8, times, falling, None)], &[FRICTION]).expect_err("no run-up");
-    assert!(matches!(error, Error::FitRefused { .. }), "{error}");
+    assert!(matches!(error, FitError::Refused(_)), "{error}");
     let settings = ParameterFitSettings { most_evaluations: 2, ..settings() };
     let error = ParameterFit::new(&Motor::paper_70_khz(), &[run], &[FRICTION], &settings, &Unobserved)
         .expect_err("too few");
-    assert_eq!(error, Error::FitRefused { reason: FitRefusal::NotConverged { evaluations: 2 } });
+    assert_eq!(error, FitError::Refused(FitRefusal::NotConverged { evaluations: 2 }));
 }
 
 #[test]
@@ -359,7 +358,10 @@ fn a_fit_can_be_watched_and_stopped_and_has_one_result() {
     let sheet = Motor::paper_70_khz();
     let stopped = ParameterFit::new(&sheet, &run, &[FRICTION], &settings(), &stop);
     assert!(
-        matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 3, .. }))),
+        matches!(
+            stopped,
+            Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done: 3, .. })))
+        ),
         "{stopped:?}"
     );
     let whole = fit(&run, &[FRICTION, AMPLITUDE]);

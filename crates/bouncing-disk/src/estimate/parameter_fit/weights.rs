@@ -2,8 +2,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
-use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 use crate::error::{Error, finite};
+use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 
 /// What is left out by interpolating a computed curve, as a share of the largest mean: nothing is known better than that.
 const RESOLUTION: f64 = 1.0e-4;

@@ -1,7 +1,7 @@
 //! The means over windows of time by which transients are compared.
 
-use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
 use crate::estimate::measured_speeds::MeasuredRun;
+use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
 
 /// Intervals of a computed curve.
 pub(crate) const INTERVALS: usize = 256;

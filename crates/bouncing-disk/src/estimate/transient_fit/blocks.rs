@@ -6,13 +6,12 @@
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
-use crate::estimate::transient_fit::Run;
-use crate::estimate::transient_fit::resamples::Resampled;
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, ShapeGrid};
 use crate::error::Error;
-use crate::statistics::correlation_time;
 use crate::estimate::refusal::FitRefusal;
-use crate::estimate::interval::small_sample_widening;
+use crate::estimate::transient_fit::resamples::Resampled;
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, Run, ShapeGrid};
+use crate::statistics::correlation_time;
+use crate::statistics::small_sample_widening;
 
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;

@@ -3,11 +3,11 @@
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
-use crate::estimate::transient_fit::Run;
-use crate::estimate::transient_fit::resamples::{Resampled, index};
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, ShapeGrid};
 use crate::error::Error;
-use crate::estimate::interval::small_sample_widening;
+use crate::estimate::transient_fit::resamples::Resampled;
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, Run, ShapeGrid};
+use crate::statistics::drawn_index;
+use crate::statistics::small_sample_widening;
 
 /// The moments of each run, or group of runs, and of all of them.
 pub(crate) struct Members {
@@ -60,7 +60,7 @@ impl Resampled for Members {
         moments.fill(0.0);
         let runs = self.of_runs.len() / MOMENTS;
         for _ in 0..runs {
-            let own = MOMENTS * index(random, runs);
+            let own = MOMENTS * drawn_index(random, runs);
             add(&self.of_runs[own..own + MOMENTS], moments);
         }
     }

@@ -29,7 +29,7 @@ fn curves(duration: f64, intervals: usize, members: usize, seed: u64) -> Vec<Spe
     ensemble(&motor(), &settings, members, &Unobserved).expect("no failure").curves
 }
 
-fn fit(duration: f64, intervals: usize, members: usize, seed: u64) -> Result<TransientFit, Error> {
+fn fit(duration: f64, intervals: usize, members: usize, seed: u64) -> Result<TransientFit, FitError> {
     TransientFit::new(&curves(duration, intervals, members, seed), &FitSettings::default())
 }
 
@@ -38,7 +38,7 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
     for duration in [1e-4, 5e-4, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2] {
         for intervals in [100, 600] {
             let refused = fit(duration, intervals, 32, 1);
-            assert!(matches!(refused, Err(Error::FitRefused { .. })), "{duration} {intervals}: {refused:?}");
+            assert!(matches!(refused, Err(FitError::Refused(_))), "{duration} {intervals}: {refused:?}");
         }
     }
     let curves = curves(5e-3, 100, 32, 1);
@@ -47,10 +47,7 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
     assert!(one_by_one.steady_speed.mean > 5.0 * STATOR_SPEED, "{:?}", one_by_one.steady_speed);
     // Long, but with intervals longer than the rise.
     let refused = fit(1.0, 50, 8, 1);
-    assert!(
-        matches!(refused, Err(Error::FitRefused { reason: FitRefusal::TooCoarse { .. } })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(FitError::Refused(FitRefusal::TooCoarse { .. }))), "{refused:?}");
 }
 
 /// Every duration has the same answer: the one of the longest runs of all trials together. Intervals of 95 % miss now and then, so

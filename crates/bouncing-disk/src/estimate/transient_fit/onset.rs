@@ -3,9 +3,11 @@
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::elementary::{exp, ln};
 
-use crate::estimate::transient_fit::LEAST_POINTS;
 use crate::error::Error;
 use crate::statistics::correlation_time;
+
+/// The fewest points of a curve that is fitted.
+pub(crate) const LEAST_POINTS: usize = 8;
 
 /// Step of the trial time constants, in their logarithm.
 const STEP: f64 = 0.05;

@@ -3,9 +3,10 @@
 use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, Rise, ShapeGrid};
 use crate::error::Error;
 use crate::estimate::refusal::FitRefusal;
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, Rise, ShapeGrid};
+use crate::statistics::percentile;
 
 /// The share of the resampled curves that may have no fit on the grid: less than the share beyond an end of the interval.
 const MOST_ASTRAY: f64 = 0.01;
@@ -71,17 +72,6 @@ impl Resamples {
     fn percentiles(&self, of: &dyn Fn(&Rise) -> f64) -> (f64, f64) {
         let mut values: Vec<f64> = self.fits.iter().map(of).collect();
         values.sort_by(f64::total_cmp);
-        let at = |share: f64| {
-            let place = share * (values.len() - 1) as f64;
-            let below = place as usize;
-            let above = (below + 1).min(values.len() - 1);
-            values[below] + (place - below as f64) * (values[above] - values[below])
-        };
-        (at(0.025), at(0.975))
+        (percentile(&values, 0.025), percentile(&values, 0.975))
     }
-}
-
-/// A number in 0..count, each as likely as the others.
-pub(crate) fn index(random: &mut SplitMix64, count: usize) -> usize {
-    ((random.unit() * count as f64) as usize).min(count - 1)
 }

@@ -30,6 +30,14 @@ pub(crate) fn ramp(x: f64) -> f64 {
     x.min(1.0)
 }
 
+/// A run, or the mean of a group of runs with the same times.
+pub(crate) struct Run {
+    pub(crate) times: Vec<f64>,
+    pub(crate) speeds: Vec<f64>,
+    /// How many runs it stands for.
+    pub(crate) weight: f64,
+}
+
 /// steady - rise (1 - shape(t/constant)) of the least squares.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Rise {

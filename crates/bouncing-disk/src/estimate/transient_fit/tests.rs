@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::*;
+use crate::error::Error;
 use crate::estimate::fit::RampFit;
 use crate::testing::Noise;
 
@@ -24,19 +25,19 @@ fn member(times: &[f64], noise: &mut Noise) -> Vec<f64> {
     rise(times, steady, CONSTANT).iter().zip(scatter).map(|(speed, noise)| speed + 1.5 * noise).collect()
 }
 
-fn refusal(result: Result<TransientFit, Error>) -> FitRefusal {
+fn refusal(result: Result<TransientFit, FitError>) -> FitRefusal {
     match result {
-        Err(Error::FitRefused { reason }) => reason,
+        Err(FitError::Refused(reason)) => reason,
         other => panic!("{other:?}"),
     }
 }
 
-fn coverage(fit: impl FnMut(u64) -> Result<TransientFit, Error>) -> [u32; 3] {
+fn coverage(fit: impl FnMut(u64) -> Result<TransientFit, FitError>) -> [u32; 3] {
     coverage_of([STEADY, CONSTANT], fit)
 }
 
 /// Of 100 fits those that hold the truth, or are refused and state nothing, which 80 must not be.
-fn coverage_of(truth: [f64; 2], mut fit: impl FnMut(u64) -> Result<TransientFit, Error>) -> [u32; 3] {
+fn coverage_of(truth: [f64; 2], mut fit: impl FnMut(u64) -> Result<TransientFit, FitError>) -> [u32; 3] {
     let fits: Vec<TransientFit> = (1..=100).filter_map(|seed| fit(seed).ok()).collect();
     assert!(fits.len() >= 80, "{} fits of 100", fits.len());
     let mut covered = [100 - fits.len() as u32; 3];
@@ -167,7 +168,7 @@ fn ensemble(times: &[f64], members: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..members).map(|_| member(times, &mut noise)).collect()
 }
 
-fn fit_runs(times: &[f64], runs: &[Vec<f64>], settings: &FitSettings) -> Result<TransientFit, Error> {
+fn fit_runs(times: &[f64], runs: &[Vec<f64>], settings: &FitSettings) -> Result<TransientFit, FitError> {
     TransientFit::of_measured(
         &runs.iter().map(|run| (times, run.as_slice())).collect::<Vec<_>>(),
         settings,
@@ -175,7 +176,7 @@ fn fit_runs(times: &[f64], runs: &[Vec<f64>], settings: &FitSettings) -> Result<
     )
 }
 
-fn fit_one(times: &[f64], speeds: &[f64], settings: &FitSettings) -> Result<TransientFit, Error> {
+fn fit_one(times: &[f64], speeds: &[f64], settings: &FitSettings) -> Result<TransientFit, FitError> {
     TransientFit::of_measured(&[(times, speeds)], settings, &Unobserved)
 }
 
@@ -344,15 +345,15 @@ fn scatter_that_hides_the_constant_is_refused() {
         let mean: Vec<f64> = (0..40).map(|i| members.iter().map(|run| run[i]).sum::<f64>() / 6.0).collect();
         let fitted = ExponentialFit::new(&times, &mean, &Unobserved).expect("legal").time_constant;
         match fit_runs(&times, &members, &settings) {
-            Err(Error::FitRefused { reason: FitRefusal::TooShort { least, time_constant, duration } }) => {
+            Err(FitError::Refused(FitRefusal::TooShort { least, time_constant, duration })) => {
                 assert!(least <= 1.0 && time_constant >= duration && duration > 3.9, "{time_constant}");
                 too_short += u32::from(fitted < duration);
             }
-            Err(Error::FitRefused { .. }) => {}
+            Err(FitError::Refused(_)) => {}
             Err(other) => panic!("{other:?}"),
             Ok(fit) => assert!(fit.time_constant().high < fit.duration, "{fit:?}"),
         }
-        if let Err(Error::FitRefused { reason: FitRefusal::Undetermined { astray, resamples } }) =
+        if let Err(FitError::Refused(FitRefusal::Undetermined { astray, resamples })) =
             fit_runs(&times, &runs(1.0, 40.0), &settings)
         {
             assert!(astray > 10 && resamples == 1_000, "{astray}");
@@ -424,7 +425,7 @@ fn curves_of_any_size_have_intervals() {
     let times: Vec<f64> = ordinary.iter().map(|value| value * 1e-200).collect();
     let runs: Vec<Vec<f64>> =
         runs.iter().map(|run| run.iter().map(|value| value * 1e200).collect()).collect();
-    assert!(matches!(fit_runs(&times, &runs, &settings), Err(Error::OutOfRange { .. })));
+    assert!(matches!(fit_runs(&times, &runs, &settings), Err(FitError::Model(Error::OutOfRange { .. }))));
 }
 
 #[test]
@@ -487,7 +488,10 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
         };
         for runs in [&runs[..], &runs[..1]] {
             let stopped = TransientFit::of_measured(runs, &settings, &observer).expect_err("stopped");
-            assert!(matches!(stopped, Error::Core(bouncing_disk_core::Error::Stopped { .. })), "{stopped}");
+            assert!(
+                matches!(stopped, FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { .. }))),
+                "{stopped}"
+            );
         }
     }
 }
@@ -496,8 +500,8 @@ fn a_fit_can_be_stopped_and_its_observer_changes_nothing() {
 fn illegal_curves_and_settings_are_named() {
     let times = times(100, 4.0);
     let runs = ensemble(&times, 6, 1);
-    let field = |result: Result<TransientFit, Error>| match result {
-        Err(Error::OutOfRange { field, .. }) => field,
+    let field = |result: Result<TransientFit, FitError>| match result {
+        Err(FitError::Model(Error::OutOfRange { field, .. })) => field,
         other => panic!("{other:?}"),
     };
     let d = FitSettings::default();
@@ -541,9 +545,7 @@ fn illegal_curves_and_settings_are_named() {
 
 #[test]
 fn a_refusal_says_why_with_its_numbers() {
-    let error = Error::FitRefused {
-        reason: FitRefusal::TooShort { duration: 0.01, time_constant: 0.0155, least: 3.0 },
-    };
+    let error = FitError::Refused(FitRefusal::TooShort { duration: 0.01, time_constant: 0.0155, least: 3.0 });
     assert_eq!(
         error.to_string(),
         "the curve is not fitted: its duration 0.01 s is less than 3.0 times the time constant, which is or may be \

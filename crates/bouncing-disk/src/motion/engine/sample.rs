@@ -4,8 +4,8 @@ use std::cmp::Ordering;
 
 use bouncing_disk_core::{Observer, RestitutionLaw, Watch};
 
-use crate::motion::engine::Engine;
 use crate::error::{Error, check, room_for};
+use crate::motion::engine::Engine;
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;
 

@@ -6,7 +6,6 @@
 //! differs between them is sharper than what each is by itself (common random numbers), and their errors are not
 //! independent of each other. See docs/numerics/motors.md.
 
-mod rotor_set;
 pub(crate) mod transients;
 pub(crate) mod vertical;
 

@@ -3,13 +3,13 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bouncing_disk_core::{
-    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Phase, Watch, WorkCount,
+    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Watch, WorkCount,
 };
 
-use crate::motor::batch::rotors::{Carry, Rotors};
 use crate::error::Error;
-use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve, TransientSettings};
-use crate::parameters::system::System;
+use crate::motor::batch::members::TransientMember;
+use crate::motor::batch::rotors::{Carry, Rotors};
+use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve};
 
 /// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
 /// is as much as about this many single flights (docs/numerics/lockstep.md, "Motors in lockstep").
@@ -17,25 +17,6 @@ const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
-
-/// The arguments of one [`transient`](crate::transient()).
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct TransientMember {
-    /// The motor.
-    pub system: System,
-    /// Phase of the stator at which it starts to vibrate.
-    pub phase: Phase,
-    /// Duration, sampling, perturbation and seed.
-    pub settings: TransientSettings,
-}
-
-impl TransientMember {
-    /// As [`transient`](crate::transient()).
-    fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
-        SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
-    }
-}
 
 /// The transient of each member, or the error that [`transient`](crate::transient()) returns for it, in the
 /// order of the members; bit for bit those of [`transient`](crate::transient()), several times faster where

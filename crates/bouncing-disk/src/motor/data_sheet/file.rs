@@ -5,10 +5,10 @@ use std::fmt;
 
 use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 
+use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
-use crate::error::Error;
 
 /// Why the text of a data sheet gives no motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -10,11 +10,11 @@ use bouncing_disk_core::{
 use proptest::prelude::*;
 
 use super::*;
+use crate::estimate::ensemble::ensemble;
+use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
-use crate::estimate::ensemble::ensemble;
-use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::motor::rotor::transient::TransientSettings;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 

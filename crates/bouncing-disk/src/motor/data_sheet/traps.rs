@@ -4,19 +4,16 @@
 //! Judged from the vertical motion alone, which is all that decides (docs/numerics/design.md, "Low-period
 //! traps").
 
-mod excursion;
-pub(crate) mod ranges;
-
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Watch, WorkCount};
+use bouncing_disk_core::{
+    ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Unobserved, Watch, WorkCount,
+};
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
-use crate::estimate::statistics::{LOCKED_FLIGHTS, LOCKED_WITHIN};
-use crate::motor::data_sheet::traps::excursion::Excursion;
-use crate::toss::chattering_cycle::ChatteringCycle;
+use crate::toss::chattering_cycle::{ChatteringCycle, LOCKED_FLIGHTS, LOCKED_WITHIN, LONG_FLIGHT};
 
 /// Perturbed relaunches of a rotor whose unperturbed round is short.
 const RELAUNCHES: u32 = 64;
@@ -65,7 +62,11 @@ impl TrapVerdict {
     }
 
     /// The verdict on a vertical motion under a preload.
-    fn of(map: &ImpactMap, preload_acceleration: f64, work: &mut WorkCount<'_>) -> Result<Self, Error> {
+    pub(crate) fn of(
+        map: &ImpactMap,
+        preload_acceleration: f64,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, Error> {
         let axial_forcing = map.vibration().peak_acceleration() / PI;
         let mut verdict = Self {
             preload_acceleration,
@@ -98,6 +99,57 @@ impl TrapVerdict {
         verdict.mean_platform_periods = Some(mean);
         verdict.is_trap = (mean / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN;
         Ok(verdict)
+    }
+}
+
+/// Flights that a summed chatter costs.
+const FLIGHTS_OF_EXCURSION: u64 = 4;
+
+/// From a separation to the next one, or to where it was given up.
+#[derive(Debug, Clone, Copy)]
+struct Excursion {
+    /// Radians.
+    elapsed: f64,
+    /// The round; `None` if it was given up.
+    cycle: Option<ChatteringCycle>,
+}
+
+impl Excursion {
+    /// Of a rotor that leaves with this relative speed, given up after so many impacts or more long flights;
+    /// `None` if the platform never falls away.
+    fn of(
+        map: &ImpactMap,
+        speed: f64,
+        (most_impacts, most_long): (u64, usize),
+        work: &mut WorkCount<'_>,
+    ) -> Result<Option<Self>, Error> {
+        let Some(separation) = map.vibration().separation_phase() else { return Ok(None) };
+        work.spend(FLIGHTS_OF_EXCURSION)?;
+        let mut orbit = map.orbit_from_launch(Launch::new(separation, speed)?, ChatterPolicy::Complete);
+        let (mut elapsed, mut impacts, mut long_flights) = (0.0, 0, 0);
+        while impacts < most_impacts && long_flights <= most_long {
+            work.spend(1)?;
+            match orbit.advance()? {
+                Some(OrbitEvent::Impact(impact)) => {
+                    let duration = impact.duration();
+                    elapsed += duration;
+                    impacts += 1;
+                    long_flights += usize::from(duration > LONG_FLIGHT);
+                }
+                Some(OrbitEvent::Attachment(attachment)) => {
+                    let accumulation = attachment.accumulation;
+                    let ahead = separation.angle() - accumulation.phase.angle();
+                    elapsed += accumulation.duration + if ahead > 0.0 { ahead } else { ahead + TAU };
+                    let platform_periods = (elapsed / TAU).round() as u64;
+                    let impacts = impacts as usize;
+                    let cycle = ChatteringCycle { impacts, platform_periods, long_flights };
+                    return Ok(Some(Self { elapsed, cycle: Some(cycle) }));
+                }
+                // No other event exists.
+                Some(_) | None => break,
+            }
+        }
+        Ok(Some(Self { elapsed, cycle: None }))
     }
 }
 

@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::elementary::wrapped_angle;
 
+use crate::error::Error;
 use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::error::Error;
 
 /// Lags around the whole circle.
 const COARSE: usize = 32;

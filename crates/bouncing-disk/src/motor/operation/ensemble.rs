@@ -4,12 +4,13 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{Observer, Watch};
 
-use crate::motor::operation::member::{AxialWindow, Member, RotorWindow, Window, far_above};
+use crate::error::{Error, positive, within_limit};
+use crate::motor::batch::shared_orbit::shared_by;
+use crate::motor::operation::member::{Member, far_above};
 use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{left_out, shortfall};
-use crate::error::{Error, positive, within_limit};
-use crate::motor::batch::shared_orbit::shared_by;
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 

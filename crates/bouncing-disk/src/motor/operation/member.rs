@@ -8,9 +8,6 @@ use bouncing_disk_core::{
     Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, WorkCount,
 };
 
-use crate::motor::operation::energy_rows::{CarryAll, Energies};
-use crate::motor::operation::no_lift_off::Lying;
-use crate::motor::operation::settings::OperatingSettings;
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
@@ -19,79 +16,15 @@ use crate::motion::impact::{axial_impulse, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
-use crate::estimate::ensemble::starting_phase;
+use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
+use crate::motor::operation::energy_rows::{CarryAll, Energies};
+use crate::motor::operation::no_lift_off::Lying;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// What a rotor did in a window of time, without units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct RotorWindow {
-    /// Angle turned.
-    pub(crate) angle: f64,
-    /// Work of the platform by friction, and loss in it.
-    pub(crate) friction_work: f64,
-    pub(crate) friction_loss: f64,
-    /// Work done against the load.
-    pub(crate) load_work: f64,
-    /// Change of the kinetic energy.
-    pub(crate) kinetic_change: f64,
-}
-
-/// What all rotors share in a window of time, without units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(crate) struct AxialWindow {
-    /// Duration (rad).
-    pub(crate) duration: f64,
-    /// Work of the platform by normal forces.
-    pub(crate) normal_work: f64,
-    /// What the perturbations of the relaunches have given.
-    pub(crate) perturbation_work: f64,
-    pub(crate) restitution_loss: f64,
-    /// Change of the kinetic and potential energy.
-    pub(crate) energy_change: f64,
-    /// Impacts; periods of rotors that never bounce.
-    pub(crate) impacts: u64,
-}
-
-/// A window of time.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(crate) struct Window {
-    pub(crate) axial: AxialWindow,
-    pub(crate) rotors: Vec<RotorWindow>,
-}
-
-impl RotorWindow {
-    pub(crate) fn add(&mut self, next: &Self) {
-        self.angle += next.angle;
-        self.friction_work += next.friction_work;
-        self.friction_loss += next.friction_loss;
-        self.load_work += next.load_work;
-        self.kinetic_change += next.kinetic_change;
-    }
-}
-
-impl AxialWindow {
-    pub(crate) fn add(&mut self, next: &Self) {
-        self.duration += next.duration;
-        self.normal_work += next.normal_work;
-        self.perturbation_work += next.perturbation_work;
-        self.restitution_loss += next.restitution_loss;
-        self.energy_change += next.energy_change;
-        self.impacts += next.impacts;
-    }
-}
-
-impl Window {
-    /// This window and the one that follows it as one.
-    pub(crate) fn add(&mut self, next: &Self) {
-        self.axial.add(&next.axial);
-        for (rotor, next) in self.rotors.iter_mut().zip(&next.rotors) {
-            rotor.add(next);
-        }
-    }
-}
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and what friction
 /// brakes in a period. Without friction a rotor keeps its speed, and starts at rest.

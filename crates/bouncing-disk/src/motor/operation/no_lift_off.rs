@@ -7,13 +7,13 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::{ChatterPolicy, Phase, WorkCount};
 
-use crate::motor::operation::member::{AxialWindow, RotorWindow, Window};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
 

@@ -2,14 +2,14 @@
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
+use crate::error::{Error, check, finite};
+use crate::motor::batch::shared_orbit::is_shared;
+use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
-use crate::error::{Error, check, finite};
-use crate::motor::data_sheet::Motor;
-use crate::motor::batch::shared_orbit::is_shared;
 
 impl LoadedMotor {
     pub(crate) fn of(motor: &Motor) -> Self {

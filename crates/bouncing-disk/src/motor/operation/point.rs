@@ -3,7 +3,7 @@
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::error::{Error, finite, not_negative};
-use crate::estimate::interval::student_quantile;
+use crate::statistics::student_quantile;
 
 /// A number that was estimated from independent runs, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]

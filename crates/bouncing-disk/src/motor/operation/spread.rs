@@ -11,12 +11,12 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress};
 
+use crate::error::{Error, check, finite, within_limit};
+use crate::motor::data_sheet::Motor;
 use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate, operate_for};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
-use crate::error::{Error, check, finite, within_limit};
-use crate::motor::data_sheet::Motor;
 
 /// Members of a draw, each followed as long as one of the motor itself: the fewest that have a scatter. It is pooled over all
 /// draws, and what is stopped by no error of its own has one without bias.

@@ -3,10 +3,10 @@
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::elementary::hypot;
 
+use crate::error::Error;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
-use crate::error::Error;
 
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;

@@ -7,10 +7,10 @@ use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Vibration, Watch, Work
 
 use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::traps::TrapVerdict;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::data_sheet::traps::TrapVerdict;
 
 /// Traps that are narrower, relative to the preload, are not told unless they are asked for: a motor whose preload is known to
 /// 1 % is in one with a chance of less than one in 40.

@@ -4,11 +4,10 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::mean;
-use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Unobserved, Watch, WorkCount, read_checked};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Watch, WorkCount, read_checked};
 
 use crate::error::{Error, check, finite, moderate_not_negative, positive, room_for};
 use crate::motion::phase_time::PhaseSpan;
-use crate::estimate::fit::{ExponentialFit, check_curve};
 use crate::motor::rotor::{Rotor, RotorStep};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
@@ -118,14 +117,6 @@ impl SpeedCurve {
         check_curve(&self.times, &self.speeds)
     }
 
-    /// The fit of alpha_ss (1 - exp(-t/t_c)).
-    ///
-    /// # Errors
-    /// Those of [`ExponentialFit::new`].
-    pub fn fit(&self) -> Result<ExponentialFit, Error> {
-        ExponentialFit::new(&self.times, &self.speeds, &Unobserved)
-    }
-
     /// [`transient`](crate::transient()) as a part of a longer call.
     pub(crate) fn alone(
         system: &System,
@@ -157,6 +148,33 @@ read_checked!(SpeedCurve as UncheckedCurve {
     impacts: u64,
     separations: u64,
 });
+
+/// Checks that times and speeds are those of a curve that can be fitted, and begins at time zero or later.
+pub(crate) fn check_curve(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
+    let first = times.first().copied().unwrap_or(0.0);
+    check(
+        first >= 0.0 || first.is_nan(),
+        "times of the speed curve",
+        first,
+        "finite, not negative, rising (s)",
+    )?;
+    check_rows(times, speeds)
+}
+
+/// [`check_curve`] of a record that may begin before time zero.
+pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
+    let n = times.len();
+    check(n >= 3, "number of points of the speed curve", n as f64, "[3, inf)")?;
+    check(speeds.len() == n, "number of speeds", speeds.len() as f64, "the number of times")?;
+    for (k, &time) in times.iter().enumerate() {
+        let rises = time.is_finite() && (k == 0 || time > times[k - 1]);
+        check(rises, "times of the speed curve", time, "finite, rising (s)")?;
+    }
+    for &speed in speeds {
+        check(speed.is_finite(), "speed", speed, "finite (rad/s)")?;
+    }
+    Ok(())
+}
 
 /// The speed transient of a rotor that at `phase` lies at rest on the stator, which starts to vibrate.
 ///
@@ -375,6 +393,8 @@ impl Interval {
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk_core::Unobserved;
+
     use super::*;
     use crate::testing;
 

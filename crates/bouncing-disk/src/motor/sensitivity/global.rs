@@ -2,15 +2,15 @@
 
 use bouncing_disk_core::{Observer, Progress};
 
+use crate::error::Error;
+use crate::motor::batch::shared_orbit::is_shared;
+use crate::motor::data_sheet::Motor;
+use crate::motor::operation::ensemble::{LoadedMotor, operate};
+use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sensitivity::local::quantity_of;
 use crate::motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
 use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
-use crate::error::Error;
-use crate::motor::data_sheet::Motor;
-use crate::motor::operation::ensemble::{LoadedMotor, operate};
-use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::batch::shared_orbit::is_shared;
 
 /// A parameter and the range over which it is spread.
 pub type ParameterRange = (SensitivityParameter, [f64; 2]);

@@ -5,14 +5,14 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::{Observer, Progress};
 
-use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
-use crate::estimate::interval::student_quantile;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::crossing;
+use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+use crate::statistics::student_quantile;
 
 /// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
 /// g a_e of the load: with those up and down as many rotors as a row has.

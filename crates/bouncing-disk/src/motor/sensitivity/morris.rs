@@ -4,10 +4,10 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Watch};
 
-use crate::motor::sensitivity::resamples::standard_errors;
-use crate::motor::sensitivity::sobol::{SamplingSettings, check_ranges, evaluated};
 use crate::error::Error;
 use crate::motor::operation::point::Estimate;
+use crate::motor::sensitivity::resamples::standard_errors;
+use crate::motor::sensitivity::sobol::{SamplingSettings, check_ranges, evaluated};
 
 /// Levels of the grid on which arguments are varied, and the share of a range that a step crosses: p/(2 (p -
 /// 1)).

@@ -4,6 +4,8 @@
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::standard_deviation;
 
+use crate::statistics::drawn_index;
+
 /// Resamples: the standard deviation of so many values is known to 4 %.
 const RESAMPLES: usize = 300;
 
@@ -19,7 +21,7 @@ pub(crate) fn standard_errors<const N: usize>(
     let mut values = vec![Vec::with_capacity(RESAMPLES); N];
     for _ in 0..RESAMPLES {
         for row in &mut drawn {
-            *row = ((random.unit() * rows as f64) as usize).min(rows.saturating_sub(1));
+            *row = drawn_index(&mut random, rows);
         }
         for (values, value) in values.iter_mut().zip(statistics(&drawn)) {
             values.push(value);

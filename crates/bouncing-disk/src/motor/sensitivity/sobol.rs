@@ -4,9 +4,9 @@
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{Observer, Watch};
 
-use crate::motor::sensitivity::resamples::standard_errors;
 use crate::error::{Error, check, finite};
 use crate::motor::operation::point::Estimate;
+use crate::motor::sensitivity::resamples::standard_errors;
 
 /// Least and most rows of a sample.
 const ROWS: std::ops::RangeInclusive<usize> = 8..=1_000_000;

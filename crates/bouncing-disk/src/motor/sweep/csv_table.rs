@@ -1,9 +1,9 @@
 //! The result of a sweep as comma-separated text.
 
-use crate::motor::sweep::quantity::SweepQuantity;
-use crate::motor::sweep::result::MotorSweepResult;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::{OperatingPoint, Operation, Shortfall};
+use crate::motor::sweep::quantity::SweepQuantity;
+use crate::motor::sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has units in the

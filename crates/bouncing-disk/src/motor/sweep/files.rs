@@ -7,16 +7,16 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use bouncing_disk_core::{ChatterPolicy, Observer, Progress};
 use serde_json::json;
 
-use crate::store::complete_file::write_complete;
-use crate::store::error::StorageError;
-use crate::store::journal::{JOURNAL, Journal};
-use crate::store::provenance::{Format, Provenance};
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sweep::MotorSweep;
 use crate::motor::sweep::result::MotorSweepResult;
 use crate::motor::sweep::run::MotorSweepRun;
+use crate::store::complete_file::write_complete;
+use crate::store::error::StorageError;
+use crate::store::journal::{JOURNAL, Journal};
+use crate::store::provenance::{Format, Provenance};
 
 /// The format of a [`MotorSweepResult`] as JSON and CSV. Its provenance has the motor and the settings.
 const MOTOR_SWEEP: Format = Format { name: "bouncing-disk motor sweep", version: 1, oldest: 1 };

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use crate::error::Error;
+use crate::motor::batch::shared_orbit::vertical_key;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::batch::shared_orbit::vertical_key;
 
 /// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost when a run is
 /// stopped.

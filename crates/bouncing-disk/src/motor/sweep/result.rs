@@ -1,12 +1,11 @@
 //! What comes out of a sweep.
 
-use crate::motor::sweep::MotorSweep;
-use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
-use crate::motor::sweep::quantity::SweepQuantity;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
+use crate::motor::sweep::quantity::SweepQuantity;
 
 /// The operation of each cell of a [`MotorSweep`], with what was computed.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,10 +18,13 @@ pub struct MotorSweepResult {
 }
 
 impl MotorSweepResult {
-    /// `operations` of all cells.
-    pub(crate) fn of(sweep: &MotorSweep, operations: Vec<Operation>) -> Self {
-        let (motor, settings, axes) = (*sweep.motor(), *sweep.settings(), sweep.axes().to_vec());
-        Self { motor, settings, axes, cells: operations }
+    pub(crate) const fn new(
+        motor: Motor,
+        settings: OperatingSettings,
+        axes: Vec<SweepAxis>,
+        cells: Vec<Operation>,
+    ) -> Self {
+        Self { motor, settings, axes, cells }
     }
 
     /// The motor that was varied.

@@ -5,12 +5,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use bouncing_disk_core::{Observer, PartialResults, Progress, Watch};
 
-use crate::motor::sweep::MotorSweep;
-use crate::motor::sweep::axis::sheet_of_cell;
-use crate::motor::sweep::result::MotorSweepResult;
 use crate::error::Error;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
+use crate::motor::sweep::MotorSweep;
+use crate::motor::sweep::axis::sheet_of_cell;
+use crate::motor::sweep::result::MotorSweepResult;
 
 /// A [`MotorSweep`] under way: the groups of cells that are finished.
 ///
@@ -178,7 +178,23 @@ impl MotorSweepRun {
     /// finished: [`Self::is_done`] tells before.
     pub fn into_result(self, sweep: &MotorSweep) -> Result<MotorSweepResult, Error> {
         let cells: Option<Vec<Operation>> = self.cells(sweep)?.into_iter().collect();
-        Ok(MotorSweepResult::of(sweep, cells.ok_or_else(|| self.stopped(sweep))?))
+        let cells = cells.ok_or_else(|| self.stopped(sweep))?;
+        Ok(MotorSweepResult::new(*sweep.motor(), *sweep.settings(), sweep.axes().to_vec(), cells))
+    }
+}
+
+impl MotorSweep {
+    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
+    ///
+    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
+    /// finished.
+    ///
+    /// # Errors
+    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
+    pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
+        let mut run = MotorSweepRun::new(self);
+        run.advance(self, observer)?;
+        run.into_result(self)
     }
 }
 

@@ -3,8 +3,9 @@
 use crate::error::{Error, check};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::stroke::Stroke;
-use crate::toss::design::hand::{Evaluation, Hand, over_frictions, toss, value_of};
-use crate::toss::design::{TossConstraints, TossDesign, flight_height};
+use crate::toss::design::TossDesign;
+use crate::toss::design::constraints::TossConstraints;
+use crate::toss::design::hand::{Evaluation, Hand, flight_height, over_frictions, toss, value_of};
 
 /// Coefficients of friction at which the range is looked at: odd.
 const FRICTIONS: usize = 129;
@@ -231,6 +232,18 @@ impl<'a> Inputs<'a> {
             }
         }
         Ok(best)
+    }
+}
+
+impl TossDesign {
+    /// How much of the objective is left where hand and dough are not quite those of the design: over
+    /// everything that rounds to the same digits, and over the range of friction.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of
+    /// its input; those of [`best_toss`].
+    pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
+        robustness(self, half_units)
     }
 }
 

@@ -1,9 +1,14 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+
 use bouncing_disk_core::Unobserved;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::*;
 use crate::toss::design::hand::{Hand, toss, value_of};
-use crate::{Robustness, TossInput};
+use crate::{
+    DiskParameters, InitialSpin, OverFriction, Robustness, TossHalfUnits, TossInput, TossObjective,
+    TossRobustness,
+};
 
 fn designed(constraints: &TossConstraints) -> TossDesign {
     best_toss(constraints, &Unobserved).expect("legal")

@@ -1,6 +1,7 @@
 use std::{fs, io};
 
 use super::*;
+use crate::estimate::measured_speeds::error::HEADER;
 
 fn read(text: impl AsRef<[u8]>) -> Result<MeasuredSpeeds, Fault> {
     MeasuredSpeeds::from_csv_reader("demo.csv", text.as_ref(), &CsvColumns::default())

@@ -1,20 +1,19 @@
 //! The speed transients of many rotors on one vertical motion.
 
 use bouncing_disk_core::{
-    Impact, InstructionSet, LaneRunner, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
+    Impact, InstructionSet, LaneLoop, LaneRunner, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
 };
 
-use crate::motor::batch::shared_orbit::rotor_set::{CarryAll, Turned};
-use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;
-use crate::estimate::ensemble::{MAX_MEMBERS, MAX_SPEEDS};
-use crate::motor::rotor::{Rotor, RotorStep};
-use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
+use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
+use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
+use crate::motor::batch::shared_orbit::shared_by;
+use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
 use crate::motor::rotor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
+use crate::motor::rotor::{Rotor, RotorStep};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -76,6 +75,39 @@ pub(crate) fn with_instructions(
     let mut run = SharedRun::new(systems, phase, settings, vertical, set)?;
     run.compute(work)?;
     run.finished()
+}
+
+/// Angles turned by the rotors of a row.
+#[derive(Debug, Clone, Copy, Default)]
+struct Turned {
+    /// In the last flight.
+    last: Row,
+    /// In the present interval of the curve.
+    sum: Row,
+}
+
+/// Carries all rotors through a flight and the impact that ends it.
+struct CarryAll<'a> {
+    impact: SharedImpact,
+    /// Whether the flight ends in the present interval of the curve, so that its angle belongs to it.
+    is_within: bool,
+    rows: &'a mut [RotorRows<Turned>],
+}
+
+impl LaneLoop for CarryAll<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self { impact, is_within, rows } = self;
+        for rotors in rows {
+            for own in 0..WIDTH {
+                let (speed, turned) = rotors.bounce(own, &impact).after(rotors.speed[own]);
+                rotors.speed[own] = speed;
+                let tally = &mut rotors.tally;
+                tally.last[own] = turned;
+                tally.sum[own] = if is_within { tally.sum[own] + turned } else { tally.sum[own] };
+            }
+        }
+    }
 }
 
 /// One rotor while the disk lies on the platform, and its curve.

@@ -2,10 +2,10 @@ use std::f64::consts::TAU;
 
 use std::ops::ControlFlow;
 
-use bouncing_disk_core::{Progress, Unobserved};
+use bouncing_disk_core::{Phase, Progress, Unobserved};
 
 use super::*;
-use crate::{DiskParameters, PlatformParameters};
+use crate::{DiskParameters, PlatformParameters, System, TransientSettings};
 
 /// Motors about Table III: chattering ones, plastic ones, loaded ones, some that never bounce, some that fail.
 fn member(k: u32) -> TransientMember {
