@@ -87,7 +87,7 @@ pub use estimate::interval::IntervalEstimate;
 #[cfg(feature = "csv")]
 pub use estimate::measured_speeds::csv_file::CsvColumns;
 #[cfg(feature = "csv")]
-pub use estimate::measured_speeds::error::MeasuredSpeedsError;
+pub use estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
 pub use estimate::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
 pub use estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 #[cfg(feature = "fit")]
@@ -169,8 +169,9 @@ pub use toss::design::constraints::{OverFriction, TossCertificate, TossConstrain
 pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
 pub use toss::design::{TossDesign, best_toss};
 pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
-pub use toss::period_one::period_one_rotary_speed;
-pub use toss::rotary_response::{RotaryOutcome, RotaryResponse, RotaryRound, rotary_response, rotary_round};
+pub use toss::rotary_response::{
+    RotaryOutcome, RotaryResponse, RotaryRound, period_one_rotary_speed, rotary_response, rotary_round,
+};
 pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the example of the README.

@@ -14,7 +14,6 @@ pub(crate) mod phase_time;
 pub(crate) mod rotary_change;
 pub(crate) mod segment;
 pub(crate) mod si;
-pub(crate) mod sliding;
 pub(crate) mod state;
 pub(crate) mod trajectory;
 pub(crate) mod transition;

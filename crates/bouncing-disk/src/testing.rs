@@ -18,6 +18,16 @@ pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
         .expect("legal")
 }
 
+/// The field of a number that is refused because it is out of range.
+pub(crate) fn refused_field<T: std::fmt::Debug>(
+    result: Result<T, impl Into<crate::FitError> + std::fmt::Debug>,
+) -> &'static str {
+    match result.map_err(Into::into) {
+        Err(crate::FitError::Model(crate::Error::OutOfRange { field, .. })) => field,
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Well spread numbers in [0, 1).
 pub(crate) fn golden_spread(k: u64) -> f64 {
     (k as f64 * 0.618_033_988_749_894_9) % 1.0

@@ -3,8 +3,6 @@
 pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;
 pub(crate) mod design;
-pub(crate) mod efficiency;
 pub(crate) mod multiple;
-pub(crate) mod period_one;
 pub(crate) mod rotary_response;
 pub(crate) mod single;

@@ -38,12 +38,6 @@ impl IntervalEstimate {
     pub fn contains(&self, number: f64) -> bool {
         (self.low..=self.high).contains(&number)
     }
-
-    /// Whether the intervals of two estimates have a number in common.
-    #[must_use]
-    pub fn agrees_with(&self, other: &Self) -> bool {
-        self.low <= other.high && other.low <= self.high
-    }
 }
 
 impl Display for IntervalEstimate {
@@ -62,9 +56,6 @@ mod tests {
         let estimate = IntervalEstimate::about(2.0, 2.5, 1.0).expect("finite");
         assert_eq!(estimate, IntervalEstimate { value: 2.0, low: 2.0, high: 2.0 });
         assert!(estimate.contains(2.0) && !estimate.contains(2.1) && !estimate.contains(f64::NAN));
-        let wide = IntervalEstimate { value: 1.0, low: 0.5, high: 2.0 };
-        assert!(wide.agrees_with(&estimate) && estimate.agrees_with(&wide));
-        assert!(!wide.agrees_with(&IntervalEstimate { value: 3.0, low: 2.1, high: 4.0 }));
         for bad in [f64::NAN, f64::INFINITY] {
             assert!(
                 IntervalEstimate::about(bad, 0.0, 1.0).is_err()

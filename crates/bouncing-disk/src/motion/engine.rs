@@ -21,9 +21,9 @@ use crate::motion::friction::Friction;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, contact_ledger, record_flight_load};
 use crate::motion::segment::Segment;
-use crate::motion::sliding::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 

@@ -4,7 +4,6 @@
 //! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
 //! sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the fields.
 
-mod facts;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;
 pub(crate) mod motor_field;

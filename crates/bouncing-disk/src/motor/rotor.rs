@@ -14,8 +14,8 @@ use crate::motion::contact_motion::{Contact, Placed};
 use crate::motion::friction::Friction;
 use crate::motion::impact::{FrictionImpact, axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};
-use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].

@@ -141,19 +141,11 @@ impl From<Disk> for DiskParameters {
 
 impl Display for Disk {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let n = numbers(f);
-        write!(
-            f,
-            "a_e = {} m, a_g = {} m, mu = {}, restitution = {}, g = {} m/s^2",
-            n(self.contact_radius()),
-            n(self.gyration_radius()),
-            n(self.friction()),
-            n(self.restitution()),
-            n(self.preload_acceleration())
-        )?;
-        if self.load_acceleration() != 0.0 {
-            write!(f, ", load = {} rad/s^2", n(self.load_acceleration()))?;
-        }
-        Ok(())
+        let [a_e, a_g, load] =
+            [self.contact_radius(), self.gyration_radius(), self.load_acceleration()].map(numbers(f));
+        let [mu, restitution, g] =
+            [self.friction(), self.restitution(), self.preload_acceleration()].map(numbers(f));
+        write!(f, "a_e = {a_e} m, a_g = {a_g} m, mu = {mu}, restitution = {restitution}, g = {g} m/s^2")?;
+        if self.load_acceleration() != 0.0 { write!(f, ", load = {load} rad/s^2") } else { Ok(()) }
     }
 }

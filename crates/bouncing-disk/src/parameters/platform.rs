@@ -140,14 +140,8 @@ impl From<Platform> for PlatformParameters {
 
 impl Display for Platform {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let n = numbers(f);
-        write!(
-            f,
-            "A = {} m, Phi = {} rad, omega = {} rad/s, theta = {} rad",
-            n(self.amplitude()),
-            n(self.twist_amplitude()),
-            n(self.angular_frequency()),
-            n(self.phase_lag())
-        )
+        let own = [self.amplitude(), self.twist_amplitude(), self.angular_frequency(), self.phase_lag()];
+        let [a, phi, omega, theta] = own.map(numbers(f));
+        write!(f, "A = {a} m, Phi = {phi} rad, omega = {omega} rad/s, theta = {theta} rad")
     }
 }

@@ -342,7 +342,7 @@ mod tests {
     use super::*;
     use crate::parameters::dimensionless::ForcingParameters;
     use crate::toss::collisions::CollisionState;
-    use crate::toss::period_one::period_one_rotary_speed;
+    use crate::toss::rotary_response::period_one_rotary_speed;
 
     fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> DimensionlessSystem {
         ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()

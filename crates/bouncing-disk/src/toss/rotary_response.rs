@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::PeriodicOrbit;
+use bouncing_disk_core::{PeriodicOrbit, Phase};
 
 use crate::error::{Error, all_finite, check};
 use crate::motion::impact::{available_impulse, axial_impulse};
@@ -93,6 +93,15 @@ pub struct RotaryRound {
     /// Impacts that end the slip. The derivative of the speed by that one period before is 1 without any,
     /// and else 0.
     pub sticking_impacts: usize,
+}
+
+/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed there,
+/// Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
+///
+/// It is largest, Q, for a phase lag theta = -tau_imp.
+#[must_use]
+pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase) -> f64 {
+    system.platform_angular_speed(impact_phase)
 }
 
 /// What becomes of the spin of a disk on `orbit`, a periodic orbit of the vertical motion of `system`, stable

@@ -137,19 +137,13 @@ const fn never_leaves(system: &System) -> Error {
 
 impl Display for TossPerformance {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let n = numbers(f);
+        let own = [self.airborne_speed, self.launch_speed, self.separation_phase, self.efficiency];
+        let [spin, speed, phase, efficiency] = own.map(numbers(f));
         write!(
             f,
-            "airborne at {} rad/s and {} m/s, separation at {} rad, efficiency {}",
-            n(self.airborne_speed),
-            n(self.launch_speed),
-            n(self.separation_phase),
-            n(self.efficiency)
+            "airborne at {spin} rad/s and {speed} m/s, separation at {phase} rad, efficiency {efficiency}"
         )?;
-        match self.speed_ratio {
-            Some(ratio) => write!(f, ", speed ratio {}", n(ratio)),
-            None => Ok(()),
-        }
+        self.speed_ratio.map_or(Ok(()), |ratio| write!(f, ", speed ratio {}", numbers(f)(ratio)))
     }
 }
 

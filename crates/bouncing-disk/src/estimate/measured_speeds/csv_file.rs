@@ -8,7 +8,7 @@ use std::io::Read;
 use std::path::Path;
 
 use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
-use crate::estimate::measured_speeds::error::MeasuredSpeedsError as Fault;
+use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
 use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::regular_file;
@@ -67,7 +67,7 @@ impl MeasuredSpeeds {
     /// # Errors
     /// [`MeasuredSpeedsError`](crate::MeasuredSpeedsError) names file, line and field, and what to do. A
     /// folder, a named pipe, a socket and a device are refused before they are opened.
-    pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, Fault> {
+    pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
         Self::from_csv_with(path, &CsvColumns::default())
     }
 
@@ -75,20 +75,29 @@ impl MeasuredSpeeds {
     ///
     /// # Errors
     /// Those of [`Self::from_csv`]; a unit that is another one in the file.
-    pub fn from_csv_with(path: impl AsRef<Path>, columns: &CsvColumns) -> Result<Self, Fault> {
+    pub fn from_csv_with(path: impl AsRef<Path>, columns: &CsvColumns) -> Result<Self, MeasuredSpeedsError> {
         let path = path.as_ref();
         let file = path.to_string_lossy();
         let bytes = regular_file::read(path, LARGEST_FILE);
-        parse(&file, &bytes.map_err(|source| Fault::Unreadable { file: file.to_string(), source })?, columns)
+        parse(
+            &file,
+            &bytes.map_err(|source| MeasuredSpeedsError::Unreadable { file: file.to_string(), source })?,
+            columns,
+        )
     }
 
     /// [`Self::from_csv_with`] of a reader, whose content messages call `name`.
     ///
     /// # Errors
     /// Those of [`Self::from_csv_with`].
-    pub fn from_csv_reader(name: &str, reader: impl Read, columns: &CsvColumns) -> Result<Self, Fault> {
+    pub fn from_csv_reader(
+        name: &str,
+        reader: impl Read,
+        columns: &CsvColumns,
+    ) -> Result<Self, MeasuredSpeedsError> {
         let bytes = regular_file::limited(reader, LARGEST_FILE);
-        let bytes = bytes.map_err(|source| Fault::Unreadable { file: name.to_owned(), source })?;
+        let bytes =
+            bytes.map_err(|source| MeasuredSpeedsError::Unreadable { file: name.to_owned(), source })?;
         parse(name, &bytes, columns)
     }
 }
@@ -101,20 +110,41 @@ fn shortened(text: &str) -> String {
     text.chars().take(SHOWN).chain(['…']).collect()
 }
 
-fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeeds, Fault> {
-    let in_file = |fault| match fault {
-        RecordFault::NotText { line, byte } => Fault::NotText { file: file.to_owned(), line, byte },
-        RecordFault::OpenQuote { line, field } => Fault::OpenQuote { file: file.to_owned(), line, field },
-    };
-    let text = text(bytes).map_err(in_file)?;
+/// A fault and its place: line and field, counted from 1.
+struct Located(Option<usize>, Option<usize>, CsvFault);
+
+impl From<RecordFault> for Located {
+    fn from(fault: RecordFault) -> Self {
+        match fault {
+            RecordFault::NotText { line, byte } => Self(Some(line), None, CsvFault::NotText(byte)),
+            RecordFault::OpenQuote { line, field } => Self(Some(line), Some(field), CsvFault::OpenQuote),
+        }
+    }
+}
+
+/// Times and speeds of each run in SI units, by the number of the run.
+type Runs = BTreeMap<u32, (Vec<f64>, Vec<f64>)>;
+
+fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeeds, MeasuredSpeedsError> {
+    let (runs, units) = runs_of(bytes, columns).map_err(|Located(line, field, fault)| {
+        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
+    })?;
+    let run = |(member, (times, speeds))| MeasuredRun { member, times, speeds };
+    let mut measured = MeasuredSpeeds::new(runs.into_iter().map(run).collect())?;
+    measured.units = units;
+    Ok(measured)
+}
+
+fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, SpeedUnit)), Located> {
+    let text = text(bytes)?;
     let long = bytes.split(|byte| *byte == b'\n').position(|line| line.len() > LONGEST_LINE);
     if let Some(index) = long {
-        return Err(Fault::LongLine { file: file.to_owned(), line: index + 1, most: LONGEST_LINE });
+        return Err(Located(Some(index + 1), None, CsvFault::LongLine(LONGEST_LINE)));
     }
     let mut lines = lines(text).peekable();
-    let mut header = Header::find(file, &mut lines, columns)?;
+    let mut header = Header::find(&mut lines, columns)?;
     if let Some(&line) = lines.peek() {
-        let row = fields(line, header.separator).map_err(in_file)?;
+        let row = fields(line, header.separator)?;
         let is_text = row.iter().all(|field| header.number(field).is_none());
         if row.len() >= header.fields && is_text && row.iter().any(|field| !field.is_empty()) {
             header.units_below(line.0, &row)?;
@@ -122,27 +152,28 @@ fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeed
         }
     }
     let (time_unit, speed_unit) = header.units(columns)?;
-    let mut runs: BTreeMap<u32, (Vec<f64>, Vec<f64>)> = BTreeMap::new();
+    let mut runs = Runs::new();
     let mut rows = 0;
     for line in lines {
         rows += 1;
         if rows > MOST_ROWS {
-            return Err(Fault::TooLong { file: file.to_owned(), line: line.0, most: MOST_ROWS });
+            return Err(Located(Some(line.0), None, CsvFault::TooLong(MOST_ROWS)));
         }
-        let (time, speed, member) = header.row(line.0, fields(line, header.separator).map_err(in_file)?)?;
+        let (time, speed, member) = header.row(line.0, fields(line, header.separator)?)?;
         let (times, speeds) = runs.entry(member).or_default();
         let (time, speed) = (time_unit.to_si(time), speed_unit.to_si(speed));
         if let Some(&previous) = times.last()
             && time <= previous
         {
-            let (line, field) = (line.0, header.places[0] + 1);
-            return Err(Fault::NotRising { file: file.to_owned(), line, field, time, previous, member });
+            let fault = CsvFault::NotRising { time, previous, member };
+            return Err(Located(Some(line.0), Some(header.places[0] + 1), fault));
         }
         times.push(time);
         speeds.push(speed);
     }
-    if let (Some(place), false) = (header.comma, header.commas_are_decimal) {
-        return Err(header.marks(place, "its commas may separate thousands"));
+    if let (Some((line, field)), false) = (header.comma, header.commas_are_decimal) {
+        let fault = CsvFault::DecimalMarks("its commas may separate thousands");
+        return Err(Located(Some(line), Some(field), fault));
     }
     if runs.is_empty() {
         runs.insert(0, (Vec::new(), Vec::new()));
@@ -150,13 +181,10 @@ fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeed
     for (&member, (times, _)) in &runs {
         let (points, least) = (times.len(), LEAST_POINTS);
         if points < least {
-            return Err(Fault::TooFewPoints { file: file.to_owned(), member, points, least });
+            return Err(Located(None, None, CsvFault::TooFewPoints { member, points, least }));
         }
     }
-    let run = |(member, (times, speeds))| MeasuredRun { member, times, speeds };
-    let mut measured = MeasuredSpeeds::new(runs.into_iter().map(run).collect())?;
-    measured.units = (time_unit, speed_unit);
-    Ok(measured)
+    Ok((runs, (time_unit, speed_unit)))
 }
 
 /// The name of a column and its unit in brackets or behind an underscore, if it has one.
@@ -177,7 +205,6 @@ fn name_and_unit(field: &str) -> (String, Option<&str>) {
 
 /// Where the columns are in the file, and how its numbers are written.
 struct Header<'a> {
-    file: &'a str,
     line: usize,
     separator: char,
     /// Fields of a line.
@@ -197,10 +224,9 @@ struct Header<'a> {
 impl<'a> Header<'a> {
     /// The first line that names times and speeds. Only text is before it: a line of numbers ends the search.
     fn find(
-        file: &'a str,
         lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
         columns: &CsvColumns,
-    ) -> Result<Self, Fault> {
+    ) -> Result<Self, Located> {
         let mut fault = None;
         while let Some(&line) = lines.peek() {
             let is_number = |field: &str| number(&plain(field).replacen(',', ".", 1)).is_ok();
@@ -212,30 +238,23 @@ impl<'a> Header<'a> {
             let mut own = None;
             for separator in SEPARATORS.into_iter().filter(|separator| line.1.contains(*separator)) {
                 let Ok(names) = fields(line, separator) else { continue };
-                match Self::read(file, line.0, separator, &names, columns) {
+                match Self::read(line.0, separator, &names, columns) {
                     Ok(header) => return Ok(header),
                     // The first separator that is tried has the message.
                     Err(other) => own = own.or(Some(other)),
                 }
             }
             // A line without any separator is text, unless it is all that there is.
-            let single = || Self::read(file, line.0, ',', &[plain(line.1)], columns).err();
+            let single = || Self::read(line.0, ',', &[plain(line.1)], columns).err();
             fault = own.or_else(|| if fault.is_none() { single() } else { fault.take() }).or(fault);
             if are_numbers {
                 break;
             }
         }
-        Err(fault.unwrap_or_else(|| Fault::Empty { file: file.to_owned() }))
+        Err(fault.unwrap_or(Located(None, None, CsvFault::Empty)))
     }
 
-    fn read(
-        file: &'a str,
-        line: usize,
-        separator: char,
-        names: &[&'a str],
-        columns: &CsvColumns,
-    ) -> Result<Self, Fault> {
-        let owned = || file.to_owned();
+    fn read(line: usize, separator: char, names: &[&'a str], columns: &CsvColumns) -> Result<Self, Located> {
         let said = [columns.time.as_deref(), columns.speed.as_deref(), None];
         let is_said = said.iter().any(Option::is_some);
         let (mut places, mut units) = ([None; COLUMNS.len()], [None; COLUMNS.len()]);
@@ -246,26 +265,17 @@ impl<'a> Header<'a> {
                 Some(said) => said == *field || said.to_lowercase() == name,
                 None => NAMES[index].contains(&name.as_str()),
             });
-            let field_number = place + 1;
             match index {
                 Some(index) if places[index].is_some() => {
-                    return Err(Fault::RepeatedColumn {
-                        file: owned(),
-                        line,
-                        field: field_number,
-                        name: COLUMNS[index],
-                    });
+                    let fault = CsvFault::RepeatedColumn(COLUMNS[index]);
+                    return Err(Located(Some(line), Some(place + 1), fault));
                 }
                 Some(index) => (places[index], units[index]) = (Some(place), unit),
                 // Some programs end each line by a separator.
                 None if is_said || (field.is_empty() && place + 1 == names.len()) => {}
                 None => {
-                    unknown = unknown.or(Some(Fault::UnknownColumn {
-                        file: owned(),
-                        line,
-                        field: field_number,
-                        name: shortened(field),
-                    }));
+                    let fault = CsvFault::UnknownColumn(shortened(field));
+                    unknown = unknown.or(Some(Located(Some(line), Some(place + 1), fault)));
                 }
             }
         }
@@ -273,12 +283,11 @@ impl<'a> Header<'a> {
             return Err(fault);
         }
         let missing = |index: usize| {
-            let name = said[index].unwrap_or(COLUMNS[index]).to_owned();
-            Fault::MissingColumn { file: owned(), line, name: shortened(&name) }
+            let name = shortened(said[index].unwrap_or(COLUMNS[index]));
+            Located(Some(line), None, CsvFault::MissingColumn(name))
         };
         let [times, speeds, member] = places;
         Ok(Self {
-            file,
             line,
             separator,
             fields: names.len(),
@@ -292,7 +301,7 @@ impl<'a> Header<'a> {
     }
 
     /// Takes the units from a row below the header, for columns whose names have none.
-    fn units_below(&mut self, line: usize, row: &[&'a str]) -> Result<(), Fault> {
+    fn units_below(&mut self, line: usize, row: &[&'a str]) -> Result<(), Located> {
         for index in 0..2 {
             let Some(field) = row.get(self.places[index]).filter(|field| !field.is_empty()) else { continue };
             let unit = field.trim_matches(['(', ')', '[', ']', ' ']);
@@ -305,14 +314,15 @@ impl<'a> Header<'a> {
         Ok(())
     }
 
-    fn unit_fault(&self, index: usize, line: usize, unit: &str) -> Fault {
-        let (file, field, name) = (self.file.to_owned(), self.places[index] + 1, ["time", "speed"][index]);
+    fn unit_fault(&self, index: usize, line: usize, unit: &str) -> Located {
+        let name = ["time", "speed"][index];
         let legal = [TimeUnit::NAMES, SpeedUnit::NAMES][index];
-        Fault::Unit { file, line, field, name, unit: shortened(unit), legal }
+        let fault = CsvFault::Unit { name, unit: shortened(unit), legal };
+        Located(Some(line), Some(self.places[index] + 1), fault)
     }
 
     /// The units of times and speeds, by the file or the caller, who must not contradict each other.
-    fn units(&self, columns: &CsvColumns) -> Result<(TimeUnit, SpeedUnit), Fault> {
+    fn units(&self, columns: &CsvColumns) -> Result<(TimeUnit, SpeedUnit), Located> {
         let own = |index: usize| self.units[index].unwrap_or_default();
         let (time, speed) = (TimeUnit::of(own(0)), SpeedUnit::of(own(1)));
         let fault = |index: usize| self.unit_fault(index, self.line, own(index));
@@ -333,12 +343,8 @@ impl<'a> Header<'a> {
         if comma { number(&field.replacen(',', ".", 1)).ok() } else { number(field).ok() }
     }
 
-    fn marks(&self, (line, field): (usize, usize), why: &'static str) -> Fault {
-        Fault::DecimalMarks { file: self.file.to_owned(), line, field, why }
-    }
-
     /// Notes the decimal mark of a number.
-    fn note_mark(&mut self, line: usize, place: usize, text: &str) -> Result<(), Fault> {
+    fn note_mark(&mut self, line: usize, place: usize, text: &str) -> Result<(), Located> {
         let here = Some((line, place + 1));
         if text.contains('.') {
             self.point = self.point.or(here);
@@ -356,22 +362,21 @@ impl<'a> Header<'a> {
                 self.commas_are_decimal |= is_whole && digits.len() > 3;
             }
         }
-        match (self.point, self.comma) {
-            (Some(_), Some(_)) => {
-                Err(self.marks((line, place + 1), "it has points and commas in its numbers"))
-            }
-            _ => Ok(()),
+        if self.point.is_some() && self.comma.is_some() {
+            let fault = CsvFault::DecimalMarks("it has points and commas in its numbers");
+            return Err(Located(Some(line), Some(place + 1), fault));
         }
+        Ok(())
     }
 
     /// Time, speed and member of a line.
-    fn row(&mut self, line: usize, mut row: Vec<&str>) -> Result<(f64, f64, u32), Fault> {
+    fn row(&mut self, line: usize, mut row: Vec<&str>) -> Result<(f64, f64, u32), Located> {
         while row.len() > self.fields && row[row.len() - 1].is_empty() {
             row.pop();
         }
         let (fields, columns) = (row.len(), self.fields);
         if fields != columns {
-            return Err(Fault::Fields { file: self.file.to_owned(), line, fields, columns });
+            return Err(Located(Some(line), None, CsvFault::Fields { fields, columns }));
         }
         let mut numbers = [0.0; 2];
         for (column, value) in numbers.iter_mut().enumerate() {
@@ -389,14 +394,14 @@ impl<'a> Header<'a> {
         Ok((numbers[0], numbers[1], member))
     }
 
-    fn refuse(&self, line: usize, column: usize, place: usize, text: &str) -> Fault {
-        let (file, field, name) = (self.file.to_owned(), place + 1, COLUMNS[column]);
-        let value = shortened(text);
-        if text.contains(',') && number(&text.replacen(',', ".", 1)).is_ok() {
-            Fault::DecimalComma { file, line, field, name, value }
+    fn refuse(&self, line: usize, column: usize, place: usize, text: &str) -> Located {
+        let (name, value) = (COLUMNS[column], shortened(text));
+        let fault = if text.contains(',') && number(&text.replacen(',', ".", 1)).is_ok() {
+            CsvFault::DecimalComma { name, value }
         } else {
-            Fault::NotLegal { file, line, field, name, value, legal: LEGAL[column] }
-        }
+            CsvFault::NotLegal { name, value, legal: LEGAL[column] }
+        };
+        Located(Some(line), Some(place + 1), fault)
     }
 }
 

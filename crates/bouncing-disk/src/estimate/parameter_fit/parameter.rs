@@ -6,6 +6,7 @@ use bouncing_disk_core::elementary::{exp, ln};
 
 use crate::error::{Error, check, finite, positive};
 use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
 /// A parameter of a motor that its transients may tell.
@@ -30,16 +31,27 @@ pub enum FitParameter {
 }
 
 impl FitParameter {
+    /// The field of the data sheet.
+    const fn field(self) -> MotorField {
+        match self {
+            Self::Friction => MotorField::Friction,
+            Self::Restitution => MotorField::Restitution,
+            Self::PhaseLag => MotorField::PhaseLag,
+            Self::Amplitude => MotorField::Amplitude,
+            Self::TwistAmplitude => MotorField::TwistAmplitude,
+        }
+    }
+
     /// The name of the field of [`MotorParameters`].
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Friction => "friction",
-            Self::Restitution => "restitution",
-            Self::PhaseLag => "phase_lag",
-            Self::Amplitude => "amplitude",
-            Self::TwistAmplitude => "twist_amplitude",
-        }
+        self.field().name()
+    }
+
+    /// Its unit as it is written: `rad`; `1` for a number without a unit.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        self.field().unit()
     }
 
     /// Its value for a motor (SI).
@@ -72,16 +84,6 @@ impl FitParameter {
         if self.is_size() { exp(coordinate) } else { coordinate }
     }
 
-    /// Its unit as it is written: `rad`; `1` for a number without a unit.
-    #[must_use]
-    pub const fn unit(self) -> &'static str {
-        match self {
-            Self::Friction | Self::Restitution => "1",
-            Self::PhaseLag | Self::TwistAmplitude => "rad",
-            Self::Amplitude => "m",
-        }
-    }
-
     /// Checks that a motor may have this value.
     pub(crate) fn check(self, field: &'static str, value: f64) -> Result<f64, Error> {
         if self.is_size() {
@@ -95,15 +97,11 @@ impl FitParameter {
 
     /// Writes a value into a data sheet.
     pub(crate) fn set(self, sheet: &mut MotorParameters, value: f64) {
-        match self {
-            Self::Friction => sheet.friction = value,
-            Self::Restitution => sheet.restitution = value,
-            Self::PhaseLag => sheet.phase_lag = value,
-            Self::Amplitude => sheet.amplitude = value,
-            Self::TwistAmplitude if sheet.peak_angular_speed.is_some() => {
+        match sheet.peak_angular_speed {
+            Some(_) if self == Self::TwistAmplitude => {
                 sheet.peak_angular_speed = Some(value * (TAU * sheet.drive_frequency));
             }
-            Self::TwistAmplitude => sheet.twist_amplitude = Some(value),
+            _ => self.field().set(sheet, value),
         }
     }
 }

@@ -5,8 +5,8 @@ use bouncing_disk_core::{ChatterSeries, ImpactRange, Launch, Phase, PowerSeries}
 
 use crate::motion::chatter::Chatter;
 use crate::motion::impact::friction_impact;
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
-use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Pieces that a chatter can have by the signs of what friction has to spare

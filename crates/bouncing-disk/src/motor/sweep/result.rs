@@ -70,16 +70,7 @@ impl MotorSweepResult {
     /// runaway, and for an efficiency that there is not.
     #[must_use]
     pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
-        self.map(|operation| quantity.of(operation).map(|estimate| estimate.value))
-    }
-
-    /// The standard errors of [`Self::matrix`].
-    #[must_use]
-    pub fn error_matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
-        self.map(|operation| quantity.of(operation).map(|estimate| estimate.standard_error))
-    }
-
-    fn map(&self, value: impl Fn(&Operation) -> Option<f64>) -> Vec<Vec<Option<f64>>> {
-        self.rows().map(|row| row.iter().map(&value).collect()).collect()
+        let of = |operation: &Operation| quantity.of(operation).map(|estimate| estimate.value);
+        self.rows().map(|row| row.iter().map(of).collect()).collect()
     }
 }

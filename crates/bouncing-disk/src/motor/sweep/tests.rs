@@ -59,12 +59,10 @@ fn the_rows_of_a_map_are_curves() {
     assert_ne!(by_rows.cells()[0], by_rows.cells()[5]);
     let speeds = by_rows.matrix(SweepQuantity::Speed);
     assert_eq!(speeds[1][4], None);
-    let (matrix, errors) =
-        (by_columns.matrix(SweepQuantity::Speed), by_columns.error_matrix(SweepQuantity::Speed));
+    let matrix = by_columns.matrix(SweepQuantity::Speed);
     for (row, speeds) in speeds.iter().enumerate() {
         for (column, speed) in speeds.iter().enumerate() {
             assert_eq!(matrix[column][row].map(f64::to_bits), speed.map(f64::to_bits));
-            assert_eq!(errors[column][row].is_some(), speed.is_some());
         }
     }
 }
@@ -84,8 +82,7 @@ fn a_map_of_one_motion_is_one_group() {
         let sheet = motor.parameters();
         assert_eq!(values, [(MotorField::PhaseLag, sheet.phase_lag), (MotorField::Friction, sheet.friction)]);
     }
-    let error = sweep.motor_of(9).expect_err("there are nine");
-    assert!(matches!(error, Error::OutOfRange { field: "cell of a sweep", .. }), "{error}");
+    assert_eq!(crate::testing::refused_field(sweep.motor_of(9)), "cell of a sweep");
 }
 
 #[test]

@@ -3,7 +3,7 @@ use std::{fs, io};
 use super::*;
 use crate::estimate::measured_speeds::error::HEADER;
 
-fn read(text: impl AsRef<[u8]>) -> Result<MeasuredSpeeds, Fault> {
+fn read(text: impl AsRef<[u8]>) -> Result<MeasuredSpeeds, MeasuredSpeedsError> {
     MeasuredSpeeds::from_csv_reader("demo.csv", text.as_ref(), &CsvColumns::default())
 }
 
@@ -95,7 +95,7 @@ fn values_are_read_as_instruments_write_them() {
 #[test]
 fn a_wrong_header_is_named() {
     let legal = HEADER;
-    assert_eq!(fault(""), format!("\"demo.csv\" is empty; a line must name the columns: {legal}"));
+    assert_eq!(fault(""), format!("\"demo.csv\": it is empty; a line must name the columns: {legal}"));
     assert_eq!(fault("\u{feff}"), fault(""));
     assert_eq!(fault("\n# nothing\r\n\r\n"), fault(""));
     assert_eq!(
@@ -122,15 +122,15 @@ fn a_wrong_header_is_named() {
 fn a_wrong_line_is_named_with_what_to_do() {
     assert_eq!(
         fault_of("0.1,fast"),
-        "\"demo.csv\", line 3, field 2 (speed_rad_s): \"fast\" is not legal; legal is a finite number"
+        "\"demo.csv\", line 3, field 2: \"fast\" is not legal in the column speed_rad_s; legal is a finite number"
     );
     for text in ["", "NaN", "inf", "-infinity", "1e999", "1e-400", "0x10", "1 2", "1.2.3", "−1"] {
-        assert!(fault_of(&format!("0.1,{text}")).contains("line 3, field 2 (speed_rad_s)"), "{text}");
-        assert!(fault_of(&format!("{text},1")).contains("line 3, field 1 (time_s)"), "{text}");
+        assert!(fault_of(&format!("0.1,{text}")).contains("line 3, field 2: "), "{text}");
+        assert!(fault_of(&format!("{text},1")).contains("line 3, field 1: "), "{text}");
     }
     assert_eq!(
         fault_of("\"0,5\",1"),
-        "\"demo.csv\", line 3, field 1 (time_s): \"0,5\" has a decimal comma; write a decimal point"
+        "\"demo.csv\", line 3, field 1: \"0,5\" in the column time_s has a decimal comma; write a decimal point"
     );
     assert_eq!(
         fault_of("0,5,1,25"),
@@ -143,7 +143,7 @@ fn a_wrong_line_is_named_with_what_to_do() {
     assert!(fault_of("0.5,\"1\n2\"").contains("line 3, field 2: a quotation mark is not closed"));
     for member in ["-1", "1.5", "4294967296", "", "a"] {
         let text = format!("time_s,speed_rad_s,member\n0,0,{member}\n");
-        assert!(fault(text).contains("line 2, field 3 (member)"), "{member}");
+        assert!(fault(text).contains("line 2, field 3: "), "{member}");
     }
 }
 
@@ -153,13 +153,13 @@ fn times_that_do_not_rise_are_named() {
         assert_eq!(
             fault(format!("time_s,speed_rad_s\n0,0\n\n0.5,1\n{time},2\n")),
             format!(
-                "\"demo.csv\", line 5, field 1 (time_s): {told} follows 0.5 in the run of member 0; sort the lines by time, \
+                "\"demo.csv\", line 5, field 1: time_s = {told} follows 0.5 in the run of member 0; sort the lines by time, \
                  remove repeated ones, or number the runs in a column member"
             )
         );
     }
     let runs = "member,time_s,speed_rad_s\n1,0,0\n2,5,0\n1,1,0\n2,5,0\n";
-    assert!(fault(runs).contains("line 5, field 2 (time_s): 5.0 follows 5.0 in the run of member 2"));
+    assert!(fault(runs).contains("line 5, field 2: time_s = 5.0 follows 5.0 in the run of member 2"));
 }
 
 #[test]
@@ -191,9 +191,9 @@ fn a_million_lines_are_read_and_a_huge_line_is_not() {
     }
     let endless = MeasuredSpeeds::from_csv_reader("endless", io::repeat(b'0'), &CsvColumns::default())
         .expect_err("never ends");
-    assert!(matches!(endless, Fault::Unreadable { .. }), "{endless}");
+    assert!(matches!(endless, MeasuredSpeedsError::Unreadable { .. }), "{endless}");
     let text = "0,0\n".repeat(20 << 20);
-    assert!(matches!(read(text), Err(Fault::Unreadable { .. })), "80 MiB");
+    assert!(matches!(read(text), Err(MeasuredSpeedsError::Unreadable { .. })), "80 MiB");
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn only_regular_files_are_read() {
     let told = MeasuredSpeeds::from_csv(&file).expect_err("malformed").to_string();
     assert!(told.contains("speeds.csv\", line 1"), "{told}");
     let reason = |path: &Path| match MeasuredSpeeds::from_csv(path) {
-        Err(Fault::Unreadable { source, .. }) => source,
+        Err(MeasuredSpeedsError::Unreadable { source, .. }) => source,
         other => panic!("{other:?}"),
     };
     assert_eq!(reason(&folder.join("none.csv")).kind(), io::ErrorKind::NotFound);

@@ -158,8 +158,7 @@ fn what_has_no_sensitivity_is_refused() {
         (SensitivitySettings { points: 4, ..quick() }, "points"),
         (SensitivitySettings { points: 10_001, ..quick() }, "points"),
     ] {
-        let error = of(&motor, &[P::Friction], &settings).expect_err("illegal");
-        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+        assert_eq!(crate::testing::refused_field(of(&motor, &[P::Friction], &settings)), name);
     }
     // A plastic rotor repeats a ramp whatever the preload: nothing is left for a line.
     let plastic = P::Restitution.set(&motor, 0.0).expect("legal");
