@@ -39,7 +39,7 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `serde` | yes | `Serialize` for every result; `Deserialize` for systems, motors, settings and what a stopped run goes on with |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
@@ -47,8 +47,9 @@
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is
-//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
+//! Systems, motors and the settings of users pass the checks of what is made when they are read: a value outside its
+//! range, a key that is missing, unless it is that of an optional value, and one that is unknown are errors. An infinite
+//! error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
 //! The feature `json` switches on `float_roundtrip` of `serde_json`; without either a third of all numbers change in the
 //! last bit when they are read as JSON.
 //!

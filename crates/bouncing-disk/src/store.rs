@@ -1,6 +1,5 @@
 //! What is stored: where a file comes from, and the journal of a long computation.
 
-pub(crate) mod complete_file;
 pub(crate) mod error;
 pub(crate) mod journal;
 pub(crate) mod provenance;

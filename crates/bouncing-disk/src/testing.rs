@@ -18,6 +18,21 @@ pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
         .expect("legal")
 }
 
+/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;
+/// radii, friction and restitution of Table III.
+pub(crate) fn tried_motor() -> System {
+    let angular_frequency = TAU * 40e3;
+    System::motor()
+        .with_platform(|stator| {
+            stator.angular_frequency = angular_frequency;
+            stator.amplitude = 0.5e-6;
+            stator.twist_amplitude = 12.0 / angular_frequency;
+            stator.phase_lag = PI / 6.0;
+        })
+        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 / 0.02))
+        .expect("legal")
+}
+
 /// The field of a number that is refused because it is out of range.
 pub(crate) fn refused_field<T: std::fmt::Debug>(
     result: Result<T, impl Into<crate::FitError> + std::fmt::Debug>,

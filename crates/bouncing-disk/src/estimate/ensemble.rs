@@ -170,6 +170,7 @@ mod tests {
             let named = Error::OutOfRange { field: "value of a spread", value, legal: "finite" };
             assert_eq!(Spread::of(&[1.0, value, 2.0]), Err(named));
         }
+        assert!(Spread::of(&[]).is_err());
         let error = Spread::of(&[1.0, f64::NAN]).expect_err("not a number").to_string();
         assert!(error.contains("value of a spread"), "{error}");
     }
@@ -363,16 +364,6 @@ mod tests {
                 "{error}"
             );
         }
-    }
-
-    #[test]
-    fn a_spread_of_nothing_is_refused() {
-        assert!(Spread::of(&[]).is_err());
-        for bad in [f64::NAN, f64::INFINITY] {
-            assert!(Spread::of(&[1.0, bad]).is_err());
-        }
-        let one = Spread { mean: 3.0, deviation: 0.0, standard_error: 0.0 };
-        assert_eq!(Spread::of(&[3.0]), Ok(one));
     }
 
     /// Their squares overflowed or vanished.

@@ -2,14 +2,14 @@
 //!
 //! What is varied is in `sweep/axis.rs`; which cells are computed together in `sweep/groups.rs`; the run, which may
 //! be stopped and gone on with, in `sweep/run.rs`; what comes out, as numbers and as a table, in `sweep/result.rs`,
-//! `sweep/quantity.rs` and `sweep/csv_table.rs`. The journal and the files are in `sweep/files.rs`.
+//! `sweep/quantity.rs` and `sweep/csv_table.rs`, its journal in `sweep/journal.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
 mod csv_table;
-#[cfg(feature = "storage")]
-mod files;
 mod groups;
+#[cfg(feature = "storage")]
+mod journal;
 pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;

@@ -44,13 +44,7 @@ impl Default for ParameterFitSettings {
 impl ParameterFitSettings {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let Self {
-            members,
-            windows,
-            relaunch_perturbation,
-            seed: _,
-            most_evaluations,
-            resamples,
-            largest_misfit,
+            members, windows, relaunch_perturbation, most_evaluations, resamples, largest_misfit, ..
         } = *self;
         check((24..=4096).contains(&members), "members", members as f64, "[24, 4096]")?;
         check((1..=12).contains(&windows), "windows", windows as f64, "[1, 12]")?;

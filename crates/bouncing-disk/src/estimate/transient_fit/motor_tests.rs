@@ -1,32 +1,16 @@
 //! Fits of a motor whose short and coarse transients gave speeds far above that of its stator.
 
-use std::f64::consts::{FRAC_PI_6, TAU};
-
 use super::*;
 use crate::estimate::ensemble::{TransientEnsemble, ensemble};
 use crate::motor::rotor::transient::TransientSettings;
-use crate::parameters::system::System;
+use crate::testing::tried_motor;
 
 /// The largest speed of its stator (rad/s).
 const STATOR_SPEED: f64 = 12.0;
 
-/// 40 kHz, 0.5 um, 12 rad/s, a lag of 30 degrees, and 20 g that a spring presses on with 5 N.
-fn motor() -> System {
-    let angular_frequency = TAU * 40e3;
-    System::motor()
-        .with_platform(|stator| {
-            stator.angular_frequency = angular_frequency;
-            stator.amplitude = 0.5e-6;
-            stator.twist_amplitude = STATOR_SPEED / angular_frequency;
-            stator.phase_lag = FRAC_PI_6;
-        })
-        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 / 0.02))
-        .expect("legal")
-}
-
 fn curves(duration: f64, intervals: usize, members: usize, seed: u64) -> Vec<SpeedCurve> {
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
-    ensemble(&motor(), &settings, members, &Unobserved).expect("no failure").curves
+    ensemble(&tried_motor(), &settings, members, &Unobserved).expect("no failure").curves
 }
 
 fn fit(duration: f64, intervals: usize, members: usize, seed: u64) -> Result<TransientFit, FitError> {

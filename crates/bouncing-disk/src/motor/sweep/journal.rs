@@ -1,35 +1,18 @@
-//! A sweep of a motor with a journal, and the files of its result.
+//! A sweep of a motor with a journal.
 
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use bouncing_disk_core::{ChatterPolicy, Observer, Progress};
-use serde_json::json;
 
-use crate::motor::data_sheet::Motor;
 use crate::motor::operation::point::Operation;
-use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sweep::MotorSweep;
 use crate::motor::sweep::result::MotorSweepResult;
 use crate::motor::sweep::run::MotorSweepRun;
-use crate::store::complete_file::write_complete;
 use crate::store::error::StorageError;
 use crate::store::journal::{JOURNAL, Journal};
-use crate::store::provenance::{Format, Provenance};
-
-/// The format of a [`MotorSweepResult`] as JSON and CSV. Its provenance has the motor and the settings.
-const MOTOR_SWEEP: Format = Format { name: "bouncing-disk motor sweep", version: 1, oldest: 1 };
-
-/// Says where a sweep comes from.
-fn provenance(
-    format: Format,
-    motor: &Motor,
-    settings: &OperatingSettings,
-) -> Result<Provenance, StorageError> {
-    let of_motor = Provenance::new(format).with("motor", motor)?.with("settings", settings)?;
-    Ok(of_motor.with_seed(settings.seed).with_chatter_policy(ChatterPolicy::Complete))
-}
+use crate::store::provenance::Provenance;
 
 impl MotorSweep {
     /// [`Self::run`] with a [`Journal`]: each group of cells ([`Self::groups`]) is appended when it is
@@ -99,8 +82,13 @@ impl MotorSweep {
 
     /// All that the result depends on.
     fn key(&self) -> Result<Provenance, StorageError> {
-        let of_motor = provenance(JOURNAL, self.motor(), self.settings())?;
-        of_motor.with("computation", "sweep of a motor")?.with("axes", self.axes())
+        Ok(Provenance::new(JOURNAL)
+            .with("motor", self.motor())?
+            .with("settings", self.settings())?
+            .with("computation", "sweep of a motor")?
+            .with("axes", self.axes())?
+            .with_seed(self.settings().seed)
+            .with_chatter_policy(ChatterPolicy::Complete))
     }
 }
 
@@ -121,49 +109,6 @@ impl Writer {
 /// An observer of the caller that panics in another thread leaves it as it is.
 fn locked(writer: &Mutex<Writer>) -> MutexGuard<'_, Writer> {
     writer.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-impl MotorSweepResult {
-    /// Where this result comes from: the motor, the settings, the seed and the policy.
-    ///
-    /// # Errors
-    /// [`StorageError::NotStorable`] for what JSON cannot hold; there is no such number in a result that was computed.
-    pub fn provenance(&self) -> Result<Provenance, StorageError> {
-        provenance(MOTOR_SWEEP, self.motor(), self.settings())
-    }
-
-    /// The result as JSON, to the last bit: an object with the `provenance`, in it the motor and the settings, the `axes`
-    /// and the `cells` row by row.
-    ///
-    /// # Errors
-    /// Those of [`Self::provenance`].
-    pub fn to_json(&self) -> Result<String, StorageError> {
-        let failed = |source| StorageError::NotStorable { what: "the result of a sweep".to_owned(), source };
-        let content = json!({ "provenance": self.provenance()?, "axes": self.axes(), "cells": self.cells() });
-        let text = serde_json::to_string_pretty(&content).map_err(failed)?;
-        Ok(text + "\n")
-    }
-
-    /// Writes [`Self::to_json`] to a file. A file of that name is replaced, as a whole or not at all.
-    ///
-    /// # Errors
-    /// Those of [`Self::to_json`]; [`StorageError::Io`] if the system refuses.
-    pub fn write_json(&self, path: impl AsRef<Path>) -> Result<(), StorageError> {
-        write_complete(path.as_ref(), self.to_json()?.as_bytes())
-    }
-
-    /// Writes the table of [`Self::to_csv`] to a file, behind a first line that says where it comes from:
-    /// `# provenance: ` and JSON. A file of that name is replaced, as a whole or not at all.
-    ///
-    /// # Errors
-    /// Those of [`Self::provenance`]; [`StorageError::Io`] if the system refuses.
-    #[cfg(feature = "csv")]
-    pub fn write_csv(&self, path: impl AsRef<Path>) -> Result<(), StorageError> {
-        let failed = |source| StorageError::NotStorable { what: "a provenance".to_owned(), source };
-        let provenance = serde_json::to_string(&self.provenance()?).map_err(failed)?;
-        let text = format!("# provenance: {provenance}\n{}", self.to_csv());
-        write_complete(path.as_ref(), text.as_bytes())
-    }
 }
 
 #[cfg(test)]

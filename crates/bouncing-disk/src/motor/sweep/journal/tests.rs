@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::motor::sweep::tests::{mixed, rough};
-use crate::{Error, MotorField, SweepAxis, Unobserved};
+use crate::{Error, Motor, MotorField, OperatingSettings, SweepAxis, Unobserved};
 
 /// A folder of its own, removed at the end.
 struct Scratch(PathBuf);
@@ -97,34 +97,4 @@ fn the_journal_of_another_sweep_is_refused_by_name() {
         assert!(matches!(error, StorageError::OtherKey { .. }) && text.contains(field), "{text}");
     }
     assert_eq!(sweep.run_with_journal(&path, &Unobserved).expect("its own"), result);
-}
-
-#[test]
-fn a_file_holds_the_numbers_and_says_where_they_come_from() {
-    let scratch = Scratch::new("files");
-    let path = scratch.path("map.json");
-    let result = mixed().run(&Unobserved).expect("no failure");
-    result.write_json(&path).expect("writable");
-    let text = fs::read_to_string(&path).expect("readable");
-    assert_eq!(text, result.to_json().expect("storable"));
-    let stored: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-    let provenance = Provenance::read(MOTOR_SWEEP, &stored["provenance"], &path).expect("of this format");
-    assert_eq!(provenance, result.provenance().expect("storable"));
-    assert_eq!(provenance.parameters()["motor"], json!(result.motor()));
-    // To the last bit.
-    let cells: Vec<Operation> = serde_json::from_value(stored["cells"].clone()).expect("legal");
-    assert_eq!(cells, result.cells());
-    #[cfg(feature = "csv")]
-    {
-        let path = scratch.path("map.csv");
-        result.write_csv(&path).expect("writable");
-        let text = fs::read_to_string(&path).expect("readable");
-        let (first, table) = text.split_once('\n').expect("lines");
-        assert_eq!(table, result.to_csv());
-        let stored = first.strip_prefix("# provenance: ").expect("a comment");
-        assert_eq!(serde_json::from_str::<Provenance>(stored).expect("JSON"), provenance);
-        // Other readers skip the comment.
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(&path).expect("readable");
-        assert_eq!(reader.records().filter(Result::is_ok).count(), 21);
-    }
 }
