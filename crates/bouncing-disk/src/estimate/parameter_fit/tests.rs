@@ -227,7 +227,7 @@ fn a_restitution_is_found_with_the_error_of_its_rough_response() {
     let runs = at_all_preloads(0.4, 9);
     let fit = ParameterFit::new(&sheet, &runs, &[RESTITUTION], &settings, &Unobserved).expect("fitted");
     let found = fit.estimate(FitParameter::Restitution).expect("determined");
-    assert!(found.contains(0.5) && found.low > 0.35 && found.high < 0.65, "{found:?}");
+    assert!(found.contains(0.5) && !found.contains(0.3) && found.high < 0.65, "{found:?}");
     assert!(found.high - found.low > 0.05, "{found:?}");
 }
 
