@@ -203,9 +203,10 @@ impl TransientFit {
     /// of neighbours.
     ///
     /// # Errors
-    /// [`FitError::Refused`] says why the fit would mean nothing; [`Error::OutOfRange`] names illegal settings, curves that
-    /// cannot be fitted, or times that differ between members; an error of the core for more than
-    /// [`MAX_MEMBERS`] members or more than [`MAX_SPEEDS`] speeds of all together.
+    /// [`FitError::Refused`] says why the fit would mean nothing;
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted, or
+    /// times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or more than
+    /// [`MAX_SPEEDS`] speeds of all together.
     pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, FitError> {
         settings.check()?;
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);

@@ -45,7 +45,7 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
     Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
 }
 
-/// The members of an [`ensemble`](ensemble()): `members` >= 1 transients with starting phases spread evenly
+/// The members of an [`ensemble`](crate::ensemble()): `members` >= 1 transients with starting phases spread evenly
 /// over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`: ensembles that are to be independent of each other need
 /// seeds that lie at least `members` apart.
 ///
