@@ -70,7 +70,8 @@ const AT_END: f64 = 1.0e-6;
 /// };
 ///
 /// let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
-/// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &ParameterFitSettings::default())?;
+/// let settings = ParameterFitSettings::default();
+/// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &settings, &Unobserved)?;
 /// let found = fit.estimate(FitParameter::Friction).expect("determined");
 /// assert!((found.value - 0.2).abs() < 0.04);
 /// // Printed, it is a table.
