@@ -20,11 +20,9 @@ include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Of the cache key itself; the files have their own.
-    #[serde(default)]
-    provenance: Option<Provenance>,
+    provenance: Provenance,
     key: String,
     /// The digest of the user's measurements in it; empty when there were none.
-    #[serde(default)]
     measured: String,
     /// The quality it was made in.
     pub quality: Quality,
@@ -34,64 +32,52 @@ pub struct CacheKey {
 }
 
 /// Why a figure is not up to date.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stale {
     /// There is no cache key: never made, or the run was interrupted.
+    #[error("not made yet")]
     Missing,
-    /// The files are of a format that is newer than this program.
+    /// The files are of a format that is newer than this program: their format, who wrote it, and what this program reads.
+    #[error("{message}")]
     Newer {
-        /// Their format, who wrote it, and what this program reads.
+        /// All that.
         message: String,
     },
     /// Made in another quality.
+    #[error("made in {found} quality")]
     Quality {
         /// The quality found.
         found: Quality,
     },
     /// The sources have changed.
+    #[error("the sources have changed")]
     Sources,
     /// The user's measurements have changed.
+    #[error("the measurements have changed")]
     Measurements,
     /// A file is missing or was changed.
+    #[error("{name} is missing or was changed")]
     File {
         /// Its name.
         name: String,
     },
 }
 
-impl std::fmt::Display for Stale {
-    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Missing => formatter.write_str("not made yet"),
-            Self::Newer { message } => formatter.write_str(message),
-            Self::Quality { found } => write!(formatter, "made in {found} quality"),
-            Self::Sources => formatter.write_str("the sources have changed"),
-            Self::Measurements => formatter.write_str("the measurements have changed"),
-            Self::File { name } => write!(formatter, "{name} is missing or was changed"),
-        }
-    }
-}
-
 impl CacheKey {
     /// A cache key of files made by this version with the user's measurements of the digest `measured`.
-    pub fn new<'a>(
-        id: &str,
-        quality: Quality,
-        measured: &str,
-        run_time_s: f64,
-        files: impl IntoIterator<Item = (&'a str, &'a [u8])>,
-    ) -> Self {
-        let files = files.into_iter().map(|(name, bytes)| (name.to_owned(), digest(bytes))).collect();
-        let provenance = Some(provenance::new(provenance::CACHE_KEY));
+    pub fn new(id: &str, quality: Quality, measured: &str, run_time_s: f64, files: &[(&str, &[u8])]) -> Self {
+        let files = files.iter().map(|(name, bytes)| ((*name).to_owned(), digest(bytes))).collect();
+        let provenance = provenance::new(provenance::CACHE_KEY);
         Self { provenance, key: key(id, quality), measured: measured.to_owned(), quality, run_time_s, files }
     }
 
+    /// As it is stored.
+    pub fn to_text(&self) -> String {
+        // Names, texts and a finite time can be stored.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+
     /// Reads the cache key of a figure.
-    ///
-    /// # Errors
-    ///
-    /// [`Stale::Newer`] where a newer program wrote it; [`Stale::Missing`] where it is none.
     pub fn read(id: &str, bytes: &[u8]) -> Result<Self, Stale> {
         let stored: Value = serde_json::from_slice(bytes).map_err(|_| Stale::Missing)?;
         provenance::refuse_newer(provenance::CACHE_KEY, stored.get("provenance"), &format!("{id}.cache-key"))
@@ -116,10 +102,6 @@ impl CacheKey {
 
     /// Compares the cache key with this version, with the digest of the measurements and with the files; `read` gives the
     /// content of a file.
-    ///
-    /// # Errors
-    ///
-    /// The first reason to make the figure again.
     pub fn check(
         &self,
         id: &str,
@@ -172,54 +154,42 @@ mod tests {
 
     #[test]
     fn every_change_is_seen() {
-        let cache_key = CacheKey::new("demo", Quality::Draft, "d1", 1.5, [("demo.json", b"{}".as_slice())]);
-        let same = |name: &str| (name == "demo.json").then(|| b"{}".to_vec());
-        assert_eq!(cache_key.check("demo", Quality::Draft, "d1", same), Ok(()));
-        let found = Quality::Draft;
-        assert_eq!(cache_key.check("demo", Quality::Paper, "d1", same), Err(Stale::Quality { found }));
-        assert_eq!(cache_key.check("demo", Quality::Draft, "", same), Err(Stale::Measurements));
-        let name = "demo.json".to_owned();
-        assert_eq!(
-            cache_key.check("demo", Quality::Draft, "d1", |_| None),
-            Err(Stale::File { name: name.clone() })
-        );
-        assert_eq!(
-            cache_key.check("demo", Quality::Draft, "d1", |_| Some(vec![0])),
-            Err(Stale::File { name })
-        );
-        let older = CacheKey { key: "0".to_owned(), ..cache_key };
-        assert_eq!(older.check("demo", Quality::Draft, "d1", same), Err(Stale::Sources));
-    }
-
-    #[test]
-    fn it_says_where_it_comes_from_and_a_newer_one_is_refused_by_name() {
-        let cache_key = CacheKey::new("demo", Quality::Draft, "", 1.5, []);
-        let mut stored = serde_json::to_value(&cache_key).expect("storable");
-        assert_eq!(CacheKey::read("demo", stored.to_string().as_bytes()), Ok(cache_key));
-        assert_eq!(stored["provenance"]["program"], "bouncing-disk-experiments");
-        stored["provenance"]["format_version"] = 2.into();
-        stored["files"] = 3.into();
-        let Err(stale @ Stale::Newer { .. }) = CacheKey::read("demo", stored.to_string().as_bytes()) else {
-            panic!("newer");
+        let cache_key = CacheKey::new("demo", Quality::Draft, "d1", 1.5, &[("demo.json", b"{}".as_slice())]);
+        let check = |quality, measured, bytes: Option<&[u8]>| {
+            cache_key.check("demo", quality, measured, |_| bytes.map(<[u8]>::to_vec))
         };
-        let text = stale.to_string();
-        assert!(text.starts_with("\"demo.cache-key\" has version 2 of the format"), "{text}");
-        // Of a version that did not say where it comes from, and no cache key at all.
-        let older = br#"{"key":"","quality":"draft","run_time_s":1,"files":{}}"#;
-        assert!(CacheKey::read("demo", older).is_ok());
-        assert_eq!(CacheKey::read("demo", b"{"), Err(Stale::Missing));
-    }
-
-    #[test]
-    fn the_key_depends_on_figure_and_quality() {
+        let found = Quality::Draft;
+        let name = || "demo.json".to_owned();
+        assert_eq!(check(found, "d1", Some(b"{}")), Ok(()));
+        assert_eq!(check(Quality::Paper, "d1", Some(b"{}")), Err(Stale::Quality { found }));
+        assert_eq!(check(found, "", Some(b"{}")), Err(Stale::Measurements));
+        assert_eq!(check(found, "d1", None), Err(Stale::File { name: name() }));
+        assert_eq!(check(found, "d1", Some(b"0")), Err(Stale::File { name: name() }));
+        let older = CacheKey { key: "0".to_owned(), ..cache_key.clone() };
+        let same = |_: &str| Some(b"{}".to_vec());
+        assert_eq!(older.check("demo", found, "d1", same), Err(Stale::Sources));
         assert_ne!(key("demo", Quality::Draft), key("demo", Quality::Paper));
         assert_ne!(key("demo", Quality::Draft), key("other", Quality::Draft));
     }
 
     #[test]
+    fn it_says_where_it_comes_from_and_a_newer_one_is_refused_by_name() {
+        let cache_key = CacheKey::new("demo", Quality::Draft, "", 1.5, &[]);
+        let mut stored: Value = serde_json::from_str(&cache_key.to_text()).expect("JSON");
+        assert_eq!(CacheKey::read("demo", stored.to_string().as_bytes()), Ok(cache_key));
+        assert_eq!(stored["provenance"]["program"], "bouncing-disk-experiments");
+        stored["provenance"]["format_version"] = 2.into();
+        stored["files"] = 3.into();
+        let stale = CacheKey::read("demo", stored.to_string().as_bytes()).expect_err("newer");
+        let text = stale.to_string();
+        assert!(text.starts_with("\"demo.cache-key\" has version 2 of the format"), "{text}");
+        assert_eq!(CacheKey::read("demo", b"{"), Err(Stale::Missing));
+    }
+
+    #[test]
     fn every_experiment_has_a_module_by_its_name() {
         for entry in crate::registry::all() {
-            let name = entry.id().replace('-', "_");
+            let name = entry.id.replace('-', "_");
             assert!(MODULES.iter().any(|(module, _)| *module == name), "{name}");
         }
     }

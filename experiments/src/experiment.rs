@@ -3,19 +3,19 @@
 use std::fmt;
 use std::str::FromStr;
 
-use bouncing_disk::StorageError;
 use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::{Format, Provenance, StorageError};
 use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use crate::answers;
-use crate::catalogue::CatalogueError;
-use crate::claim::Claim;
-use crate::finite::{self, FiniteError};
-use crate::measured::{Layout, MeasuredError, Series};
+use crate::claims::catalogue::CatalogueError;
+use crate::claims::{Claim, answers};
+use crate::json::{self, FiniteError};
+use crate::measured::{Layout, MeasuredError, Measurements, Series};
 use crate::progress::Progress;
+use crate::provenance;
 use crate::table::{Table, TableError};
 
 /// How finely an experiment samples its parameters.
@@ -180,7 +180,7 @@ pub trait Experiment: Sync + Send + 'static {
     const TITLE: &'static str;
 
     /// What the figure shows, in a paragraph for `docs/results.md`; nothing for a figure beyond the paper. `{section4.merging}` stands for the computed number
-    /// of the claim that answers this entry of the [catalogue](crate::catalogue).
+    /// of the claim that answers this entry of the [catalogue](crate::claims::catalogue).
     const DISCUSSION: &'static str = "";
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
@@ -197,31 +197,19 @@ pub trait Experiment: Sync + Send + 'static {
     fn caption(data: &Self::Data) -> String;
 
     /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
-    ///
-    /// # Errors
-    ///
-    /// When the model fails.
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
 
     /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
     /// numbers stay what they are; after an error the data are unchanged.
-    ///
-    /// # Errors
-    ///
-    /// When the fit to the measurements is not defined.
     fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
         Ok(())
     }
 
     /// Draws the data.
-    ///
-    /// # Errors
-    ///
-    /// When the data cannot be drawn.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
     /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
-    /// [catalogue](crate::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
+    /// [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
     /// added by the framework.
     fn claims(_data: &Self::Data) -> Vec<Claim> {
         Vec::new()
@@ -238,163 +226,251 @@ pub trait Experiment: Sync + Send + 'static {
     }
 }
 
-/// An experiment whose data type is erased, so that a registry can hold all of them.
-pub trait RegisteredExperiment: Sync + Send {
-    /// See [`Experiment::ID`].
-    fn id(&self) -> &'static str;
-
-    /// See [`Experiment::TITLE`].
-    fn title(&self) -> &'static str;
-
-    /// See [`Experiment::MEASUREMENTS`].
-    fn measurements(&self) -> &'static [Layout] {
-        &[]
-    }
-
-    /// See [`Experiment::seeds`].
-    fn seeds(&self) -> Vec<(&'static str, u64)> {
-        Vec::new()
-    }
-
-    /// See [`Experiment::CHATTER_POLICY`].
-    fn chatter_policy(&self) -> Option<ChatterPolicy> {
-        None
-    }
-
-    /// Computes the data.
-    ///
-    /// # Errors
-    ///
-    /// When the model fails.
-    fn compute(
-        &self,
-        quality: Quality,
-        progress: &dyn Progress,
-    ) -> Result<Box<dyn ErasedData>, ExperimentError>;
-
-    /// Reads data that an earlier run stored.
-    ///
-    /// # Errors
-    ///
-    /// When another version wrote them and they do not fit.
-    fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError>;
-}
-
-/// The data of one experiment, whatever their type, and what can be made from them.
-pub trait ErasedData: Send + Sync {
-    /// See [`Experiment::overlay`].
-    ///
-    /// # Errors
-    ///
-    /// When the fit to the measurements is not defined.
-    fn overlay(&mut self, series: &Series) -> Result<(), ExperimentError>;
-
+/// Data of an experiment, whatever their type, and all that is made from them.
+#[derive(Debug)]
+pub struct Made {
     /// The data as JSON.
-    ///
-    /// # Errors
-    ///
-    /// When a number is not finite; JSON has no way to write it and would silently hold `null`.
-    fn to_json(&self) -> Result<Value, ExperimentError>;
-
-    /// See [`Experiment::draw`].
-    ///
-    /// # Errors
-    ///
-    /// When the data cannot be drawn.
-    fn draw(&self) -> Result<Figure, ExperimentError>;
-
-    /// See [`Experiment::claims`].
-    fn claims(&self) -> Vec<Claim>;
-
+    pub data: Value,
     /// See [`Experiment::caption`].
-    fn caption(&self) -> String;
-
-    /// See [`Experiment::DISCUSSION`].
-    fn discussion(&self) -> &'static str;
-
+    pub caption: String,
     /// See [`Experiment::parameters`].
-    fn parameters(&self) -> Vec<(String, String)>;
-
+    pub parameters: Vec<(String, String)>,
+    /// See [`Experiment::claims`]; with those of entries that nothing can be computed for.
+    pub claims: Vec<Claim>,
     /// See [`Experiment::table`].
-    fn table(&self) -> Option<Table>;
+    pub table: Option<Table>,
+    /// See [`Experiment::draw`].
+    pub figure: Figure,
+    /// Faults of the user's measurements that are therefore not shown.
+    pub warnings: Vec<String>,
 }
 
-/// The type-erased form of the experiment `E`, for the registry.
-pub fn entry<E: Experiment>() -> Box<dyn RegisteredExperiment> {
-    Box::new(Erased::<E>(std::marker::PhantomData))
+impl Made {
+    fn of<E: Experiment>(data: &E::Data) -> Result<Self, ExperimentError> {
+        let mut claims = E::claims(data);
+        claims.extend(answers::not_computable(E::ID));
+        if let Some(claim) = claims.iter().find(|claim| claim.lacks_data()) {
+            return Err(ExperimentError::NoData { quantity: claim.quantity.clone() });
+        }
+        Ok(Self {
+            data: json::to_value(data)?,
+            caption: E::caption(data),
+            parameters: E::parameters(data),
+            claims,
+            table: E::table(data),
+            figure: E::draw(data)?,
+            warnings: Vec::new(),
+        })
+    }
 }
 
-struct Erased<E>(std::marker::PhantomData<E>);
+/// An experiment whose data type is erased, so that a list can hold all of them.
+#[derive(Debug)]
+pub struct RegisteredExperiment {
+    /// See [`Experiment::ID`].
+    pub id: &'static str,
+    /// See [`Experiment::TITLE`].
+    pub title: &'static str,
+    /// See [`Experiment::DISCUSSION`].
+    pub discussion: &'static str,
+    /// See [`Experiment::MEASUREMENTS`].
+    pub measurements: &'static [Layout],
+    /// See [`Experiment::seeds`].
+    pub seeds: Vec<(&'static str, u64)>,
+    /// See [`Experiment::CHATTER_POLICY`].
+    pub chatter_policy: Option<ChatterPolicy>,
+    compute: fn(Quality, &Measurements, &dyn Progress) -> Result<Made, ExperimentError>,
+    read: fn(Value) -> Result<Made, ExperimentError>,
+}
 
-impl<E: Experiment> RegisteredExperiment for Erased<E> {
-    fn id(&self) -> &'static str {
-        E::ID
+/// The type-erased form of the experiment `E`.
+pub fn entry<E: Experiment>() -> RegisteredExperiment {
+    RegisteredExperiment {
+        id: E::ID,
+        title: E::TITLE,
+        discussion: E::DISCUSSION,
+        measurements: E::MEASUREMENTS,
+        seeds: E::seeds(),
+        chatter_policy: E::CHATTER_POLICY,
+        compute: |quality, measurements, progress| {
+            let mut data = E::compute(quality, progress)?;
+            let mut warnings = Vec::new();
+            for series in E::MEASUREMENTS.iter().filter_map(|layout| measurements.series(layout)) {
+                let added =
+                    series.map_err(ExperimentError::from).and_then(|series| E::overlay(&mut data, &series));
+                warnings.extend(added.err().map(|error| chain(&error)));
+            }
+            Ok(Made { warnings, ..Made::of::<E>(&data)? })
+        },
+        read: |stored| {
+            Made::of::<E>(&serde_path_to_error::deserialize(stored).map_err(ExperimentError::Stored)?)
+        },
     }
+}
 
-    fn title(&self) -> &'static str {
-        E::TITLE
-    }
+/// The name and content of a file.
+pub type File = (String, Vec<u8>);
 
-    fn measurements(&self) -> &'static [Layout] {
-        E::MEASUREMENTS
-    }
+/// What `ID.json` holds.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    /// Of every format version the first that is looked at.
+    provenance: Provenance,
+    id: String,
+    title: String,
+    quality: Quality,
+    caption: String,
+    parameters: Vec<(String, String)>,
+    /// Faults of the user's measurements that are therefore not shown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
+    data: Value,
+}
 
-    fn seeds(&self) -> Vec<(&'static str, u64)> {
-        E::seeds()
-    }
-
-    fn chatter_policy(&self) -> Option<ChatterPolicy> {
-        E::CHATTER_POLICY
-    }
-
-    fn compute(
+impl RegisteredExperiment {
+    /// Runs the experiment. Measurements that cannot be used are left out, with a warning.
+    pub fn compute(
         &self,
         quality: Quality,
+        measurements: &Measurements,
         progress: &dyn Progress,
-    ) -> Result<Box<dyn ErasedData>, ExperimentError> {
-        Ok(Box::new(Typed::<E>(E::compute(quality, progress)?)))
+    ) -> Result<Made, ExperimentError> {
+        (self.compute)(quality, measurements, progress)
     }
 
-    fn read(&self, stored: Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
-        let data = serde_path_to_error::deserialize(stored).map_err(ExperimentError::Stored)?;
-        Ok(Box::new(Typed::<E>(data)))
+    /// What a file of this format says of its origin. Where the experiment has several seeds, the first is *the* seed, and all of
+    /// them are among the parameters by what is drawn with them.
+    pub fn provenance(&self, format: Format, quality: Quality) -> Result<Provenance, StorageError> {
+        let mut provenance = provenance::new(format).with("figure", self.id)?.with("quality", &quality)?;
+        if let Some((_, first)) = self.seeds.first() {
+            provenance = provenance.with_seed(*first);
+        }
+        if self.seeds.len() > 1 {
+            provenance = provenance.with("seeds", &self.seeds)?;
+        }
+        if let Some(policy) = self.chatter_policy {
+            provenance = provenance.with_chatter_policy(policy);
+        }
+        Ok(provenance)
+    }
+
+    /// Runs the experiment and makes its files: `ID.json`, `ID.svg`, `ID.png`, and `ID.csv` where it is a table, each of
+    /// which says where it comes from ([`provenance`]).
+    pub fn files(
+        &self,
+        quality: Quality,
+        measurements: &Measurements,
+        progress: &dyn Progress,
+    ) -> Result<Vec<File>, ExperimentError> {
+        let Made { data, caption, parameters, table, figure, warnings, .. } =
+            self.compute(quality, measurements, progress)?;
+        let provenance = self.provenance(provenance::FIGURE, quality)?.with("values", &parameters)?;
+        let id = self.id;
+        let mut files = Vec::new();
+        if let Some(table) = table {
+            files.push((format!("{id}.csv"), provenance::in_csv(&provenance, &table.to_csv()?).into_bytes()));
+        }
+        files.push((format!("{id}.png"), provenance::in_png(&provenance, &figure.to_png()?)));
+        files.push((format!("{id}.svg"), provenance::in_svg(&provenance, &figure.to_svg()?).into_bytes()));
+        let (id, title) = (id.to_owned(), self.title.to_owned());
+        let record = Record { provenance, id, title, quality, caption, parameters, warnings, data };
+        files.push((format!("{}.json", self.id), json::to_text(&json::to_value(&record)?).into_bytes()));
+        Ok(files)
+    }
+
+    /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
+    pub fn read(&self, bytes: &[u8]) -> Result<(Made, Quality, Provenance), ExperimentError> {
+        let record: Value = json::read(bytes).map_err(ExperimentError::Stored)?;
+        // Before anything else: a newer one may have any other form.
+        let stored = record.get("provenance");
+        provenance::refuse_newer(provenance::FIGURE, stored, &format!("{}.json", self.id))?;
+        let record: Record = serde_path_to_error::deserialize(record).map_err(ExperimentError::Stored)?;
+        let made = Made { warnings: record.warnings, ..(self.read)(record.data)? };
+        Ok((made, record.quality, record.provenance))
     }
 }
 
-struct Typed<E: Experiment>(E::Data);
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
 
-impl<E: Experiment> ErasedData for Typed<E> {
-    fn overlay(&mut self, series: &Series) -> Result<(), ExperimentError> {
-        E::overlay(&mut self.0, series)
+    use super::*;
+    use crate::progress::Silent;
+    use crate::testing::demo_entries;
+
+    #[test]
+    fn files_are_the_same_bytes_on_every_run_say_their_origin_and_read_back() {
+        let demo = &demo_entries()[0];
+        let make = || demo.files(Quality::Draft, &Measurements::none(), &Silent).expect("works");
+        let files = make();
+        assert_eq!(files, make());
+        let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["demo.csv", "demo.png", "demo.svg", "demo.json"]);
+        let (made, quality, origin) = demo.read(&files[3].1).expect("fits");
+        assert_eq!((quality, made.warnings.len(), made.claims.len()), (Quality::Draft, 0, 1));
+        let parameters = origin.parameters();
+        assert_eq!((&parameters["figure"], &parameters["quality"]), (&"demo".into(), &"draft".into()));
+        assert_eq!(parameters["values"], serde_json::json!([["restitution ε", "0.5"]]));
+        assert_eq!((origin.seed(), origin.chatter_policy()), (Some(3), Some(ChatterPolicy::Complete)));
+        let svg = provenance::in_svg(&origin, &made.figure.to_svg().expect("draws"));
+        assert_eq!(svg.into_bytes(), files[2].1);
+        let csv = String::from_utf8(files[0].1.clone()).expect("text");
+        assert_eq!(provenance::from_csv(&csv), Some(serde_json::json!(origin)));
     }
 
-    fn to_json(&self) -> Result<Value, ExperimentError> {
-        Ok(finite::to_value(&self.0)?)
+    #[test]
+    fn a_figure_says_what_was_computed() {
+        let entries = demo_entries();
+        let stored = json!(entries[0].provenance(provenance::FIGURE, Quality::Draft).expect("storable"));
+        assert_eq!(stored["program"], "bouncing-disk-experiments");
+        assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
+        assert_eq!(stored["format_version"], provenance::FIGURE.version);
+        let seeds = json!([["points", 3], ["others", 4]]);
+        assert_eq!(stored["parameters"], json!({"figure": "demo", "quality": "draft", "seeds": seeds}));
+        assert_eq!((&stored["seed"], &stored["chatter_policy"]), (&json!(3), &json!("Complete")));
+        // Without seed or policy, too, both are there.
+        let none = json!(entries[1].provenance(provenance::CLAIM, Quality::Paper).expect("storable"));
+        assert!(none.as_object().is_some_and(|members| members.len() == 7) && none["seed"].is_null());
     }
 
-    fn draw(&self) -> Result<Figure, ExperimentError> {
-        E::draw(&self.0)
+    #[test]
+    fn what_cannot_be_stored_or_read_is_named() {
+        let entries = demo_entries();
+        let error =
+            entries[1].files(Quality::Draft, &Measurements::none(), &Silent).expect_err("holds a NaN");
+        let text = chain(&error);
+        assert!(text.starts_with("the data cannot be stored: speed_m_per_s[1] is NaN"), "{text}");
+        for (stored, expected) in [
+            (r#"{"id": 3}"#, "the stored data do not fit this version: id: invalid type: integer"),
+            (
+                r#"{"id": 3, "provenance": {"program": "bouncing-disk-experiments", "version": "7.0.0",
+                    "format": "bouncing-disk figure", "format_version": 2}}"#,
+                "\"demo.json\" has version 2 of the format \"bouncing-disk figure\" (written by \
+                 \"bouncing-disk-experiments 7.0.0\"), newer than version 1, the newest that bouncing-disk",
+            ),
+        ] {
+            let text = chain(&entries[0].read(stored.as_bytes()).expect_err("of another form"));
+            assert!(text.starts_with(expected), "{text}");
+        }
     }
 
-    fn claims(&self) -> Vec<Claim> {
-        let mut claims = E::claims(&self.0);
-        claims.extend(answers::not_computable(E::ID));
-        claims
-    }
-
-    fn caption(&self) -> String {
-        E::caption(&self.0)
-    }
-
-    fn discussion(&self) -> &'static str {
-        E::DISCUSSION
-    }
-
-    fn parameters(&self) -> Vec<(String, String)> {
-        E::parameters(&self.0)
-    }
-
-    fn table(&self) -> Option<Table> {
-        E::table(&self.0)
+    #[test]
+    fn measurements_are_shown_and_malformed_ones_only_reported() {
+        let demo = &demo_entries()[0];
+        let folder = tempfile::tempdir().expect("writable");
+        let make = |content: &str| {
+            std::fs::write(folder.path().join("demo.csv"), content).expect("writable");
+            let measurements = Measurements::read(folder.path(), demo.measurements).expect("readable");
+            let files = demo.files(Quality::Draft, &measurements, &Silent).expect("works");
+            let (made, ..) = demo.read(&files[3].1).expect("fits");
+            (made.warnings, made.caption)
+        };
+        let (warnings, caption) = make("phase_rad\n0.1\n0.3\n");
+        assert!(warnings.is_empty() && caption.ends_with("2 measured."), "{warnings:?} {caption}");
+        let (warnings, caption) = make("phase_rad\n0.1\nx\n");
+        assert!(warnings[0].contains("line 3, column 1 (phase_rad): \"x\"") && !caption.contains("measured"));
+        // Well formed, but the figure cannot use it.
+        let (warnings, _) = make("phase_rad\n9\n");
+        assert_eq!(warnings, ["demo.csv: the points cannot be evaluated: invalid float literal"]);
     }
 }

@@ -5,27 +5,37 @@
 //! meanwhile, so that the files and the cache key of a figure are of one run, the common files describe what is
 //! there, and a partial file that somebody finds while holding the lock is one of a run that was killed.
 
-mod error;
-mod lock;
-mod partial;
-
+use std::fs::{self, File};
+use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
-use std::{fs, io};
 
 use bouncing_disk::regular_file;
-use lock::Lock;
-use partial::Partial;
+use tempfile::{Builder, NamedTempFile};
 
 use crate::Quality;
 use crate::cache_key::{CacheKey, Stale};
-pub use error::OutputError;
-
-/// How long a run waits for others to finish writing: they take seconds, unless they are suspended.
-const LONGEST_WAIT: Duration = Duration::from_secs(600);
+use crate::visible::visible_path;
 
 /// The largest file that is read back (bytes): a hundred times that of any figure.
 const LARGEST_FILE: u64 = 1 << 30;
+/// What the names of files that are not complete begin with.
+const PARTIAL: &str = ".bouncing-disk-partial-";
+
+/// What the system refuses.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot {action} {}", visible_path(path))]
+pub struct OutputError {
+    action: &'static str,
+    path: PathBuf,
+    source: io::Error,
+}
+
+impl OutputError {
+    fn of(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(io::Error) -> Self {
+        let path = path.into();
+        move |source| Self { action, path, source }
+    }
+}
 
 /// A folder with the outputs of the experiments.
 #[derive(Clone, Debug)]
@@ -36,18 +46,14 @@ pub struct OutputFolder {
 impl OutputFolder {
     /// Makes the folder if need be, makes sure that files can be written in it, and removes what killed runs
     /// have left.
-    ///
-    /// # Errors
-    ///
-    /// When it cannot be made or written in. Better now than after an hour of computing.
     pub fn create(path: impl Into<PathBuf>) -> Result<Self, OutputError> {
         let path = path.into();
-        fs::create_dir_all(&path).map_err(|source| OutputError::Folder { path: path.clone(), source })?;
+        fs::create_dir_all(&path).map_err(OutputError::of("make the output folder", &path))?;
         let folder = Self { path };
-        let lock = folder.lock()?;
-        let probe = Partial::write(&folder.path, "probe", b"");
-        drop(probe.map_err(|source| OutputError::Unwritable { path: folder.path.clone(), source })?);
-        drop(lock);
+        let locked = folder.lock()?;
+        let probe = locked.partial(&folder.path.join("probe"), b"");
+        drop(probe.map_err(OutputError::of("write in the output folder", folder.path()))?);
+        drop(locked);
         Ok(folder)
     }
 
@@ -63,57 +69,45 @@ impl OutputFolder {
 
     /// Waits until no other run writes in the folder and keeps them out until the result is dropped.
     ///
-    /// A thread that holds the lock must write by [`LockedFolder`]: the functions of this type would wait for
-    /// it.
-    ///
-    /// # Errors
-    ///
-    /// When the folder cannot be opened, or another run has been writing in it for ten minutes.
+    /// The lock is on the folder itself, where the system can lock one: nothing is left behind, and it ends with the
+    /// process. Every writer opens the folder anew, so that threads of one process wait for each other, too: a thread that
+    /// holds the lock must write by [`LockedFolder`].
     pub fn lock(&self) -> Result<LockedFolder<'_>, OutputError> {
-        self.lock_within(LONGEST_WAIT)
-    }
-
-    fn lock_within(&self, longest: Duration) -> Result<LockedFolder<'_>, OutputError> {
-        let path = || self.path.clone();
-        let lock = lock::hold(&self.path, longest)
-            .map_err(|source| OutputError::Unwritable { path: path(), source })?;
-        if matches!(lock, Lock::Busy) {
-            return Err(OutputError::Busy { path: path(), waited_s: longest.as_secs_f64() });
+        let file = open(&self.path).map_err(OutputError::of("write in the output folder", &self.path))?;
+        // A file system may have no locks; what others are writing there must stay.
+        if file.lock().is_ok() {
+            for entry in fs::read_dir(&self.path).into_iter().flatten().flatten() {
+                if entry.file_name().to_string_lossy().starts_with(PARTIAL) {
+                    // One that cannot be removed harms nothing.
+                    let _ = fs::remove_file(entry.path());
+                }
+            }
         }
-        partial::remove_abandoned(&self.path, matches!(lock, Lock::Held { .. }));
-        Ok(LockedFolder { folder: self, _lock: lock })
+        Ok(LockedFolder { folder: self, _lock: file })
     }
 
     /// Writes a file as a whole: it is complete or not there at all, whenever the program ends.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), OutputError> {
-        self.lock()?.write(&[(name, bytes)])
+        self.write_all(&[(name, bytes)])
+    }
+
+    /// Writes several files; none gets its name before all are on the disk.
+    pub fn write_all(&self, files: &[(&str, &[u8])]) -> Result<(), OutputError> {
+        self.lock()?.write(files)
     }
 
     /// The content of a file, or `None` when there is none.
-    ///
-    /// # Errors
-    ///
-    /// When it exists and cannot be read.
     pub fn read(&self, name: &str) -> Result<Option<Vec<u8>>, OutputError> {
         let path = self.path.join(name);
         match regular_file::read(&path, LARGEST_FILE) {
             Ok(bytes) => Ok(Some(bytes)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
-            Err(source) => Err(OutputError::Read { path, source }),
+            Err(error) => Err(OutputError::of("read", path)(error)),
         }
     }
 
     /// Writes all files of one figure and its cache key, with the digest of the measurements in them. Files of an
     /// earlier run that are no longer made are removed.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses. If a file cannot be written, as on a full disk, the files of an earlier run
-    /// are all still there; if one cannot get its name, there is no cache key.
     pub fn write_set(
         &self,
         id: &str,
@@ -122,17 +116,14 @@ impl OutputFolder {
         run_time_s: f64,
         files: &[(String, Vec<u8>)],
     ) -> Result<(), OutputError> {
-        let contents = || files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice()));
-        let cache_key = CacheKey::new(id, quality, measured, run_time_s, contents());
-        let text = serde_json::to_vec_pretty(&cache_key)
-            .map_err(|source| OutputError::CacheKey { id: id.to_owned(), source })?;
+        let mut contents: Vec<_> =
+            files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+        let cache_key = CacheKey::new(id, quality, measured, run_time_s, &contents).to_text();
         let cache_key_name = cache_key_name(id);
+        // The last one to get its name.
+        contents.push((&cache_key_name, cache_key.as_bytes()));
         let locked = self.lock()?;
-        let mut partials = Vec::new();
-        // The cache key is the last one to get its name.
-        for (name, bytes) in contents().chain([(cache_key_name.as_str(), text.as_slice())]) {
-            partials.push(locked.partial(name, bytes)?);
-        }
+        let partials = locked.partials(&contents)?;
         // As long as the cache key of the earlier run lists them; a killed run would leave them for ever.
         for name in self.cache_key(id).iter().flat_map(CacheKey::names) {
             if is_of_figure(id, name) && !files.iter().any(|(kept, _)| kept == name) {
@@ -140,68 +131,90 @@ impl OutputFolder {
             }
         }
         locked.remove(&cache_key_name)?;
-        partials.into_iter().try_for_each(publish)
+        locked.publish(partials)
     }
 
     /// The cache key of a figure.
-    ///
-    /// # Errors
-    ///
-    /// [`Stale::Missing`] when there is none or it cannot be read, [`Stale::Newer`] for that of a newer program.
     pub fn cache_key(&self, id: &str) -> Result<CacheKey, Stale> {
         let bytes = self.read(&cache_key_name(id)).ok().flatten().ok_or(Stale::Missing)?;
         CacheKey::read(id, &bytes)
     }
 
     /// Whether a figure is up to date; `measured` is the digest of the measurements there are for it.
-    ///
-    /// # Errors
-    ///
-    /// The first reason to make it again.
     pub fn check(&self, id: &str, quality: Quality, measured: &str) -> Result<(), Stale> {
         let cache_key = self.cache_key(id)?;
         cache_key.check(id, quality, measured, |name| self.read(name).ok().flatten())
     }
 }
 
+#[cfg(unix)]
+fn open(folder: &Path) -> io::Result<File> {
+    File::open(folder)
+}
+
+/// Elsewhere a folder cannot be opened as a file. The file stays: to remove it would let two runs lock
+/// different ones.
+#[cfg(not(unix))]
+fn open(folder: &Path) -> io::Result<File> {
+    File::options().create(true).truncate(false).write(true).open(folder.join(".lock"))
+}
+
 /// A folder in which no other run writes.
 #[derive(Debug)]
 pub struct LockedFolder<'a> {
     folder: &'a OutputFolder,
-    _lock: Lock,
+    /// The system keeps the lock as long as this is open.
+    _lock: File,
 }
 
 impl LockedFolder<'_> {
     /// Writes files as [`OutputFolder::write`] does; none gets its name before all are on the disk.
-    ///
-    /// # Errors
-    ///
-    /// When the system refuses.
     pub fn write(&self, files: &[(&str, &[u8])]) -> Result<(), OutputError> {
-        let partials = files.iter().map(|(name, bytes)| self.partial(name, bytes));
-        partials.collect::<Result<Vec<_>, _>>()?.into_iter().try_for_each(publish)
+        self.publish(self.partials(files)?)
     }
 
-    fn partial<'b>(&self, name: &str, bytes: &'b [u8]) -> Result<Partial<'b>, OutputError> {
-        let path = self.folder.path();
-        Partial::write(path, name, bytes)
-            .map_err(|source| OutputError::Write { path: path.join(name), source })
+    /// The complete files on the disk, under other names than their own, which is where each belongs. They are removed
+    /// unless they get their names.
+    fn partials(&self, files: &[(&str, &[u8])]) -> Result<Vec<(PathBuf, NamedTempFile)>, OutputError> {
+        let partial = |(name, bytes): &(&str, &[u8])| {
+            let path = self.folder.path.join(name);
+            match self.partial(&path, bytes) {
+                Ok(partial) => Ok((path, partial)),
+                Err(error) => Err(OutputError::of("write", path)(error)),
+            }
+        };
+        files.iter().map(partial).collect()
+    }
+
+    /// In the folder of the target, because a file can be renamed only within a file system.
+    fn partial(&self, target: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
+        let mut builder = Builder::new();
+        // As any new file has them, and not for the owner alone.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.prefix(PARTIAL).tempfile_in(target.parent().unwrap_or(&self.folder.path))?;
+        file.write_all(bytes)?;
+        // The name must not become visible before the content is on the disk.
+        file.as_file().sync_all()?;
+        Ok(file)
+    }
+
+    fn publish(&self, partials: Vec<(PathBuf, NamedTempFile)>) -> Result<(), OutputError> {
+        partials.into_iter().try_for_each(|(path, partial)| match partial.persist(&path) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(OutputError::of("write", path)(error.error)),
+        })
     }
 
     fn remove(&self, name: &str) -> Result<(), OutputError> {
         let path = self.folder.path.join(name);
         match fs::remove_file(&path) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                Err(OutputError::Write { path, source })
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                Err(OutputError::of("write", path)(error))
             }
             _ => Ok(()),
         }
     }
-}
-
-fn publish(partial: Partial<'_>) -> Result<(), OutputError> {
-    let path = partial.target().to_path_buf();
-    partial.publish().map_err(|source| OutputError::Write { path, source })
 }
 
 fn cache_key_name(id: &str) -> String {
@@ -219,12 +232,6 @@ fn is_of_figure(id: &str, name: &str) -> bool {
 mod tests {
     use super::*;
 
-    fn folder(name: &str) -> OutputFolder {
-        let path = std::env::temp_dir().join(format!("bouncing-disk-output-{name}-{}", std::process::id()));
-        let _ = fs::remove_dir_all(&path);
-        OutputFolder::create(path).expect("the temporary folder can be written")
-    }
-
     fn names(folder: &OutputFolder) -> Vec<String> {
         let entries = fs::read_dir(folder.path()).expect("readable");
         let mut names: Vec<_> = entries
@@ -235,77 +242,49 @@ mod tests {
     }
 
     #[test]
-    fn a_set_is_up_to_date_until_something_changes() {
-        let folder = folder("set");
-        assert_eq!(folder.check("demo", Quality::Draft, ""), Err(Stale::Missing));
-        fs::write(folder.path().join(".demo.json.1.partial"), b"torn").expect("writable");
-        let old = [("demo.csv".to_owned(), b"of an earlier version".to_vec())];
-        folder.write_set("demo", Quality::Draft, "", 0.1, &old).expect("writable");
-        fs::write(folder.path().join("demo.txt"), b"of the user").expect("writable");
-        fs::write(folder.path().join("demo2.json"), b"of another figure").expect("writable");
-        let files = [("demo.json".to_owned(), b"{}".to_vec()), ("demo.svg".to_owned(), b"<svg/>".to_vec())];
-        folder.write_set("demo", Quality::Draft, "", 0.1, &files).expect("writable");
-        assert_eq!(names(&folder), ["demo.cache-key", "demo.json", "demo.svg", "demo.txt", "demo2.json"]);
-        assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
-        fs::write(folder.path().join("demo.svg"), b"edited").expect("writable");
-        let name = "demo.svg".to_owned();
-        assert_eq!(folder.check("demo", Quality::Draft, ""), Err(Stale::File { name }));
-        fs::remove_dir_all(folder.path()).expect("removable");
+    fn a_set_is_up_to_date_until_something_changes_and_stays_whole() {
+        let scratch = tempfile::tempdir().expect("writable");
+        let folder = OutputFolder::create(scratch.path()).expect("writable");
+        let check = || folder.check("demo", Quality::Draft, "");
+        let write = |files: &[(&str, &[u8])]| {
+            let files: Vec<_> =
+                files.iter().map(|(name, bytes)| ((*name).to_owned(), bytes.to_vec())).collect();
+            folder.write_set("demo", Quality::Draft, "", 0.1, &files)
+        };
+        assert_eq!(check(), Err(Stale::Missing));
+        fs::write(scratch.path().join(format!("{PARTIAL}17")), b"torn").expect("writable");
+        write(&[("demo.csv", b"of an earlier version")]).expect("writable");
+        for name in ["demo.txt", "demo2.json"] {
+            fs::write(scratch.path().join(name), b"of the user").expect("writable");
+        }
+        write(&[("demo.json", b"{}"), ("demo.svg", b"<svg/>")]).expect("writable");
+        let all = ["demo.cache-key", "demo.json", "demo.svg", "demo.txt", "demo2.json"];
+        assert_eq!((names(&folder), check()), (all.map(str::to_owned).to_vec(), Ok(())));
+        // No folder of that name: as on a full disk, what comes after the first file is refused.
+        write(&[("demo.json", b"new"), ("none/demo.svg", b"new")]).expect_err("refused");
+        assert_eq!((names(&folder), check()), (all.map(str::to_owned).to_vec(), Ok(())));
+        fs::write(scratch.path().join("demo.svg"), b"edited").expect("writable");
+        assert_eq!(check(), Err(Stale::File { name: "demo.svg".to_owned() }));
     }
 
     #[test]
-    fn writing_replaces_the_whole_file_and_leaves_nothing_else() {
-        let folder = folder("whole");
-        folder.write("a.json", b"a long first content").expect("writable");
-        folder.write("a.json", b"short").expect("writable");
-        assert_eq!(folder.read("a.json").expect("readable").as_deref(), Some(b"short".as_slice()));
-        assert_eq!(names(&folder), ["a.json"]);
-        assert!(folder.read("b.json").expect("absent is no error").is_none());
-        fs::remove_dir_all(folder.path()).expect("removable");
-    }
-
-    #[test]
-    fn writers_of_one_folder_wait_for_each_other() {
-        let folder = folder("lock");
+    fn writers_of_one_folder_wait_for_each_other_and_replace_whole_files() {
+        let scratch = tempfile::tempdir().expect("writable");
+        let folder = OutputFolder::create(scratch.path()).expect("writable");
+        folder.write("a", b"a long first content").expect("writable");
         let held = folder.lock().expect("free");
-        let error = folder.lock_within(Duration::from_millis(20)).expect_err("held");
-        assert!(error.to_string().ends_with("for 0.02 s; it may be suspended"), "{error}");
-        // A partial file of who holds the lock is no leftover.
-        let partial = held.partial("a", b"1").expect("writable");
-        assert!(folder.lock_within(Duration::ZERO).is_err());
-        publish(partial).expect("still there");
         std::thread::scope(|scope| {
             let waiting = scope.spawn(|| folder.write("b", b"2"));
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            assert!(!waiting.is_finished());
+            held.write(&[("a", b"1")]).expect("writable");
             drop(held);
             waiting.join().expect("no panic").expect("its turn");
         });
         assert_eq!(names(&folder), ["a", "b"]);
-        fs::remove_dir_all(folder.path()).expect("removable");
-    }
-
-    #[test]
-    fn a_set_that_cannot_be_written_leaves_the_earlier_one() {
-        let folder = folder("refused");
-        let set = |bytes: &[u8], last: &str| {
-            let files = [("demo.json".to_owned(), bytes.to_vec()), (last.to_owned(), bytes.to_vec())];
-            folder.write_set("demo", Quality::Draft, "", 0.1, &files)
-        };
-        set(b"old", "demo.svg").expect("writable");
-        // No folder of that name: as on a full disk, what comes after the first file is refused.
-        set(b"new", "none/demo.svg").expect_err("refused");
-        assert_eq!(folder.check("demo", Quality::Draft, ""), Ok(()));
-        assert_eq!(folder.read("demo.json").expect("readable").as_deref(), Some(b"old".as_slice()));
-        assert_eq!(names(&folder), ["demo.cache-key", "demo.json", "demo.svg"]);
-        fs::remove_dir_all(folder.path()).expect("removable");
-    }
-
-    #[test]
-    fn an_unusable_folder_is_refused_at_once() {
-        let folder = folder("unusable");
-        fs::write(folder.path().join("file"), b"").expect("writable");
-        let error =
-            OutputFolder::create(folder.path().join("file/figures")).expect_err("a file is no folder");
-        assert!(error.to_string().contains("file/figures"), "{error}");
-        fs::remove_dir_all(folder.path()).expect("removable");
+        assert_eq!(folder.read("a").expect("readable").as_deref(), Some(b"1".as_slice()));
+        assert!(folder.read("c").expect("absent is no error").is_none());
+        let error = OutputFolder::create(scratch.path().join("a/figures")).expect_err("a file is no folder");
+        assert!(error.to_string().contains("a/figures"), "{error}");
     }
 }

@@ -10,7 +10,7 @@ use crate::figures::{
 use crate::measured::Layout;
 
 /// The figures and tables of the paper, in its order.
-pub fn paper() -> Vec<Box<dyn RegisteredExperiment>> {
+pub fn paper() -> Vec<RegisteredExperiment> {
     // One line per module of `figures`: `entry::<fig06::Fig06>(),`
     vec![
         entry::<fig01::Fig01>(),
@@ -37,7 +37,7 @@ pub fn paper() -> Vec<Box<dyn RegisteredExperiment>> {
 const EXTRA: &str = "extra-";
 
 /// The figures beyond the paper, made only when they are asked for.
-pub fn extras() -> Vec<Box<dyn RegisteredExperiment>> {
+pub fn extras() -> Vec<RegisteredExperiment> {
     // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
     vec![
         entry::<extra_torque_speed::ExtraTorqueSpeed>(),
@@ -57,7 +57,7 @@ pub fn extras() -> Vec<Box<dyn RegisteredExperiment>> {
 }
 
 /// All experiments: those of the paper, and behind them those beyond it.
-pub fn all() -> Vec<Box<dyn RegisteredExperiment>> {
+pub fn all() -> Vec<RegisteredExperiment> {
     paper().into_iter().chain(extras()).collect()
 }
 
@@ -67,8 +67,8 @@ pub fn is_extra(id: &str) -> bool {
 }
 
 /// The files of measurements that all experiments together can show.
-pub fn measurements(entries: &[Box<dyn RegisteredExperiment>]) -> Vec<Layout> {
-    entries.iter().flat_map(|entry| entry.measurements().iter().copied()).collect()
+pub fn measurements(entries: &[RegisteredExperiment]) -> Vec<Layout> {
+    entries.iter().flat_map(|entry| entry.measurements.iter().copied()).collect()
 }
 
 /// An identifier that no experiment has.
@@ -82,41 +82,16 @@ pub struct UnknownId {
 }
 
 /// The entries called `ids`, each once, in the order of `entries`; all of them when `ids` is empty.
-///
-/// # Errors
-///
-/// When an identifier is unknown; the error lists the known ones.
 pub fn select<'a>(
-    entries: &'a [Box<dyn RegisteredExperiment>],
+    entries: &'a [RegisteredExperiment],
     ids: &[String],
-) -> Result<Vec<&'a dyn RegisteredExperiment>, UnknownId> {
-    if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id() == **given)) {
-        return Err(UnknownId {
-            given: given.clone(),
-            known: entries.iter().map(|entry| entry.id()).collect(),
-        });
+) -> Result<Vec<&'a RegisteredExperiment>, UnknownId> {
+    if let Some(given) = ids.iter().find(|given| !entries.iter().any(|entry| entry.id == **given)) {
+        let known = entries.iter().map(|entry| entry.id).collect();
+        return Err(UnknownId { given: given.clone(), known });
     }
-    Ok(entries
-        .iter()
-        .map(|entry| &**entry)
-        .filter(|entry| ids.is_empty() || ids.iter().any(|given| given == entry.id()))
-        .collect())
-}
-
-/// The entry called `id`.
-///
-/// # Errors
-///
-/// When it is unknown; the error lists the known ones.
-pub fn find<'a>(
-    entries: &'a [Box<dyn RegisteredExperiment>],
-    id: &str,
-) -> Result<&'a dyn RegisteredExperiment, UnknownId> {
-    let found = entries.iter().map(|entry| &**entry).find(|entry| entry.id() == id);
-    found.ok_or_else(|| UnknownId {
-        given: id.to_owned(),
-        known: entries.iter().map(|entry| entry.id()).collect(),
-    })
+    let asked = |entry: &&RegisteredExperiment| ids.is_empty() || ids.iter().any(|given| given == entry.id);
+    Ok(entries.iter().filter(asked).collect())
 }
 
 #[cfg(test)]
@@ -125,51 +100,32 @@ mod tests {
     use crate::testing::demo_entries;
 
     #[test]
-    fn an_unknown_identifier_lists_the_known_ones() {
+    fn identifiers_select_in_the_order_of_the_list_and_an_unknown_one_lists_the_known() {
         let entries = demo_entries();
-        let error = select(&entries, &["fig99".to_owned()]).err().expect("fig99 does not exist");
+        let error = select(&entries, &["fig99".to_owned()]).expect_err("fig99 does not exist");
         assert_eq!(error.to_string(), "no figure or table is called \"fig99\"; known are: demo, broken");
-        assert!(find(&entries, "nothing").is_err());
-    }
-
-    #[test]
-    fn no_identifier_selects_all_and_the_order_is_that_of_the_paper() {
-        let entries = demo_entries();
         assert_eq!(select(&entries, &[]).expect("all").len(), entries.len());
-        let ids = ["broken".to_owned(), "demo".to_owned()];
-        let selected = select(&entries, &ids).expect("both exist");
-        assert_eq!(selected.iter().map(|entry| entry.id()).collect::<Vec<_>>(), ["demo", "broken"]);
+        let selected = select(&entries, &["broken".to_owned(), "demo".to_owned()]).expect("both exist");
+        assert_eq!(selected.iter().map(|entry| entry.id).collect::<Vec<_>>(), ["demo", "broken"]);
     }
 
     #[test]
-    fn every_figure_and_table_of_the_paper_is_there() {
+    fn the_paper_is_there_and_what_is_beyond_it_says_so_once() {
         let figures = (1..=14).map(|figure| format!("fig{figure:02}"));
         let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
-        let ids: Vec<_> = paper().iter().map(|entry| entry.id()).collect();
+        let ids: Vec<_> = paper().iter().map(|entry| entry.id).collect();
         assert_eq!(ids, expected);
-        assert!(paper().iter().all(|entry| !is_extra(entry.id())));
-    }
-
-    #[test]
-    fn what_is_beyond_the_paper_says_so_in_its_identifier() {
-        let ids: Vec<_> = extras().iter().map(|entry| entry.id()).collect();
-        assert!(!ids.is_empty());
-        for id in ids {
+        assert!(ids.iter().all(|id| !is_extra(id)));
+        let mut ids: Vec<_> = extras().iter().map(|entry| entry.id).collect();
+        for id in &ids {
             let words = id.strip_prefix(EXTRA).expect("the prefix");
-            assert!(
-                words.split('-').all(|word| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase())),
-                "{id}"
-            );
+            let legal = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase());
+            assert!(words.split('-').all(legal), "{id}");
         }
-    }
-
-    #[test]
-    fn identifiers_in_the_registry_are_unique() {
-        let mut ids: Vec<_> = all().iter().map(|entry| entry.id()).collect();
-        ids.sort_unstable();
         let count = ids.len();
+        ids.sort_unstable();
         ids.dedup();
-        assert_eq!(ids.len(), count);
+        assert!(count > 0 && ids.len() == count);
     }
 
     #[test]

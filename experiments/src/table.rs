@@ -103,21 +103,7 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// The names of the columns.
-    pub fn columns(&self) -> &[String] {
-        &self.columns
-    }
-
-    /// The rows.
-    pub fn rows(&self) -> &[Vec<Cell>] {
-        &self.rows
-    }
-
     /// The table as comma-separated values.
-    ///
-    /// # Errors
-    ///
-    /// When a row does not fit the header or a number is not finite.
     pub fn to_csv(&self) -> Result<String, TableError> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(&self.columns).map_err(unwritten)?;

@@ -4,7 +4,7 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::{Axis, DensePoints, Figure, Line, Panel, Rect};
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperiment, entry};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
@@ -80,7 +80,7 @@ impl Experiment for Demo {
 
     fn claims(data: &DemoData) -> Vec<Claim> {
         let last = data.impact_phase_rad.last().copied().unwrap_or(f64::NAN);
-        vec![Claim::number(Self::ID, "Sec. 1", "last phase", "rad", "0.36", last)]
+        vec![Claim::number([Self::ID, "Sec. 1", "last phase", "rad"], "0.36", last)]
     }
 
     fn parameters(_: &DemoData) -> Vec<(String, String)> {
@@ -108,7 +108,6 @@ impl Experiment for Broken {
     type Data = BrokenData;
     const ID: &'static str = "broken";
     const TITLE: &'static str = "An experiment that fails";
-    const DISCUSSION: &'static str = "";
 
     fn caption(_: &BrokenData) -> String {
         String::new()
@@ -121,17 +120,9 @@ impl Experiment for Broken {
     fn draw(_: &BrokenData) -> Result<Figure, ExperimentError> {
         Ok(Figure::new(10.0, 10.0))
     }
-
-    fn claims(_: &BrokenData) -> Vec<Claim> {
-        Vec::new()
-    }
-
-    fn parameters(_: &BrokenData) -> Vec<(String, String)> {
-        Vec::new()
-    }
 }
 
 /// A registry of the two.
-pub(crate) fn demo_entries() -> Vec<Box<dyn RegisteredExperiment>> {
+pub(crate) fn demo_entries() -> Vec<RegisteredExperiment> {
     vec![entry::<Demo>(), entry::<Broken>()]
 }

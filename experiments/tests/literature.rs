@@ -6,11 +6,13 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk::core::attractors::{Verdict, VerdictSettings};
+use bouncing_disk::core::numerics::elementary::sin_cos;
+use bouncing_disk::core::orbits::doubling_cascade;
 use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Verdict, VerdictSettings,
-    Vibration, doubling_cascade, elementary::sin_cos,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
-use bouncing_disk_experiments::printed::PrintedNumber;
+use bouncing_disk_experiments::claims::printed::PrintedNumber;
 use serde::Deserialize;
 use serde_json::Value;
 

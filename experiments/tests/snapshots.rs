@@ -4,17 +4,17 @@
 //! snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
 //! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
 //! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
-//! (`docs/numerics/solver.md`). Fields named in [`VARYING`] come from a library whose last bits depend on the processor;
-//! they are compared by tolerance only.
+//! (`docs/numerics/solver.md`).
 //!
 //! A new experiment is added to [`snapshots!`]; the tests fail as long as it is not there or has no snapshot.
 //! `INSTA_UPDATE=always cargo test -p bouncing-disk-experiments --test snapshots` writes the snapshots again.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use bouncing_disk_experiments::claims::answers;
 use bouncing_disk_experiments::experiment::{Quality, RegisteredExperiment, chain};
-use bouncing_disk_experiments::{Silent, answers, registry};
+use bouncing_disk_experiments::{Measurements, Silent, registry};
 use insta::internals::SnapshotContents;
 use insta::{Comparator, Settings, Snapshot};
 use serde_json::{Map, Value, json};
@@ -69,10 +69,6 @@ fn identifier(test: &str) -> String {
     test.replace('_', "-")
 }
 
-/// Fields, by experiment, that depend on the last bits of a linear-algebra library. A path names the keys from the
-/// data downwards; indices of arrays are not part of it. Everything below a path is left out of all digests.
-const VARYING: &[(&str, &[&str])] = &[];
-
 /// Two floats agree if they differ by less than this share of the larger one.
 const RELATIVE_TOLERANCE: f64 = 1e-9;
 /// Two floats agree if they differ by less than this: round-off of quantities of order one.
@@ -82,41 +78,30 @@ const LONGEST_LIST: usize = 40;
 /// Texts of more bytes than this are held as a digest.
 const LONGEST_TEXT: usize = 4000;
 
-fn entries() -> Vec<Box<dyn RegisteredExperiment>> {
-    registry::all()
-}
-
 /// All that an experiment makes, except for pictures.
-fn product(entry: &dyn RegisteredExperiment) -> Map<String, Value> {
+fn product(entry: &RegisteredExperiment) -> Map<String, Value> {
     let made = || {
-        let outcome = entry.compute(Quality::Draft, &Silent)?;
-        let table = outcome.table().map(|table| table.to_csv()).transpose()?;
+        let made = entry.compute(Quality::Draft, &Measurements::none(), &Silent)?;
+        let table = made.table.map(|table| table.to_csv()).transpose()?;
         // A figure that cannot be drawn is a failure, too.
-        outcome.draw()?.to_svg()?;
-        let mut product = Map::new();
-        product.insert("title".to_owned(), entry.title().into());
-        product.insert("caption".to_owned(), outcome.caption().into());
-        product.insert("parameters".to_owned(), json!(outcome.parameters()));
-        let claims = outcome.claims();
-        let faults = answers::faults(entry.id(), &claims);
-        assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id(), faults.join("; "));
-        product.insert("claims".to_owned(), json!(claims));
-        product.insert("table".to_owned(), json!(table));
-        product.insert("data".to_owned(), outcome.to_json()?);
-        Ok(product)
+        made.figure.to_svg()?;
+        let faults = answers::faults(entry.id, &made.claims);
+        assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id, faults.join("; "));
+        let product = json!({"title": entry.title, "caption": made.caption, "parameters": made.parameters,
+            "claims": made.claims, "table": table, "data": made.data});
+        Ok(product.as_object().cloned().unwrap_or_default())
     };
     made().unwrap_or_else(|error: bouncing_disk_experiments::ExperimentError| {
-        panic!("{}: {}", entry.id(), chain(&error))
+        panic!("{}: {}", entry.id, chain(&error))
     })
 }
 
 fn check(id: &str) {
-    let entries = entries();
-    let entry = registry::find(&entries, id).unwrap_or_else(|error| panic!("{error}"));
+    let entries = registry::all();
+    let entry = registry::select(&entries, &[id.to_owned()]).unwrap_or_else(|error| panic!("{error}"))[0];
     let mut product = product(entry);
-    let varying: Vec<_> = VARYING.iter().filter(|(name, _)| *name == id).map(|(_, path)| *path).collect();
     let data = product["data"].take();
-    product.insert("data".to_owned(), Summary { varying: &varying }.of(&data, &mut Vec::new()));
+    product.insert("data".to_owned(), summary(&data));
     if let Some(Value::String(table)) = product.get("table") {
         // The numbers are in the data already, where they are compared by tolerance.
         let lines: Vec<_> = table.lines().collect();
@@ -137,85 +122,55 @@ fn digest(text: &str) -> String {
     bouncing_disk::core::numerics::digest::Digest::of(text.as_bytes()).to_string()
 }
 
-/// Makes data short.
-struct Summary<'a> {
-    varying: &'a [&'a [&'a str]],
+/// Data made short.
+fn summary(value: &Value) -> Value {
+    match value {
+        Value::Object(fields) => fields.iter().map(|(name, field)| (name.clone(), summary(field))).collect(),
+        Value::Array(items) => summary_of_list(items),
+        Value::String(text) if text.len() > LONGEST_TEXT => {
+            json!({"bytes": text.len(), "digest": digest(text)})
+        }
+        other => other.clone(),
+    }
 }
 
-impl Summary<'_> {
-    fn of(&self, value: &Value, path: &mut Vec<String>) -> Value {
-        match value {
-            Value::Object(fields) => {
-                let mut short = Map::new();
-                for (name, field) in fields {
-                    path.push(name.clone());
-                    short.insert(name.clone(), self.of(field, path));
-                    path.pop();
-                }
-                Value::Object(short)
-            }
-            Value::Array(items) => self.of_array(items, path),
-            Value::String(text) if text.len() > LONGEST_TEXT => {
-                json!({"bytes": text.len(), "digest": digest(text)})
-            }
-            other => other.clone(),
-        }
+fn summary_of_list(items: &[Value]) -> Value {
+    if let Some(leaves) = leaves(items).filter(|leaves| leaves.len() > LONGEST_LIST) {
+        return statistics(items, &leaves);
     }
+    let rows: Option<Vec<_>> = items.iter().map(Value::as_object).collect();
+    match rows {
+        Some(rows) if rows.len() > LONGEST_LIST => columns(&rows),
+        _ => items.iter().map(summary).collect(),
+    }
+}
 
-    fn of_array(&self, items: &[Value], path: &mut Vec<String>) -> Value {
-        if let Some(leaves) = leaves(items).filter(|leaves| leaves.len() > LONGEST_LIST) {
-            return self.statistics(items, &leaves, path);
-        }
-        let rows: Option<Vec<_>> = items.iter().map(Value::as_object).collect();
-        match rows {
-            Some(rows) if rows.len() > LONGEST_LIST => self.columns(&rows, path),
-            _ => Value::Array(items.iter().map(|item| self.of(item, path)).collect()),
-        }
+/// Many records become one list per field; a record without the field counts as null.
+fn columns(rows: &[&Map<String, Value>]) -> Value {
+    let names: BTreeSet<&String> = rows.iter().flat_map(|row| row.keys()).collect();
+    let mut short = Map::from_iter([("records".to_owned(), rows.len().into())]);
+    for name in names {
+        let column: Vec<_> = rows.iter().map(|row| row.get(name).cloned().unwrap_or_default()).collect();
+        short.insert(name.clone(), summary_of_list(&column));
     }
+    Value::Object(short)
+}
 
-    /// Many records become one list per field; a record without the field counts as null.
-    fn columns(&self, rows: &[&Map<String, Value>], path: &mut Vec<String>) -> Value {
-        let mut columns: BTreeMap<&String, Vec<Value>> = BTreeMap::new();
-        for name in rows.iter().flat_map(|row| row.keys()) {
-            columns.entry(name).or_default();
-        }
-        for (name, column) in &mut columns {
-            column.extend(rows.iter().map(|row| row.get(*name).cloned().unwrap_or_default()));
-        }
-        let mut short = Map::new();
-        short.insert("records".to_owned(), rows.len().into());
-        for (name, column) in columns {
-            path.push(name.clone());
-            short.insert(name.clone(), self.of_array(&column, path));
-            path.pop();
-        }
-        Value::Object(short)
+fn statistics(items: &[Value], leaves: &[&Value]) -> Value {
+    let mut short = json!({"count": leaves.len(), "digest": digest(&Value::from(items).to_string())});
+    let numbers: Vec<f64> = leaves.iter().filter_map(|leaf| leaf.as_f64()).collect();
+    if numbers.len() < leaves.len() {
+        short["nulls"] = leaves.iter().filter(|leaf| leaf.is_null()).count().into();
     }
-
-    fn statistics(&self, items: &[Value], leaves: &[&Value], path: &[String]) -> Value {
-        let varies = self.varying.iter().any(|start| {
-            start.len() <= path.len() && start.iter().zip(path).all(|(one, other)| *one == other.as_str())
-        });
-        let mut short = Map::new();
-        short.insert("count".to_owned(), leaves.len().into());
-        if !varies {
-            short.insert("digest".to_owned(), digest(&Value::from(items).to_string()).into());
-        }
-        let numbers: Vec<f64> = leaves.iter().filter_map(|leaf| leaf.as_f64()).collect();
-        if numbers.len() < leaves.len() {
-            short.insert("nulls".to_owned(), leaves.iter().filter(|leaf| leaf.is_null()).count().into());
-        }
-        if let (Some(first), Some(last)) = (numbers.first(), numbers.last()) {
-            let mut sorted = numbers.clone();
-            sorted.sort_by(f64::total_cmp);
-            let part = |quarters: usize| sorted[quarters * (sorted.len() - 1) / 4];
-            let mean = numbers.iter().sum::<f64>() / numbers.len() as f64;
-            short.insert("first_last".to_owned(), json!([first, last]));
-            short.insert("quartiles".to_owned(), json!([part(0), part(1), part(2), part(3), part(4)]));
-            short.insert("mean".to_owned(), mean.into());
-        }
-        Value::Object(short)
+    if let (Some(first), Some(last)) = (numbers.first(), numbers.last()) {
+        let mut sorted = numbers.clone();
+        sorted.sort_by(f64::total_cmp);
+        let part = |quarters: usize| sorted[quarters * (sorted.len() - 1) / 4];
+        short["first_last"] = json!([first, last]);
+        short["quartiles"] = json!([part(0), part(1), part(2), part(3), part(4)]);
+        short["mean"] = (numbers.iter().sum::<f64>() / numbers.len() as f64).into();
     }
+    short
 }
 
 /// All leaves of nested arrays; `None` if there is an object among them. Texts and booleans count as leaves.
@@ -271,7 +226,7 @@ fn close(one: &Value, other: &Value) -> bool {
 
 #[test]
 fn every_experiment_has_a_test_and_every_test_an_experiment() {
-    let mut registered: Vec<_> = entries().iter().map(|entry| entry.id().to_owned()).collect();
+    let mut registered: Vec<_> = registry::all().iter().map(|entry| entry.id.to_owned()).collect();
     let mut tested: Vec<_> = TESTED.iter().map(|test| identifier(test)).collect();
     registered.sort_unstable();
     tested.sort_unstable();
@@ -279,28 +234,17 @@ fn every_experiment_has_a_test_and_every_test_an_experiment() {
 }
 
 #[test]
-fn identifiers_are_legal_unique_and_in_order() {
-    let ids: Vec<_> = registry::paper().iter().map(|entry| entry.id()).collect();
-    let legal: Vec<String> =
-        (1..=14).map(|n| format!("fig{n:02}")).chain((1..=3).map(|n| format!("table{n}"))).collect();
-    for id in &ids {
-        assert!(legal.iter().any(|legal| legal == id), "{id} is no figure or table of the paper");
-    }
-    assert!(ids.windows(2).all(|pair| pair[0] < pair[1]), "not in order, or not unique: {ids:?}");
-}
-
-#[test]
 fn results_do_not_depend_on_the_number_of_threads() {
-    let entries = entries();
+    let entries = registry::all();
     let next = AtomicUsize::new(0);
     // Each thread takes the next entry: one that computes with a single thread leaves the others of the machine free.
     let compare = || {
         while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
             let [alone, together] = [1, 7].map(|threads| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
-                pool.install(|| digest(&Value::Object(product(&**entry)).to_string()))
+                pool.install(|| digest(&Value::Object(product(entry)).to_string()))
             });
-            assert_eq!(alone, together, "{}", entry.id());
+            assert_eq!(alone, together, "{}", entry.id);
         }
     };
     std::thread::scope(|scope| {
@@ -326,24 +270,19 @@ fn floats_are_compared_by_tolerance_and_all_else_exactly() {
 }
 
 #[test]
-fn long_arrays_become_statistics_with_a_digest_unless_their_bits_vary() {
+fn long_arrays_become_statistics_with_a_digest() {
     let numbers: Vec<_> = (0..50).map(|n| 0.1 * f64::from(n)).collect();
-    let data = json!({"angle": numbers, "nested": {"faer": [numbers, numbers]}, "short": [1.0, 2.0]});
-    let varying: &[&str] = &["nested", "faer"];
-    let short = Summary { varying: &[varying] }.of(&data, &mut Vec::new());
-    assert_eq!(short["short"], data["short"]);
+    let data = json!({"angle": numbers, "nested": [numbers, numbers], "short": [1.0, 2.0]});
+    let short = summary(&data);
+    assert_eq!((&short["short"], &short["nested"]["count"]), (&data["short"], &json!(100)));
     assert_eq!(short["angle"]["count"], 50);
     assert_eq!(short["angle"]["first_last"], json!([0.0, 0.1 * 49.0]));
-    assert!(short["angle"]["digest"].is_string());
-    assert_eq!(short["nested"]["faer"]["count"], 100);
-    assert!(short["nested"]["faer"].get("digest").is_none());
     // The last bit of one number changes the digest.
     let mut other = data.clone();
     other["angle"][7] = json!(f64::from_bits(numbers[7].to_bits() + 1));
-    let other = Summary { varying: &[] }.of(&other, &mut Vec::new());
-    assert_ne!(short["angle"]["digest"], other["angle"]["digest"]);
+    assert_ne!(short["angle"]["digest"], summary(&other)["angle"]["digest"]);
     let records: Vec<_> = numbers.iter().map(|number| json!({"x": number, "mode": "flight"})).collect();
-    let short = Summary { varying: &[] }.of(&json!(records), &mut Vec::new());
+    let short = summary(&json!(records));
     assert_eq!((&short["records"], &short["x"]["count"]), (&json!(50), &json!(50)));
     assert_eq!(short["mode"]["count"], 50);
 }

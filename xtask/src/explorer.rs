@@ -1,6 +1,5 @@
 //! `cargo xtask explorer`: the page that shows the model in a browser.
 
-mod serve;
 mod tools;
 
 use std::path::{Path, PathBuf};
@@ -26,7 +25,7 @@ pub(crate) struct Options {
     /// web server.
     #[arg(long, value_name = "DIR", default_value = "target/explorer")]
     out: PathBuf,
-    /// Serve the page on this machine alone when it is built, open it, and go on until interrupted.
+    /// Serve the page on this machine alone when it is built, by Python's web server, until interrupted.
     #[arg(long)]
     serve: bool,
     /// Build no page, but its module with what computes the digests of results, and compare these in Node with those of
@@ -72,7 +71,9 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     )?;
     say!("{}", out.join("explorer.html").display())?;
     if options.serve {
-        serve::folder(&out.join("site"), options.port)?;
+        let mut server = Command::new("python3");
+        server.args(["-m", "http.server", "--bind", "127.0.0.1", "--directory"]).arg(out.join("site"));
+        succeed(server.arg(options.port.to_string()))?;
     }
     Ok(ExitCode::SUCCESS)
 }

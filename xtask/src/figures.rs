@@ -7,14 +7,11 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use bouncing_disk_experiments::cache_key::Stale;
-use bouncing_disk_experiments::count::Counts;
-use bouncing_disk_experiments::errata;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
-use bouncing_disk_experiments::extra_pictures;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
-use bouncing_disk_experiments::results;
-use bouncing_disk_experiments::summary::Summary;
+use bouncing_disk_experiments::report::gallery::Summary;
+use bouncing_disk_experiments::report::pages::{self, Pictures};
 use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
@@ -29,9 +26,10 @@ const DEFAULT_FOLDER: &str = "target/figures";
 /// Where `--docs` makes the drafts whose digests it stores, in the output folder.
 const DRAFTS_FOLDER: &str = "draft";
 /// What repairs the documentation.
-const DOCS_COMMAND: &str = "cargo xtask figures --docs";
-/// What repairs the pictures of the extras.
-const EXTRAS_COMMAND: &str = "cargo xtask figures --extras --docs";
+const DOCS_COMMANDS: [(Pictures, &str); 2] = [
+    (Pictures::Paper, "cargo xtask figures --docs"),
+    (Pictures::Extras, "cargo xtask figures --extras --docs"),
+];
 /// The folder of a user's measurements, relative to the root of the workspace.
 const MEASURED_FOLDER: &str = "data/measured";
 /// The most computing threads: more than any machine has that this runs on, and few enough to be started at
@@ -136,7 +134,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let entries = registry::all();
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) if options.ids.is_empty() => {
-            selected.into_iter().filter(|entry| registry::is_extra(entry.id()) == options.extras).collect()
+            selected.into_iter().filter(|entry| registry::is_extra(entry.id) == options.extras).collect()
         }
         Ok(selected) => selected,
         Err(error) => {
@@ -145,19 +143,21 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         }
     };
     let folder = options.measured_folder();
+    let refuse = |words: String| {
+        complain!("error: {words}");
+        Ok(ExitCode::from(USAGE))
+    };
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        complain!("error: --measured {}: there is no such folder", visible_path(&folder));
-        return Ok(ExitCode::from(USAGE));
+        return refuse(format!("--measured {}: there is no such folder", visible_path(&folder)));
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
-    if is_same_folder(&options.folder(), &folder) {
-        complain!(
-            "error: {} is the folder of the measurements; --out must be another",
-            visible_path(&folder)
-        );
-        return Ok(ExitCode::from(USAGE));
+    // Tables would be taken for measurements.
+    let real = |path: &Path| path.canonicalize().ok();
+    if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
+        let folder = visible_path(&folder);
+        return refuse(format!("{folder} is the folder of the measurements; --out must be another"));
     }
     if options.list {
         return list(options, &selected, &measurements);
@@ -165,7 +165,8 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     if options.check {
         return check(options, &entries, &selected, &measurements);
     }
-    start_threads(options)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(options));
+    pool.build_global().context("cannot start the computing threads")?;
     let folder = OutputFolder::create(options.folder())?;
     let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
@@ -174,16 +175,11 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     make(&run, options.quality, &measurements, &folder)
 }
 
-/// Whether both exist and are the same, by whatever path. Tables would be taken for measurements.
-fn is_same_folder(one: &Path, other: &Path) -> bool {
-    one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|other| one == other))
-}
-
 /// What is to be made.
 struct Run<'a> {
     options: &'a Options,
-    entries: &'a [Box<dyn RegisteredExperiment>],
-    selected: &'a [&'a dyn RegisteredExperiment],
+    entries: &'a [RegisteredExperiment],
+    selected: &'a [&'a RegisteredExperiment],
 }
 
 /// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it. A user's
@@ -198,77 +194,62 @@ fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> 
         }
     }
     let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    let written = if run.options.extras {
-        extra_pictures::write(run.selected, folder, &drafts, &docs)
-    } else {
-        results::write(errata::TEMPLATE, &registry::paper(), folder, &drafts, &docs)
-    };
-    written.context("the documentation cannot be written")?;
+    let pictures = if run.options.extras { Pictures::Extras } else { Pictures::Paper };
+    pages::write(pictures, run.selected, folder, &drafts, &docs)
+        .context("the documentation cannot be written")?;
     say!("{} is up to date", visible_path(docs.path()))?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// Those beyond the paper.
-fn extras<'a>(selected: &[&'a dyn RegisteredExperiment]) -> Vec<&'a dyn RegisteredExperiment> {
-    selected.iter().copied().filter(|entry| registry::is_extra(entry.id())).collect()
-}
-
-fn start_threads(options: &Options) -> anyhow::Result<()> {
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(threads(options))
-        .build_global()
-        .context("cannot start the computing threads")
-}
-
 fn threads(options: &Options) -> usize {
-    options.threads.map_or_else(available_threads, usize::from)
+    let available = || std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    options.threads.map_or_else(available, usize::from)
 }
 
 fn list(
     options: &Options,
-    selected: &[&dyn RegisteredExperiment],
+    selected: &[&RegisteredExperiment],
     measurements: &Measurements,
 ) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
-    let widest_id = width_of_ids(selected.iter().map(|entry| entry.id()));
-    let widest = selected.iter().map(|entry| entry.title().chars().count()).max().unwrap_or_default();
+    let widest_id = width_of_ids(selected.iter().map(|entry| entry.id));
+    let widest = selected.iter().map(|entry| entry.title.chars().count()).max().unwrap_or_default();
     for entry in selected {
-        let state = match state(*entry, options.quality, &folder, measurements) {
+        let state = match state(entry, options.quality, &folder, measurements) {
             Ok(()) => "up to date".to_owned(),
             Err(stale) => stale.to_string(),
         };
-        say!("{:<widest_id$} {:<widest$}  {state}", entry.id(), entry.title())?;
+        say!("{:<widest_id$} {:<widest$}  {state}", entry.id, entry.title)?;
     }
     Ok(ExitCode::SUCCESS)
 }
 
 /// The width of the column of the identifiers.
 fn width_of_ids<'a>(ids: impl Iterator<Item = &'a str>) -> usize {
-    const LEAST: usize = 8;
-    ids.map(str::len).fold(LEAST, usize::max)
+    ids.map(str::len).fold(8, usize::max)
 }
 
 /// Whether a figure is up to date with the sources and the measurements.
 fn state(
-    entry: &dyn RegisteredExperiment,
+    entry: &RegisteredExperiment,
     quality: Quality,
     folder: &OutputFolder,
     measurements: &Measurements,
 ) -> Result<(), Stale> {
-    folder.check(entry.id(), quality, &measurements.digest(entry.measurements()))
+    folder.check(entry.id, quality, &measurements.digest(entry.measurements))
 }
 
 /// What is wrong with the measurements for the selected figures, and with files that no figure reads.
 fn faults(
     options: &Options,
-    selected: &[&dyn RegisteredExperiment],
+    selected: &[&RegisteredExperiment],
     measurements: &Measurements,
     summary: &Summary,
 ) -> Vec<String> {
     let of_figures = summary
         .warnings
         .iter()
-        .filter(|(id, _)| selected.iter().any(|entry| entry.id() == id))
+        .filter(|(id, _)| selected.iter().any(|entry| entry.id == id))
         .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
     let unknown = measurements.unknown();
     let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
@@ -284,16 +265,16 @@ fn faults(
 
 fn check(
     options: &Options,
-    entries: &[Box<dyn RegisteredExperiment>],
-    selected: &[&dyn RegisteredExperiment],
+    entries: &[RegisteredExperiment],
+    selected: &[&RegisteredExperiment],
     measurements: &Measurements,
 ) -> anyhow::Result<ExitCode> {
     let folder = OutputFolder::existing(options.folder());
     let mut outdated = Vec::new();
     for entry in selected {
-        if let Err(stale) = state(*entry, options.quality, &folder, measurements) {
-            say!("{}: {stale}", entry.id())?;
-            outdated.push(entry.id());
+        if let Err(stale) = state(entry, options.quality, &folder, measurements) {
+            say!("{}: {stale}", entry.id)?;
+            outdated.push(entry.id);
         }
     }
     let summary = Summary::of(entries, &folder, measurements)?;
@@ -306,38 +287,33 @@ fn check(
         say!("{fault}")?;
     }
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
-    // A figure with a user's measurements is not the one of the documentation, which has none beyond the paper.
-    let none = Measurements::none();
-    let comparable: Vec<&dyn RegisteredExperiment> = selected
-        .iter()
-        .copied()
-        .filter(|entry| !registry::is_extra(entry.id()))
-        .filter(|entry| measurements.digest(entry.measurements()) == none.digest(entry.measurements()))
-        .collect();
-    let mut committed = results::outdated(errata::TEMPLATE, &comparable, options.quality, &folder, &docs)?;
-    for name in &committed {
-        say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
+    let mut committed = 0;
+    for (pictures, command) in DOCS_COMMANDS {
+        // A figure with a user's measurements is not the one of the documentation, which has none.
+        let comparable: Vec<&RegisteredExperiment> = selected
+            .iter()
+            .copied()
+            .filter(|entry| registry::is_extra(entry.id) == (pictures == Pictures::Extras))
+            .filter(|entry| measurements.digest(entry.measurements).is_empty())
+            .collect();
+        let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;
+        for name in &names {
+            say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
+        }
+        if !names.is_empty() {
+            say!("to repair: {command}")?;
+        }
+        committed += names.len();
     }
-    if !committed.is_empty() {
-        say!("to repair: {DOCS_COMMAND}")?;
-    }
-    let mut extras = extra_pictures::outdated(&extras(selected), options.quality, &folder, &docs)?;
-    for name in &extras {
-        say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
-    }
-    if !extras.is_empty() {
-        say!("to repair: {EXTRAS_COMMAND}")?;
-    }
-    committed.append(&mut extras);
     if outdated.is_empty() && common.is_empty() {
-        if !committed.is_empty() || !faults.is_empty() {
+        if committed > 0 || !faults.is_empty() {
             return Ok(ExitCode::FAILURE);
         }
         say!("all outputs in {} and the documentation are up to date", visible_path(folder.path()))?;
         return Ok(ExitCode::SUCCESS);
     }
     // With every figure out of date the list of all is no help.
-    let paper: Vec<&str> = registry::paper().iter().map(|entry| entry.id()).collect();
+    let paper: Vec<&str> = registry::paper().iter().map(|entry| entry.id).collect();
     let all = options.ids.is_empty() && outdated.len() == selected.len() || outdated == paper;
     let named = if all { Vec::new() } else { outdated };
     say!("to repair: {}", options.command(&named))?;
@@ -354,10 +330,10 @@ fn make(
     let (current, due): (Vec<_>, Vec<_>) = selected
         .iter()
         .copied()
-        .partition(|entry| !options.force && state(*entry, quality, folder, measurements).is_ok());
-    let widest = width_of_ids(current.iter().map(|entry| entry.id()));
+        .partition(|entry| !options.force && state(entry, quality, folder, measurements).is_ok());
+    let widest = width_of_ids(current.iter().map(|entry| entry.id));
     for entry in &current {
-        say!("{:<widest$} up to date", entry.id())?;
+        say!("{:<widest$} up to date", entry.id)?;
     }
     let report = Report::new();
     let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
@@ -375,7 +351,7 @@ fn make(
         say!("    make it again: {}", options.command(&[id]))?;
     }
     let faults = faults(options, selected, measurements, &summary);
-    conclude(options, &finished, folder, &faults, &summary.counts)
+    conclude(options, &finished, folder, &faults, &summary)
 }
 
 /// Prints the times, the measurements that were left out and the failures.
@@ -387,7 +363,7 @@ fn conclude(
     finished: &[Finished],
     folder: &OutputFolder,
     faults: &[String],
-    counts: &Counts,
+    summary: &Summary,
 ) -> anyhow::Result<ExitCode> {
     let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
     made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
@@ -399,8 +375,8 @@ fn conclude(
         }
     }
     say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
-    say!("{}", counts.headline())?;
-    say!("{}", counts.beside())?;
+    say!("{}", summary.counts.headline())?;
+    say!("{}", summary.counts.beside())?;
     if !faults.is_empty() {
         say!("")?;
     }
@@ -423,10 +399,6 @@ fn say_failures(options: &Options, finished: &[Finished]) -> anyhow::Result<usiz
         say!("    run it again: {}", options.command(&[id]))?;
     }
     Ok(failed.len())
-}
-
-fn available_threads() -> usize {
-    std::thread::available_parallelism().map_or(1, NonZeroUsize::get)
 }
 
 #[cfg(test)]
@@ -487,12 +459,5 @@ mod tests {
         assert_eq!(both.ok(), Some((true, true)));
         assert!(parse(&["--docs"]).is_ok() && parse(&["--extras", "--check"]).is_ok());
         assert!(parse(&["--docs", "fig01"]).is_err() && parse(&["--docs", "--check"]).is_err());
-    }
-
-    #[test]
-    fn the_default_folder_is_that_of_the_workspace() {
-        let folder = options(Quality::Paper, None).folder();
-        assert!(folder.ends_with(DEFAULT_FOLDER), "{}", folder.display());
-        assert!(!folder.to_string_lossy().contains("xtask"), "{}", folder.display());
     }
 }

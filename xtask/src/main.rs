@@ -1,9 +1,7 @@
 //! The chores of this repository.
 //!
-//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask bench` measures how fast
-//! the library is, `cargo xtask explorer` builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the licences.
+//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer` builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the licences.
 
-mod bench;
 mod dependencies;
 mod explorer;
 mod figures;
@@ -27,8 +25,6 @@ struct Arguments {
 enum Chore {
     /// Compute and draw the figures and tables of the paper.
     Figures(figures::Options),
-    /// Run the benches, compare the speed of two commits, or write docs/performance.md.
-    Bench(bench::Options),
     /// Build the page that shows the model in a browser.
     Explorer(explorer::Options),
     /// Count the crates that each dependency brings, and check licences and sources.
@@ -39,7 +35,6 @@ fn main() -> ExitCode {
     let Arguments { chore } = Arguments::parse();
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
-        Chore::Bench(options) => bench::run(&options),
         Chore::Explorer(options) => explorer::run(&options),
         Chore::Dependencies => dependencies::run(),
     };

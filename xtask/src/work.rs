@@ -7,7 +7,6 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, anyhow};
-use bouncing_disk_experiments::artifacts;
 use bouncing_disk_experiments::experiment::RegisteredExperiment;
 use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::{Measurements, Quality};
@@ -28,7 +27,7 @@ pub(crate) struct Finished {
 /// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run time
 /// would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and 7 do.)
 pub(crate) fn make_all(
-    entries: &[&dyn RegisteredExperiment],
+    entries: &[&RegisteredExperiment],
     quality: Quality,
     measurements: &Measurements,
     folder: &OutputFolder,
@@ -40,7 +39,7 @@ pub(crate) fn make_all(
     thread::scope(|scope| {
         let work = || {
             while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let figure = make(*entry, quality, measurements, folder, report);
+                let figure = make(entry, quality, measurements, folder, report);
                 // A poisoned lock holds intact results: a push is the only thing done under it.
                 finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
             }
@@ -57,21 +56,20 @@ pub(crate) fn make_all(
 }
 
 fn make(
-    entry: &dyn RegisteredExperiment,
+    entry: &RegisteredExperiment,
     quality: Quality,
     measurements: &Measurements,
     folder: &OutputFolder,
     report: &Report,
 ) -> Finished {
-    let id = entry.id();
+    let id = entry.id;
     let progress = report.begin(id);
     let start = Instant::now();
-    let made =
-        panic::catch_unwind(AssertUnwindSafe(|| artifacts::make(entry, quality, measurements, &progress)));
+    let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, measurements, &progress)));
     let run_time = start.elapsed();
     let result = match made {
         Ok(Ok(files)) => {
-            let measured = measurements.digest(entry.measurements());
+            let measured = measurements.digest(entry.measurements);
             folder.write_set(id, quality, &measured, run_time.as_secs_f64(), &files).map_err(Into::into)
         }
         Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
@@ -89,62 +87,49 @@ fn message(payload: &(dyn std::any::Any + Send)) -> &str {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_experiments::experiment::{ErasedData, ExperimentError};
+    use bouncing_disk_experiments::experiment::{Experiment, ExperimentError, entry};
     use bouncing_disk_experiments::{FiniteError, Progress};
+    use bouncing_disk_plot::Figure;
 
     use super::*;
 
     /// Panics or fails.
-    struct Failing {
-        id: &'static str,
-        panics: bool,
-    }
+    struct Failing<const PANICS: bool>;
 
-    impl RegisteredExperiment for Failing {
-        fn id(&self) -> &'static str {
-            self.id
+    impl<const PANICS: bool> Experiment for Failing<PANICS> {
+        type Data = f64;
+        const ID: &'static str = if PANICS { "a" } else { "b" };
+        const TITLE: &'static str = "fails";
+
+        fn caption(_: &f64) -> String {
+            String::new()
         }
 
-        fn title(&self) -> &'static str {
-            "fails"
-        }
-
-        fn compute(
-            &self,
-            _: Quality,
-            progress: &dyn Progress,
-        ) -> Result<Box<dyn ErasedData>, ExperimentError> {
+        fn compute(_: Quality, progress: &dyn Progress) -> Result<f64, ExperimentError> {
             progress.start(2, "steps");
             progress.advance(1);
-            assert!(!self.panics, "index {} out of range", 7);
+            assert!(!PANICS, "index {} out of range", 7);
             let place = "speed_m_per_s[3]".to_owned();
             Err(ExperimentError::Data(FiniteError::NotFinite { place, number: f64::NAN }))
         }
 
-        fn read(&self, _: serde_json::Value) -> Result<Box<dyn ErasedData>, ExperimentError> {
-            unreachable!("nothing is stored")
+        fn draw(_: &f64) -> Result<Figure, ExperimentError> {
+            Ok(Figure::new(10.0, 10.0))
         }
     }
 
     #[test]
     fn one_failure_does_not_stop_the_others() {
-        let path = std::env::temp_dir().join(format!("bouncing-disk-work-{}", std::process::id()));
-        let folder = OutputFolder::create(&path).expect("writable");
-        let entries = [
-            Failing { id: "a", panics: true },
-            Failing { id: "b", panics: false },
-            Failing { id: "c", panics: true },
-        ];
-        let entries: Vec<&dyn RegisteredExperiment> =
-            entries.iter().map(|entry| entry as &dyn RegisteredExperiment).collect();
+        let folder = OutputFolder::existing("no such folder");
+        let entries = [entry::<Failing<true>>(), entry::<Failing<false>>(), entry::<Failing<true>>()];
+        let entries: Vec<&RegisteredExperiment> = entries.iter().collect();
         let mut finished =
-            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::silent());
+            make_all(&entries, Quality::Draft, &Measurements::none(), &folder, 2, &Report::Lines);
         finished.sort_by_key(|figure| figure.id);
         let errors: Vec<_> =
             finished.iter().map(|f| format!("{:#}", f.result.as_ref().expect_err("all fail"))).collect();
-        assert_eq!(errors[0], "panicked: index 7 out of range");
-        assert!(errors[1].contains("speed_m_per_s[3] is NaN"), "{}", errors[1]);
         assert_eq!(errors.len(), 3);
-        std::fs::remove_dir_all(path).expect("removable");
+        assert_eq!([&errors[0], &errors[1]], ["panicked: index 7 out of range"; 2]);
+        assert!(errors[2].contains("speed_m_per_s[3] is NaN"), "{}", errors[2]);
     }
 }

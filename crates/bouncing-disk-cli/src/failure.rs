@@ -8,22 +8,17 @@ use bouncing_disk_plot::DrawError;
 
 use crate::interrupt;
 
-/// Exit status of a computation that failed.
-const FAILED: u8 = 1;
-/// Exit status of a line or a file that cannot be used; clap has the same.
-const USAGE: u8 = 2;
-
 /// Why a command gives no result.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or a file that it names is not legal: status 2.
+    /// The command line or a file that it names is not legal: status 2, as clap has it.
     Usage(String),
     /// The computation failed, or the system refused: status 1.
     Failed(String),
-    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says what is
-    /// kept and how to go on.
+    /// A signal stopped it: status 128 and the number of the signal, 130 for Ctrl-C. The text says which
+    /// rows are kept, and how to resume.
     Interrupted(String),
-    /// Whoever read the output has gone, as `head` does: nobody is left to be told anything, and that is no
+    /// Whoever read the output has gone, as `head` does: nobody is left to read a message, and that is no
     /// error.
     NobodyReads,
 }
@@ -49,10 +44,11 @@ impl Failure {
         }
     }
 
-    /// What the user is told, if anything.
-    pub(crate) fn text(&self) -> Option<&str> {
+    /// The message for the user, if there is one.
+    pub(crate) fn message(&self) -> Option<String> {
         match self {
-            Self::Usage(text) | Self::Failed(text) | Self::Interrupted(text) => Some(text),
+            Self::Usage(text) | Self::Failed(text) => Some(format!("error: {text}")),
+            Self::Interrupted(text) => Some(format!("bouncing-disk: {text}")),
             Self::NobodyReads => None,
         }
     }
@@ -60,10 +56,10 @@ impl Failure {
     /// The exit status.
     pub(crate) fn exit_code(&self) -> ExitCode {
         match self {
-            Self::Usage(_) => ExitCode::from(USAGE),
-            Self::Failed(_) => ExitCode::from(FAILED),
-            Self::Interrupted(_) => ExitCode::from(interrupt::exit_status()),
             Self::NobodyReads => ExitCode::SUCCESS,
+            Self::Failed(_) => ExitCode::from(1),
+            Self::Usage(_) => ExitCode::from(2),
+            Self::Interrupted(_) => ExitCode::from(interrupt::exit_status()),
         }
     }
 }
@@ -88,18 +84,14 @@ impl From<bouncing_disk::core::Error> for Failure {
         use bouncing_disk::core::Error;
         match error {
             Error::OutOfRange { .. } | Error::TooLarge { .. } => Self::Usage(error.to_string()),
+            // Some calls count in work that has no name for a user.
             Error::Stopped { done, total } => {
-                Self::Interrupted(format!("interrupted: {}", part(done, total)))
+                let share = if total == 0 { 0.0 } else { 100.0 * done as f64 / total as f64 };
+                Self::Interrupted(format!("interrupted: {share:.0} % were done, and nothing is written"))
             }
             _ => Self::Failed(error.to_string()),
         }
     }
-}
-
-/// How far a call was. Some count in work that has no name for a user.
-fn part(done: u64, total: u64) -> String {
-    let share = if total == 0 { 0.0 } else { 100.0 * done as f64 / total as f64 };
-    format!("{share:.0} % were done, and nothing is written")
 }
 
 impl From<bouncing_disk::Error> for Failure {
@@ -158,36 +150,5 @@ impl From<io::Error> for Failure {
             io::ErrorKind::BrokenPipe => Self::NobodyReads,
             _ => Self::Failed(with_causes(&error)),
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bad_input_is_told_from_a_failed_computation() {
-        let range = bouncing_disk::Error::OutOfRange { field: "friction", value: -1.0, legal: "[0, inf)" };
-        assert!(matches!(Failure::from(range), Failure::Usage(_)));
-        let weak = bouncing_disk::Error::NeverLeaves { peak_acceleration: 0.5 };
-        assert!(matches!(Failure::from(weak), Failure::Failed(_)));
-        let stopped = bouncing_disk::core::Error::Stopped { done: 1, total: 4 };
-        let Failure::Interrupted(text) = Failure::from(bouncing_disk::Error::Core(stopped)) else { panic!() };
-        assert_eq!(text, "interrupted: 25 % were done, and nothing is written");
-    }
-
-    #[test]
-    fn a_reader_that_has_gone_is_no_failure() {
-        let gone = Failure::from(io::Error::from(io::ErrorKind::BrokenPipe));
-        assert!(matches!(gone, Failure::NobodyReads));
-        assert_eq!(gone.text(), None);
-        let full = Failure::from(io::Error::from(io::ErrorKind::StorageFull));
-        assert!(matches!(full, Failure::Failed(_)));
-    }
-
-    #[test]
-    fn a_context_names_the_file() {
-        let failure = Failure::usage("no number").in_context("a.toml");
-        assert_eq!(failure.text(), Some("a.toml: no number"));
     }
 }

@@ -17,9 +17,6 @@ const BASE: usize = 128;
 /// From now on Ctrl-C and the signal that schedulers send before they kill are noted. A computation that does
 /// not look at [`came`] is ended by a second one: files are renamed when they are complete, so that none is
 /// torn.
-///
-/// # Errors
-/// When the system refuses.
 pub(crate) fn listen() -> io::Result<()> {
     // Either is a second one of the other, too. What ends the process is registered, and so runs, first.
     let again = Arc::new(AtomicBool::new(false));

@@ -1,7 +1,56 @@
-//! The program `bouncing-disk`; what it does is in the library of this package.
+//! The program `bouncing-disk`: what the library `bouncing-disk` computes, on the command line.
+//!
+//! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a
+//! report: a table on the terminal, or files (`output`). It has no physics and no numerics of its own. Grids
+//! go through `grid`, which divides them into chunks and keeps journals; pictures are drawn by `pictures`
+//! with `bouncing-disk-plot`.
+//!
+//! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
+
+mod commands;
+mod context;
+mod failure;
+mod grid;
+mod interrupt;
+mod output;
+mod parameters;
+mod pictures;
+mod range;
 
 use std::process::ExitCode;
 
+use clap::Parser as _;
+
+use commands::CommandLine;
+use failure::Failure;
+use output::lines::complain;
+
+/// The exit status is 0 if all is done, 1 if it failed, 2 for bad usage or input, 130 or 143 if interrupted.
 fn main() -> ExitCode {
-    bouncing_disk_cli::run()
+    let line = match CommandLine::try_parse() {
+        Ok(line) => line,
+        // Help and version are no errors. A reader of the help that has gone is none either.
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    match run_line(line) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            if let Some(message) = failure.message() {
+                complain(&message);
+            }
+            failure.exit_code()
+        }
+    }
+}
+
+fn run_line(line: CommandLine) -> Result<(), Failure> {
+    interrupt::listen()?;
+    if let Some(threads) = line.context.threads {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
+        pool.map_err(|error| Failure::failed(format!("{threads} threads cannot be started: {error}")))?;
+    }
+    commands::run(line.command, line.context)
 }

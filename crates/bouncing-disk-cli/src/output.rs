@@ -6,3 +6,7 @@ pub(crate) mod lines;
 pub(crate) mod numbers;
 pub(crate) mod report;
 pub(crate) mod table;
+
+pub(crate) use files::OutputArgs;
+pub(crate) use report::{Report, provenance, stored};
+pub(crate) use table::{Columns, Quantities};

@@ -1,4 +1,4 @@
-//! Chunks and their merge: the same bytes as without, and a refusal by name of what does not belong.
+//! Chunks and their merge: the same bytes as without, and a refusal of foreign parts by name.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
@@ -53,41 +53,39 @@ fn parts_are_put_together_to_the_bytes_of_the_whole() {
 }
 
 #[test]
-fn what_does_not_belong_together_is_refused_by_name() {
+fn foreign_parts_are_refused_by_name() {
     let folder = Folder::new();
     let line = "diagram -G 0.3:0.6:7 --transient 50 --recorded 5";
     parts(&folder, line, 3);
-    let refused = |names: &str, told: &str| {
-        let text = folder.refused(&format!("merge {names}"), 2);
-        assert!(text.contains(told), "{names}: {text}");
-    };
-    let (one, two, three) = ("part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
-    refused(&format!("{one} {three}"), "chunks are missing: 2/3");
-    refused(one, "chunks are missing: 2/3, 3/3");
-    refused(&format!("{one} {two} {three} {two}"), "chunk 2 is there twice");
-    // Of another restitution, of another number of parts, of another command.
+    // Of another restitution, of another number of parts, of another command, and no part at all.
     folder.done("diagram -G 0.3:0.6:7 --transient 50 --recorded 5 -r 0.4 --chunk 2/3 --out other.json");
-    refused(
-        &format!("{one} other.json {three}"),
-        "other.json is of another computation: its job.restitution is 0.4",
-    );
     folder.done(&format!("{line} --chunk 2/4 --out four.json"));
-    refused(&format!("{one} four.json {three}"), "its number of chunks is 4");
     folder.done("verdicts -G 0.3:0.6:7 --impacts 100 --chunk 2/3 --out verdicts.json");
-    refused(
-        &format!("{one} verdicts.json {three}"),
-        "its command is verdicts, where part-1-of-3.json has diagram",
-    );
-    // A result that is no part.
     folder.done(&format!("{line} --out whole.json"));
-    refused("whole.json", "is no file of the format \"bouncing-disk chunk\"");
+    let foreign = "is of another computation: its";
+    let (one, two, three) = ("merge part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
+    folder.all_refused(
+        2,
+        &[
+            (&format!("{one} {three}"), "chunks are missing: 2/3"),
+            (one, "chunks are missing: 2/3, 3/3"),
+            (&format!("{one} {two} {three} {two}"), "chunk 2 is there twice"),
+            (&format!("{one} other.json {three}"), &format!("other.json {foreign} job.restitution is 0.4")),
+            (&format!("{one} four.json {three}"), &format!("four.json {foreign} number of chunks is 4")),
+            (
+                &format!("{one} verdicts.json {three}"),
+                &format!("verdicts.json {foreign} command is verdicts, where part-1-of-3.json has diagram"),
+            ),
+            ("merge whole.json", "is no file of the format \"bouncing-disk chunk\""),
+        ],
+    );
 }
 
 #[test]
 fn a_part_that_is_damaged_is_refused() {
     let folder = Folder::new();
     parts(&folder, "verdicts -G 0.3:0.6:4 --impacts 100", 2);
-    let whole = String::from_utf8(folder.read("part-1-of-2.json")).unwrap();
+    let whole = folder.text("part-1-of-2.json");
     let digit = whole.rfind("0.").unwrap() + 2;
     let changed = format!(
         "{}{}{}",
@@ -140,23 +138,4 @@ fn a_part_has_a_journal_of_its_own() {
     changed[place] = b'2';
     std::fs::write(folder.join("rows"), changed).unwrap();
     folder.refused(&format!("{line} --chunk 2/2 --journal rows --out changed.json"), 2);
-}
-
-/// As a job array does it, with a shell.
-#[cfg(unix)]
-#[test]
-fn a_loop_of_the_shell_computes_a_map() {
-    let folder = Folder::new();
-    let script = "for i in 1 2 3 4; do
-        \"$0\" verdicts -G 0:3:12 -r 0:0.9:9 --impacts 200 --chunk $i/4 --out part-$i.json --quiet || exit 1
-    done
-    \"$0\" merge part-*.json --out map.csv --quiet";
-    let shell = std::process::Command::new("sh")
-        .args(["-c", script, env!("CARGO_BIN_EXE_bouncing-disk")])
-        .current_dir(folder.path())
-        .output()
-        .unwrap();
-    assert!(shell.status.success() && shell.stderr.is_empty(), "{}", common::errors(&shell));
-    folder.done("verdicts -G 0:3:12 -r 0:0.9:9 --impacts 200 --out whole.csv");
-    assert!(folder.read("map.csv") == folder.read("whole.csv"));
 }

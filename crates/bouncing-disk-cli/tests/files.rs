@@ -37,7 +37,7 @@ fn every_command_writes_every_kind_of_file() {
         let name = |ending: &str| format!("{index}.{ending}");
         let (csv, json) = (name("csv"), name("json"));
         assert_eq!(folder.done(&format!("{line} --out {csv} --out {json}")), "", "{line}");
-        let table = String::from_utf8(folder.read(&csv)).unwrap();
+        let table = folder.text(&csv);
         let mut lines = table.lines();
         let provenance = lines.next().and_then(|first| first.strip_prefix("# provenance: ")).unwrap();
         let provenance: Value = serde_json::from_str(provenance).unwrap();
@@ -45,10 +45,15 @@ fn every_command_writes_every_kind_of_file() {
         let columns = lines.next().unwrap().split(',').count();
         assert!(lines.clone().count() >= 1, "{line}");
         assert!(lines.all(|row| row.contains('"') || row.split(',').count() == columns), "{line}: {table}");
+        // The bytes do not depend on the number of threads.
+        let one = name("one.json");
+        folder.done(&format!("{line} --threads 1 --out {one}"));
+        folder.done(&format!("{line} --threads 3 --out {json} --force"));
+        assert!(folder.read(&one) == folder.read(&json), "{line}");
         let stored: Value = serde_json::from_slice(&folder.read(&json)).unwrap();
         assert_eq!(stored["provenance"], provenance, "{line}");
         assert!(stored.as_object().unwrap().len() >= 2, "{line}");
-        let (svg, png) = (name("svg"), name("png"));
+        let (svg, png) = (name("svg"), name("PNG"));
         let pictures = format!("{line} --out {svg} --out {png}");
         if has_picture {
             folder.done(&pictures);
@@ -65,43 +70,28 @@ fn every_command_writes_every_kind_of_file() {
 }
 
 #[test]
-fn the_same_line_gives_the_same_bytes_for_any_number_of_threads() {
-    let folder = Folder::new();
-    for (index, (line, _)) in QUICK.into_iter().enumerate() {
-        for threads in [1, 3] {
-            folder.done(&format!("{line} --threads {threads} --out {index}-{threads}.json"));
-        }
-        assert!(folder.read(&format!("{index}-1.json")) == folder.read(&format!("{index}-3.json")), "{line}");
-    }
-}
-
-#[test]
-fn nothing_is_overwritten_unless_that_is_meant() {
+fn places_that_cannot_be_written_are_refused_before_anything_is_computed() {
     let folder = Folder::new();
     folder.write("a.csv", "mine");
-    let text = folder.refused("toss --out a.csv", 2);
-    assert!(text.contains("a.csv: it is there already; --force replaces it"), "{text}");
+    std::fs::create_dir(folder.join("taken.csv")).unwrap();
+    // It would take hours.
+    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --out";
+    folder.all_refused(
+        2,
+        &[
+            (&format!("{long} a.csv"), "a.csv: it is there already; --force replaces it"),
+            (&format!("{long} no/such/a.csv"), "there is no folder no/such"),
+            (&format!("{long} taken.csv"), "it is a folder"),
+        ],
+    );
+    if cfg!(target_os = "linux") {
+        // A folder in which nobody can write.
+        folder.all_refused(1, &[(&format!("{long} /proc/a.csv"), "/proc/a.csv cannot be written")]);
+    }
     assert_eq!(folder.read("a.csv"), b"mine");
     folder.done("toss --out a.csv --force");
     assert_ne!(folder.read("a.csv"), b"mine");
-    assert_eq!(folder.names(), ["a.csv"]);
-}
-
-#[test]
-fn places_that_cannot_be_written_are_told_before_anything_is_computed() {
-    let folder = Folder::new();
-    std::fs::create_dir(folder.join("taken.csv")).unwrap();
-    // These would take hours.
-    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000";
-    for (out, told) in [("no/such/a.csv", "there is no folder no/such"), ("taken.csv", "it is a folder")] {
-        let text = folder.refused(&format!("{long} --out {out}"), 2);
-        assert!(text.contains(told), "{out}: {text}");
-    }
-    if cfg!(target_os = "linux") {
-        // A folder in which nobody can write.
-        let text = folder.refused(&format!("{long} --out /proc/a.csv"), 1);
-        assert!(text.contains("/proc/a.csv cannot be written"), "{text}");
-    }
+    assert_eq!(folder.names(), ["a.csv", "taken.csv"]);
 }
 
 #[test]
@@ -242,7 +232,7 @@ fn a_template_goes_into_a_file_by_the_rules_of_results() {
     ] {
         let text = folder.done(line);
         assert_eq!(folder.done(&format!("{line} --out {name}")), "");
-        assert_eq!(String::from_utf8(folder.read(name)).unwrap(), text, "{line}");
+        assert_eq!(folder.text(name), text, "{line}");
         let refused = folder.refused(&format!("{line} --out {name}"), 2);
         assert!(refused.contains("it is there already; --force replaces it"), "{refused}");
         folder.done(&format!("{line} --out {name} --force"));
@@ -276,7 +266,7 @@ fn fitted_parameters_have_units() {
         "fit run.csv --preset paper-70-khz --parameter friction=0.09:0.11 --parameter phase_lag=-0.1:0.1 --resamples 200 \
          --out fit.csv",
     );
-    let table = String::from_utf8(folder.read("fit.csv")).unwrap();
+    let table = folder.text("fit.csv");
     let lines: Vec<&str> = table.lines().skip(1).collect();
     assert_eq!(lines[0], "parameter,unit,nominal,value,low,high,determined");
     assert!(lines[1].starts_with("friction,1,0.1,"), "{table}");
@@ -289,14 +279,15 @@ fn an_input_is_no_result() {
     folder.done("motor transient --members 6 --duration 2 --intervals 20 --out run.csv");
     folder.done("verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --out part.json");
     folder.write("toss.json", "{}");
-    for line in [
-        "fit run.csv --out ./run.csv --force",
-        "merge part.json --out part.json --force",
-        "toss toss.json --out toss.json --force",
-    ] {
-        let text = folder.refused(line, 2);
-        assert!(text.contains("it cannot be an input and the result"), "{line}: {text}");
-    }
+    let told = "it cannot be an input and the result";
+    folder.all_refused(
+        2,
+        &[
+            ("fit run.csv --out ./run.csv --force", told),
+            ("merge part.json --out part.json --force", told),
+            ("toss toss.json --out toss.json --force", told),
+        ],
+    );
     assert_eq!(folder.read("toss.json"), b"{}");
 }
 
@@ -307,20 +298,30 @@ fn one_file_by_two_names_is_seen_before_anything_is_computed() {
 
     let folder = Folder::new();
     std::fs::create_dir(folder.join("inner")).unwrap();
-    symlink("inner", folder.join("other")).unwrap();
-    symlink("inner/a.json", folder.join("rows")).unwrap();
-    // These would take hours.
-    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000";
-    for (options, told) in [
-        ("--out inner/a.json --out other/a.json", "it is asked for twice, as inner/a.json before"),
-        ("--out inner/a.json --out inner/../inner/a.json", "it is asked for twice"),
-        // The journal would be opened through the link.
-        ("--journal rows --out other/a.json --force", "it cannot be the journal and the result"),
-    ] {
-        let text = folder.refused(&format!("{long} {options}"), 2);
-        assert!(text.contains(told), "{options}: {text}");
+    let links = [("inner", "other"), ("inner/a.json", "link"), ("link", "far"), ("round.json", "round.json")];
+    for (to, name) in links {
+        symlink(to, folder.join(name)).unwrap();
     }
-    assert_eq!(folder.names(), ["inner", "other", "rows"]);
+    // It would take hours.
+    let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --force --out";
+    for (options, told) in [
+        ("inner/a.json --out other/a.json", "it is asked for twice, as inner/a.json before"),
+        ("inner/a.json --out inner/../inner/a.json", "it is asked for twice"),
+        ("inner/a.json --out ./inner//a.json", "it is asked for twice"),
+        // The journal would be opened through the links, however many.
+        ("other/a.json --journal link", "it cannot be the journal and the result"),
+        ("inner/a.json --journal far", "it cannot be the journal and the result"),
+        ("round.json --journal round.json", "it cannot be the journal and the result"),
+    ] {
+        folder.all_refused(2, &[(&format!("{long} {options}"), told)]);
+    }
+    assert_eq!(folder.names(), ["far", "inner", "link", "other", "round.json"]);
+    // A link is replaced, and not the file to which it leads.
+    symlink("inner/a.csv", folder.join("link.csv")).unwrap();
+    folder.write("inner/a.csv", "mine");
+    folder.done("toss --out link.csv --out inner/b.csv --force");
+    assert_eq!(folder.text("inner/a.csv"), "mine");
+    assert!(folder.read("link.csv") == folder.read("inner/b.csv"));
 }
 
 /// Names of files are bytes on most systems.
@@ -363,7 +364,7 @@ fn a_torque_curve_names_what_lies_within_its_loads() {
             "motor curve --loads {loads} --relative-error 0.5 --members 4 --no-spread --out a.svg --force"
         );
         folder.done(&line);
-        let svg = String::from_utf8(folder.read("a.svg")).unwrap();
+        let svg = folder.text("a.svg");
         assert_eq!((svg.contains(limit), svg.contains(nothing)), (has_limit, has_nothing), "{loads}");
         assert_eq!(svg.contains("efficiency</"), !has_nothing, "{loads}");
     }

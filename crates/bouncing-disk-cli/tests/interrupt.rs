@@ -1,4 +1,4 @@
-//! Signals: nothing is torn, what is finished is kept, and the same command ends in the same bytes.
+//! Signals: nothing is torn, finished rows are kept, and the same command ends in the same bytes.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
@@ -50,7 +50,7 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
         let output = end(child);
         let text = errors(&output);
         assert_eq!(output.status.code(), Some(status), "{text}");
-        assert!(text.contains("of 300 rows are kept in rows.journal; the same command goes on"), "{text}");
+        assert!(text.contains("of 300 rows are kept in rows.journal; the same command resumes"), "{text}");
         // Nothing else was written, nothing is torn.
         assert_eq!(folder.names(), ["rows.journal"]);
         let kept = std::fs::read_to_string(folder.join("rows.journal")).unwrap().lines().count();

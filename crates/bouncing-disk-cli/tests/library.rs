@@ -6,10 +6,12 @@ mod common;
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{
-    AttractorSearch, Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, Phase, Unobserved,
-    VerdictSettings, Vibration, doubling_cascade, orbit_diagram, verdicts,
+use bouncing_disk::core::attractors::{
+    AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
 };
+use bouncing_disk::core::orbits::doubling_cascade;
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk::{
     InitialSpin, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, System, TossConstraints,
     TransientSettings, best_toss, ensemble, single_toss,

@@ -3,9 +3,8 @@
 
 use std::hint::black_box;
 
-use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Unobserved, Vibration,
-};
+use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Cells a side.

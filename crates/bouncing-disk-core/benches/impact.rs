@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use std::hint::black_box;
 
+use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
 use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, InstructionSet, Launch, OrbitBatch, OrbitEvent, Phase, Unobserved,
-    Vibration,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 

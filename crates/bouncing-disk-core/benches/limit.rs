@@ -3,7 +3,8 @@
 use std::f64::consts::FRAC_2_PI;
 use std::hint::black_box;
 
-use bouncing_disk_core::{InstructionSet, elementary};
+use bouncing_disk_core::numerics::elementary;
+use bouncing_disk_core::sweep::InstructionSet;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use pulp::{Simd, WithSimd};
 

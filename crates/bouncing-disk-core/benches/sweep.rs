@@ -2,10 +2,8 @@
 
 use std::hint::black_box;
 
-use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Unobserved, Vibration, orbit_diagram,
-    survival_times,
-};
+use bouncing_disk_core::sweep::{orbit_diagram, survival_times};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, OrbitEvent, Unobserved, Vibration};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Impacts of a column, and how many of them are recorded.

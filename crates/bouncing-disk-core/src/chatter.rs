@@ -1,7 +1,27 @@
-//! Chattering: the sum of a sequence of impacts without end, the proof that a disk comes to rest by one, and what is done with it.
+//! Chattering: a sequence of ever smaller impacts without end that brings the disk to rest on the platform.
+//!
+//! Flights and speeds shrink by the restitution r from one impact to the next, so that from a launch with the
+//! relative speed w the disk rests after about 2 w / (a (1 - r)), where a = 1 - P sin tau is the relative gravity.
+//! [`ChatterPolicy`](crate::ChatterPolicy) says how an orbit treats it: summed to the end, with a proven bound of
+//! the error, or cut off as in Sec. IV A of the paper (docs/numerics/chattering.md).
+//!
+//! ```
+//! use bouncing_disk_core::{ImpactMap, Launch, Phase, Vibration};
+//!
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let rest = map.accumulation(Launch::new(Phase::new(4.0)?, 1e-5)?).expect("chatters to rest");
+//! assert!(rest.error_bound < 1e-12);
+//! # Ok::<(), bouncing_disk_core::Error>(())
+//! ```
+//!
+//! After the rest the disk separates where the platform falls away from it, and the orbit goes on with
+//! [`OrbitEvent::Attachment`](crate::OrbitEvent).
 
 pub(crate) mod accumulation;
 pub(crate) mod expansion;
 pub(crate) mod impact_series;
 pub(crate) mod policy;
 pub(crate) mod rest_proof;
+
+pub use accumulation::{Accumulation, ChatterImpact};
+pub use impact_series::{ChatterSeries, ImpactRange, PowerSeries};

@@ -5,7 +5,8 @@
 //!
 //! ```
 //! use std::f64::consts::TAU;
-//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Unobserved, Vibration, orbit_diagram};
+//! use bouncing_disk_core::sweep::orbit_diagram;
+//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Unobserved, Vibration};
 //!
 //! # fn main() -> Result<(), bouncing_disk_core::Error> {
 //! // Gamma = 0.45 and restitution 0.5: a disk on the period-1 orbit lands once in every period.
@@ -19,112 +20,54 @@
 //! # }
 //! ```
 //!
-//! What there is, by what it is about:
+//! The names at the root are those of one disk on one platform. All that is done with them is in chapters, each with
+//! an example and its equation on the first page:
 //!
-//! | about | items |
+//! | chapter | about |
 //! | --- | --- |
-//! | the platform | [`Phase`], [`Vibration`] |
-//! | one flight | [`Launch`], [`Impact`], [`Vibration::first_impact`], [`Vibration::first_impact_of_drop`], [`mod@reference`] |
-//! | chattering | [`ImpactMap::accumulation`], [`ChatterSeries`], [`ChatterPolicy`], [`ChatterCut`], [`ImpactMap::chatters_to_rest`] |
-//! | the impact map | [`ImpactMap`], [`ImpactState`], [`Orbit`], [`OrbitEvent`], [`Attachment`] |
-//! | laws of restitution | [`Constant`] (the paper's), [`KuwabaraKono`], [`RestitutionLaw`] for one's own; [`ImpactMap::with_law`] |
-//! | periodic orbits | [`PeriodicOrbit`], [`Multipliers`], [`PeriodOnePair`], [`OrbitSearch`] and [`ImpactMap::periodic_orbits`], [`follow_attractor`] |
-//! | branches of them | [`Continuation`] and [`ImpactMap::continued`], [`Branch`], [`Bifurcation`] |
-//! | manifolds and crises | [`ImpactMap::manifold`], [`Manifold`], [`ImpactMap::step_back`]; [`CrisisSearch`], [`Crisis`], [`Crisis::lives`] |
-//! | bounds that every attractor obeys | [`ImpactMap::launch_speed_bound`], [`ImpactMap::impact_speed_bound`], [`ImpactMap::impact_speed_bound_at`], [`ImpactMap::flight_duration_bound`] |
-//! | the doubling cascade | [`doubling_cascade`], [`CascadeDoubling`], [`feigenbaum_estimates`], [`FeigenbaumEstimate`] |
-//! | many orbits | [`OrbitBatch`], [`orbit_diagram`], [`survival_times`], [`lyapunov_exponents`], [`lyapunov_spectra`], [`sweep`] |
-//! | what an orbit does for good | [`Verdict`], [`verdicts`], [`VerdictSettings`] |
-//! | basins | [`Grid`], [`Axis`], [`Basins`], [`BasinSettings`], [`KnownOrbit`]; their measures [`BasinEntropy`], [`BoundaryScaling`] |
-//! | attractors without being told | [`AttractorSearch`] and [`ImpactMap::attractors`], [`Attractors`] and their [basins](Attractors::basins), [`basin_fractions_over`] |
-//! | long calls | [`Observer`], [`Progress`], [`Watch`]; to stop, store and go on: [`BasinRun`], [`SweepRun`], [`PartialResults`], [`Branch::extended`], [`BasinFractions::extended`] |
-//! | arithmetic | [`numerics`]: [`elementary`] functions with the same bits on every processor, minima, random streams |
+//! | [`flight`] | one flight and its first impact |
+//! | [`chatter`] | infinitely many impacts that end at rest |
+//! | [`map`] | from impact to impact; laws of restitution |
+//! | [`orbits`] | periodic orbits, their branches, the doubling cascade |
+//! | [`attractors`] | what the disk ends on: attractors, basins, verdicts |
+//! | [`chaos`] | Lyapunov exponents, manifolds, crises |
+//! | [`mod@sweep`] | many orbits at once |
+//! | [`run`] | progress of long calls, and how to stop them |
+//! | [`numerics`] | functions with the same bits on every processor, roots, statistics |
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
-//! | `extended` | no | module `extended`: double-doubles, the cascade to 25 digits |
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and for runs that can be resumed |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is
-//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound is `null` in JSON, which has no such number.
-//! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when
-//! they are read, and what is gone on with is no longer the same.
+//! Deserialisation passes the same checks as construction: a value outside its range, a missing key of a required value
+//! and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number. With `serde_json`,
+//! switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when they are read,
+//! and a resumed run no longer gives the same results.
 
-mod analysis;
-mod chatter;
-mod error;
-#[cfg(feature = "extended")]
-pub mod extended;
-mod flight;
-mod lockstep;
-mod map;
+pub mod attractors;
+pub mod chaos;
+pub mod chatter;
+pub mod flight;
+pub mod map;
 pub mod numerics;
-mod observer;
-mod platform;
-// The model reads as the core does.
-#[doc(hidden)]
-pub mod stored;
+pub mod orbits;
+pub mod run;
+pub mod sweep;
 #[cfg(test)]
 mod testing;
 
-pub use analysis::attractors::cells::VisitedCells;
-pub use analysis::attractors::over_forcing::{
-    AttractorsAt, BasinFractions, FollowedAttractor, MAX_FORCINGS, basin_fractions_over,
-};
-pub use analysis::attractors::settings::AttractorSearch;
-pub use analysis::attractors::{AfterRest, Attractor, AttractorKind, Attractors, Recurrence};
-pub use analysis::basin::boundary::{BoundaryFit, BoundaryScaling, UncertainShare};
-pub use analysis::basin::entropy::BasinEntropy;
-pub use analysis::basin::{
-    ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
-    UNDECIDED,
-};
-pub use analysis::cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
-pub use analysis::cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade};
-pub use analysis::closing::ContinuationParameter;
-pub use analysis::continuation::{
-    Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, BranchTip, Continuation,
-};
-pub use analysis::crisis::lifetimes::{CrisisLives, MeanLife};
-pub use analysis::crisis::{Crisis, CrisisSearch, LifeAfterRest, NoCrisis, NoTangency, Tangency};
-pub use analysis::follow_attractor::{Followed, Following, follow_attractor};
-pub use analysis::lyapunov::spectrum::{LyapunovOutcome, LyapunovSpectrum, lyapunov_spectra};
-pub use analysis::lyapunov::{LyapunovEstimate, TangentGrowth, lyapunov_exponents};
-pub use analysis::manifold::{
-    Manifold, ManifoldBranch, ManifoldEnd, ManifoldKind, ManifoldPiece, ManifoldSettings, PieceEnd, Side,
-};
-pub use analysis::orbit_batch::OrbitBatch;
-pub use analysis::periodic::pair::{PeriodOneOrbit, PeriodOnePair};
-pub use analysis::periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
-pub use analysis::periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};
-pub use analysis::sweep::{
-    MAX_RECORDED, PartialResults, SweepEvent, SweepImpact, SweepRun, is_settling, orbit_diagram,
-    repeats_every, survival_times, sweep,
-};
-pub use analysis::verdict::{
-    CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings, each_verdict, verdicts,
-};
-pub use chatter::accumulation::{Accumulation, ChatterImpact};
-pub use chatter::impact_series::{ChatterSeries, ImpactRange, PowerSeries};
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
-pub use error::Error;
-pub use flight::first_impact::MAX_FLIGHT_DURATION;
-pub use flight::impact::Impact;
-pub use flight::launch::Launch;
-pub use flight::reference;
-// How many flights are computed at once is no promise: the model, benches and tests use these.
-#[doc(hidden)]
-pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
-#[doc(hidden)]
-pub use lockstep::lanes::InstructionSet;
+
+pub use flight::launch::{Impact, Launch};
+pub use flight::platform::phase::Phase;
+pub use flight::platform::vibration::Vibration;
 pub use map::impact_map::{Attachment, ImpactMap, ImpactState, Orbit, OrbitEvent};
-pub use map::restitution_law::kuwabara_kono::KuwabaraKono;
-pub use map::restitution_law::{Constant, RestitutionLaw};
-pub use numerics::elementary;
-pub use observer::{FLIGHTS_BETWEEN_CALLS, Observer, Progress, Unobserved, Watch, WorkCount};
-pub use platform::phase::Phase;
-pub use platform::vibration::Vibration;
+pub use numerics::error::Error;
+// The model reads as the core does.
+#[doc(hidden)]
+pub use numerics::stored;
+pub use run::{Observer, Progress, Unobserved};
 
 /// Compiles and runs the example of the README.
 #[cfg(doctest)]

@@ -1,7 +1,26 @@
-//! The impact map, its derivative, its laws of restitution, and the orbits that it makes.
+//! The impact map: from one impact to the next, with its derivative, its inverse and the law of restitution.
+//!
+//! The disk leaves with the speed -r w' after it has come with the velocity w', and the next impact is the first zero
+//! of the gap of its flight. The map contracts areas of (phase, velocity) by r^2. [`ImpactMap`](crate::ImpactMap) steps,
+//! [`Orbit`](crate::Orbit) follows all events, chattering included. Other laws of restitution than a constant
+//! are [`RestitutionLaw`]s (docs/numerics/restitution.md).
+//!
+//! ```
+//! use bouncing_disk_core::{ImpactMap, Vibration};
+//!
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let state = map.period_one(1).expect("it exists from Gamma = 1/3 on");
+//! assert!((map.step(state)?.duration() - std::f64::consts::TAU).abs() < 1e-12);
+//! # Ok::<(), bouncing_disk_core::Error>(())
+//! ```
+//!
+//! Orbits that repeat are in [`orbits`](crate::orbits), many at a time in [`sweep`](mod@crate::sweep).
 
 mod chattering;
 pub(crate) mod impact_map;
 mod inverse;
-mod rest_bound;
 pub(crate) mod restitution_law;
+mod trapping_region;
+
+pub use restitution_law::kuwabara_kono::KuwabaraKono;
+pub use restitution_law::{Constant, RestitutionLaw};

@@ -6,9 +6,10 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use std::sync::Mutex;
 
 use crate::chatter::policy::{ChatterCut, ChatterPolicy};
-use crate::observer::{Observer, Progress};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
+use crate::run::{Observer, Progress};
 
 /// The paper's cut (Sec. IV A).
 pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 20) {
@@ -18,6 +19,11 @@ pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 2
 
 /// [`PAPER_CUT`] as a policy.
 pub(crate) const PAPER_POLICY: ChatterPolicy = ChatterPolicy::Cut(PAPER_CUT);
+
+/// The map of a legal forcing and restitution.
+pub(crate) fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
+}
 
 /// Well spread numbers in [0, 1): multiples of a `stride` without short periods, less their whole parts.
 pub(crate) fn spread(k: u32, stride: f64) -> f64 {
@@ -36,7 +42,7 @@ pub(crate) fn launch_that_may_dip(vibration: &Vibration, k: u64) -> (Phase, f64)
     (phase, 1.9 + 0.8 * golden_spread(7 * k) - vibration.velocity(phase))
 }
 
-/// What can be stored, if anything can.
+/// A type that can be stored, if the feature `serde` is on.
 #[cfg(feature = "serde")]
 pub(crate) trait Storable:
     Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned
@@ -46,14 +52,14 @@ pub(crate) trait Storable:
 #[cfg(feature = "serde")]
 impl<T: Clone + PartialEq + Debug + serde::Serialize + serde::de::DeserializeOwned> Storable for T {}
 
-/// What can be stored, if anything can.
+/// A type that can be stored, if the feature `serde` is on.
 #[cfg(not(feature = "serde"))]
 pub(crate) trait Storable: Clone + PartialEq + Debug {}
 
 #[cfg(not(feature = "serde"))]
 impl<T: Clone + PartialEq + Debug> Storable for T {}
 
-/// What is read of a value that was written; the value itself where nothing is.
+/// A value after it was written and read; the value itself without the feature `serde`.
 pub(crate) fn stored<T: Storable>(value: &T) -> T {
     #[cfg(feature = "serde")]
     let read = serde_json::from_str(&serde_json::to_string(value).expect("writes")).expect("legal");
@@ -81,7 +87,7 @@ impl StopAfter {
         self.asked.load(Ordering::Relaxed)
     }
 
-    /// What it was told last.
+    /// The last progress that it saw.
     pub(crate) fn last(&self) -> Progress {
         *self.last.lock().expect("no panic")
     }

@@ -2,12 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{
-    ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, BifurcationKind, Branch,
-    ChatterPolicy, Continuation, ContinuationParameter, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
-    KnownOrbit, Label, Phase, UNDECIDED, Unobserved, Vibration,
+use bouncing_disk_core::attractors::{
+    ATTACHED, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, FIRST_ORBIT, Grid, KnownOrbit,
+    Label, UNDECIDED,
 };
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::orbits::{BifurcationKind, Branch, Continuation, ContinuationParameter};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 
 fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
     let vibration = Vibration::from_axial_forcing(axial_forcing).expect("legal forcing");

@@ -5,9 +5,12 @@ mod paper;
 
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk_core::attractors::{
+    ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, KnownOrbit, UNDECIDED,
+};
+use bouncing_disk_core::orbits::{Multipliers, doubling_cascade};
 use bouncing_disk_core::{
-    ATTACHED, Axis, BasinSettings, ChatterPolicy, Error, FIRST_ORBIT, Grid, ImpactMap, ImpactState,
-    KnownOrbit, Launch, Multipliers, OrbitEvent, Phase, UNDECIDED, Unobserved, Vibration, doubling_cascade,
+    ChatterPolicy, Error, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 use dual_numbers::dual_derivative;
 use glam::{DMat2, DVec2};
@@ -90,7 +93,7 @@ proptest! {
     ) {
         let map = map(forcing, restitution);
         let phase = Phase::new(angle).expect("finite");
-        let speed = bouncing_disk_core::elementary::pow(10.0, exponent);
+        let speed = bouncing_disk_core::numerics::elementary::pow(10.0, exponent);
         let Some(sum) = map.accumulation(Launch::new(phase, speed).expect("legal")) else { return Ok(()) };
         let (mut total, mut launch, mut at) = (0.0, speed, phase);
         while launch > 1e-30 * speed {
@@ -148,7 +151,7 @@ proptest! {
         let (s, c) = (launch.phase().sin(), launch.phase().cos());
         let disk_speed = launch.relative_speed() + peak * c;
         let gap = |h: f64| {
-            let sine = bouncing_disk_core::elementary::sin(angle + h);
+            let sine = bouncing_disk_core::numerics::elementary::sin(angle + h);
             disk_speed * h - 0.5 * h * h - peak * (sine - s)
         };
         let steps = (impact.duration() / 2e-3) as usize + 3;

@@ -2,7 +2,8 @@
 //! library's derivative.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ImpactMap, ImpactState, OrbitSearch, PeriodicOrbit, Unobserved, Vibration};
+use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit};
+use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 

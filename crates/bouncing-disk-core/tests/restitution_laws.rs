@@ -7,9 +7,10 @@ mod paper;
 use std::cell::Cell;
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk_core::map::{Constant, KuwabaraKono, RestitutionLaw};
 use bouncing_disk_core::{
-    ChatterCut, ChatterPolicy, Constant, Error, ImpactMap, ImpactState, KuwabaraKono, Launch, OrbitEvent,
-    Phase, RestitutionLaw, Unobserved, Vibration,
+    ChatterCut, ChatterPolicy, Error, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved,
+    Vibration,
 };
 use dual_numbers::dual_derivative;
 use glam::DMat2;
@@ -164,7 +165,7 @@ proptest! {
     ) {
         let law = KuwabaraKono::new(reference, reference_speed).expect("legal");
         let map = ImpactMap::with_law(vibration(forcing), law);
-        let mut at = state(angle, -bouncing_disk_core::elementary::pow(10.0, exponent));
+        let mut at = state(angle, -bouncing_disk_core::numerics::elementary::pow(10.0, exponent));
         let Some(bound) = map.comes_to_rest_within(at) else { return Ok(()) };
         let mut total = 0.0;
         let mut left = bound;
@@ -181,7 +182,7 @@ proptest! {
         prop_assert!(left <= 0.01 * bound, "{left} of {bound}");
         // r/(1 - r) <= 1/x costs what is lost in the first impact, and the change of the pull its share.
         let pull = map.vibration().contact_force(Phase::new(angle).expect("finite"));
-        let lost = 1.0 - law.restitution(bouncing_disk_core::elementary::pow(10.0, exponent));
+        let lost = 1.0 - law.restitution(bouncing_disk_core::numerics::elementary::pow(10.0, exponent));
         if bound * map.vibration().peak_acceleration() <= 0.01 * pull {
             prop_assert!(bound <= (1.1 + 2.0 * lost / (1.0 - lost)) * (total + left), "{bound} {total} {left} {lost}");
         }
@@ -193,7 +194,7 @@ proptest! {
         forcing in 0.0_f64..3.0, restitution in 0.05_f64..0.9, angle in 0.0..TAU, exponent in -9.0_f64..-1.0,
     ) {
         let map = ImpactMap::new(vibration(forcing), restitution).expect("legal");
-        let impact = state(angle, -bouncing_disk_core::elementary::pow(10.0, exponent));
+        let impact = state(angle, -bouncing_disk_core::numerics::elementary::pow(10.0, exponent));
         let (Some(sum), Some(bound)) = (map.accumulation(map.rebound(impact)), map.comes_to_rest_within(impact))
         else { return Ok(()) };
         prop_assert!(sum.duration <= bound, "{} {bound}", sum.duration);

@@ -6,11 +6,14 @@ mod round_trip;
 
 use std::f64::consts::TAU;
 use std::fmt::Debug;
-use std::ops::ControlFlow;
 
+use bouncing_disk_core::attractors::*;
+use bouncing_disk_core::chatter::*;
 use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::reference::first_impact_by_advancement;
+use bouncing_disk_core::orbits::*;
+use bouncing_disk_core::sweep::*;
 use bouncing_disk_core::*;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -52,15 +55,6 @@ fn the_platform_and_its_map() {
         &start(),
         &[("/velocity", json!(1.0), "axial_impact_velocity"), ("/phase/angle", json!(7.0), "angle")],
     );
-    let followed = follow_attractor(0.5, [0.45], start(), 100, ChatterPolicy::Complete).next();
-    let followed = followed.expect("one forcing").expect("no failure");
-    check(
-        &followed,
-        &[
-            ("/axial_forcing", json!(-0.1), "axial_forcing"),
-            ("/axial_forcing", json!(0.46), "peak acceleration of the map"),
-        ],
-    );
 }
 
 #[test]
@@ -76,14 +70,6 @@ fn one_flight() {
             ("/velocity", json!(0.1), "velocity"),
             ("/turns", json!(-1), "-1"),
             ("/phase/cos", json!(2.0), "cosine"),
-        ],
-    );
-    check(
-        &first_impact_by_advancement(&vibration, launch).expect("lands"),
-        &[
-            ("/duration", json!(-0.1), "duration"),
-            ("/impact_phase", json!(TAU), "impact_phase"),
-            ("/velocity", json!(0.1), "velocity"),
         ],
     );
 }
@@ -106,16 +92,6 @@ fn chattering() {
             ("/phase/sin", json!(2.0), "sine"),
         ],
     );
-    let impact = map(0.45).chatter_impacts(launch).nth(3).expect("many");
-    check(
-        &impact,
-        &[
-            ("/time", json!(-1.0), "time"),
-            ("/speed", json!(-1.0), "speed"),
-            ("/pair/0", json!(2.0), "length of a pair"),
-            ("/pair", json!([0.0]), "tuple of size 2"),
-        ],
-    );
 }
 
 #[test]
@@ -127,8 +103,7 @@ fn every_event_of_an_orbit() {
         (ChatterPolicy::Complete, 0.25),
         (ChatterPolicy::Cut(cut()), 0.33),
     ] {
-        let orbit = map(forcing).orbit(start(), policy);
-        for event in orbit.clone().take(200) {
+        for event in map(forcing).orbit(start(), policy).take(200) {
             let event = event.expect("no failure");
             let OrbitEvent::Attachment(rest) = event else {
                 check(&event, &[("/Impact/velocity", json!(1.0), "velocity")]);
@@ -148,24 +123,6 @@ fn every_event_of_an_orbit() {
             }
             let infinite = matches!(policy, ChatterPolicy::Cut(_));
             assert_eq!(rest.accumulation.error_bound.is_infinite(), infinite, "JSON has no infinite number");
-        }
-        let events = sweep(
-            &[orbit],
-            |_| Vec::new(),
-            |events, event| {
-                events.push(*event);
-                if events.len() < 200 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            },
-            &Unobserved,
-        );
-        for event in &events.expect("no failure")[0] {
-            match event {
-                SweepEvent::Impact(impact) => {
-                    check(event, &[("/Impact/state/velocity", json!(1.0), "axial_impact_velocity")]);
-                    check(impact, &[("/duration", json!(-1.0), "duration")]);
-                }
-                _ => check(event, &[("/Attachment/last_speed", json!(-1.0), "last_speed")]),
-            }
         }
     }
     assert!(attachments > 4, "{attachments}");
@@ -206,15 +163,6 @@ fn basins_and_runs() {
     check(&run, &[]);
     run.advance(&Unobserved).expect("no failure");
     check(&run, &[("/finished_rows", json!([0, 2]), "finished row"), ("/labels/0", json!(7), "label")]);
-    check(
-        &run.into_basins().expect("done"),
-        &[
-            ("/columns", json!(0), "columns of basins"),
-            ("/columns", json!(4), "labels of basins: 6 where 8 would be legal"),
-            ("/labels", json!([]), "labels of basins: 0 where 3 would be legal"),
-            ("/labels/5", json!(252), "label of basins = 252"),
-        ],
-    );
     let mut run = SweepRun::new(2);
     run.advance_orbit_diagram(
         &[map(0.45), map(0.5)].map(|map| map.orbit(start(), ChatterPolicy::Complete)),
@@ -256,18 +204,10 @@ fn whatever_happens_can_be_read() {
         let policy = if k % 2 == 0 { ChatterPolicy::Complete } else { ChatterPolicy::Cut(cut()) };
         let state =
             ImpactState::new(Phase::new(TAU * random.unit()).expect("finite"), -2.0 * peak * random.unit());
-        let orbit = map.orbit(state.expect("legal"), policy);
-        for event in orbit.clone().take(60).map_while(Result::ok) {
+        for event in map.orbit(state.expect("legal"), policy).take(60).map_while(Result::ok) {
             attachments += usize::from(matches!(event, OrbitEvent::Attachment(_)));
             read(&event);
         }
-        let visit = |events: &mut u32, event: &SweepEvent| {
-            read(event);
-            *events += 1;
-            if *events < 60 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        // A flight that is too long ends an orbit.
-        let _ = sweep(&[orbit], |_| 0, visit, &Unobserved);
     }
     assert!(attachments > 100, "{attachments}");
 }

@@ -58,6 +58,19 @@ impl Colour {
         CURVES[index % CURVES.len()]
     }
 
+    /// The colour of a map of one quantity, from low (0) over pale yellow, green and blue to high (1).
+    pub fn scale(share: f64) -> Self {
+        const COLOURS: [Colour; 4] = [
+            Colour::rgb(253, 231, 160),
+            Colour::rgb(120, 198, 140),
+            Colour::rgb(35, 120, 150),
+            Colour::rgb(50, 25, 95),
+        ];
+        let place = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
+        let index = (place as usize).min(COLOURS.len() - 2);
+        COLOURS[index].mixed(COLOURS[index + 1], place - index as f64)
+    }
+
     /// The colour a `share` of the way from `self` (0) to `other` (1).
     #[must_use]
     pub fn mixed(self, other: Self, share: f64) -> Self {

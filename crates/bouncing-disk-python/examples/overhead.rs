@@ -7,9 +7,8 @@
 use std::time::Instant;
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{
-    Axis, BasinSettings, Grid, ImpactMap, ImpactState, KnownOrbit, Unobserved, Vibration,
-};
+use bouncing_disk::core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
+use bouncing_disk::core::{ImpactMap, ImpactState, Unobserved, Vibration};
 
 fn main() -> Result<(), Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;

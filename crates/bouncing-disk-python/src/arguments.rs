@@ -1,18 +1,249 @@
-//! What Python passes: numbers, counts, arrays, starts of orbits.
+//! The arguments of a call by their names, each checked as it is read.
+//!
+//! Python owns the signatures: a function there hands over its `locals()`, and what it returns is made here.
 
-use bouncing_disk::Error;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Observer, Orbit, Vibration};
+use bouncing_disk::{Error, FitError, Motor as MotorModel, System as SystemModel};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
-use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
+use pyo3::PyClass;
+use pyo3::exceptions::{PyKeyError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
+use pyo3::pyclass::boolean_struct::True;
 use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBool, PyDict, PyFloat};
 
-use crate::errors;
-use crate::names::{Named, name};
-use crate::real::refuse_truth;
+use crate::parameters::{ChatterCut, Map, Motor, System};
+use crate::{errors, long_call};
 
-/// A whole number as Python has it: one that is negative or too large is told as a value, not as an overflow.
+/// What a call returns.
+pub(crate) type Made<'py> = PyResult<Bound<'py, PyAny>>;
+
+/// The arguments of a call.
+pub(crate) struct Arguments<'py>(pub(crate) Bound<'py, PyDict>);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Arguments<'py> {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        Ok(Self(object.to_owned().cast_into()?))
+    }
+}
+
+impl<'py> Arguments<'py> {
+    pub(crate) fn py(&self) -> Python<'py> {
+        self.0.py()
+    }
+
+    /// Any argument, as it was given.
+    pub(crate) fn get(&self, name: &str) -> Made<'py> {
+        self.0.get_item(name)?.ok_or_else(|| PyKeyError::new_err(name.to_owned()))
+    }
+
+    /// An argument that may be left out.
+    pub(crate) fn given(&self, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        Ok(Some(self.get(name)?).filter(|value| !value.is_none()))
+    }
+
+    /// An argument of some type; an error of the type names the argument.
+    pub(crate) fn of<T: for<'a> FromPyObject<'a, 'py>>(&self, name: &str) -> PyResult<T> {
+        let value = self.get(name)?;
+        let extracted: Result<T, PyErr> = value.extract::<T>().map_err(Into::into);
+        extracted.map_err(|error| {
+            if !error.is_instance_of::<PyTypeError>(self.py()) {
+                return error;
+            }
+            PyTypeError::new_err(format!("argument '{name}': {}", error.value(self.py())))
+        })
+    }
+
+    pub(crate) fn real(&self, name: &str) -> PyResult<f64> {
+        Ok(self.of::<Real>(name)?.0)
+    }
+
+    pub(crate) fn optional(&self, name: &str) -> PyResult<Option<f64>> {
+        Ok(self.of::<Option<Real>>(name)?.map(|real| real.0))
+    }
+
+    pub(crate) fn pair(&self, name: &str) -> PyResult<(f64, f64)> {
+        let Pair(low, high) = self.of(name)?;
+        Ok((low, high))
+    }
+
+    /// A whole number up to `most`.
+    pub(crate) fn count(&self, name: &'static str, most: u64, range: &'static str) -> PyResult<u64> {
+        self.of::<Count>(name)?.at_most(self.py(), name, most, range)
+    }
+
+    pub(crate) fn u64(&self, name: &'static str) -> PyResult<u64> {
+        self.of::<Count>(name)?.u64(self.py(), name)
+    }
+
+    pub(crate) fn u32(&self, name: &'static str) -> PyResult<u32> {
+        self.of::<Count>(name)?.u32(self.py(), name)
+    }
+
+    /// A number of items: no call has more than 2^32 of them.
+    pub(crate) fn usize(&self, name: &'static str) -> PyResult<usize> {
+        self.u32(name).map(|count| count as usize)
+    }
+
+    /// One of the words of a `Literal`.
+    pub(crate) fn choice<T: Copy>(&self, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
+        choice(&self.get(name)?, name, choices)
+    }
+
+    /// A number or a row of numbers.
+    pub(crate) fn numbers(&self, name: &str) -> PyResult<Numbers> {
+        numbers(&self.get(name)?, name)
+    }
+
+    /// A row of numbers.
+    pub(crate) fn row(&self, name: &str) -> PyResult<Vec<f64>> {
+        row(&self.get(name)?, name)
+    }
+
+    /// What an object of the package holds.
+    pub(crate) fn held<T: PyClass<Frozen = True>>(&self, name: &str) -> PyResult<Bound<'py, T>> {
+        held(&self.get(name)?, name)
+    }
+
+    /// The name of an argument; of a method that has none of it, the object itself.
+    fn or_self(&self, name: &'static str) -> PyResult<&'static str> {
+        Ok(if self.0.contains(name)? { name } else { "self" })
+    }
+
+    pub(crate) fn system(&self) -> PyResult<SystemModel> {
+        Ok(self.held::<System>(self.or_self("system")?)?.get().0)
+    }
+
+    pub(crate) fn motor(&self) -> PyResult<MotorModel> {
+        Ok(self.held::<Motor>("motor")?.get().0)
+    }
+
+    pub(crate) fn map(&self) -> PyResult<ImpactMap> {
+        Ok(self.held::<Map>(self.or_self("impact_map")?)?.get().0)
+    }
+
+    /// The policy of the argument `chatter`.
+    pub(crate) fn policy(&self) -> PyResult<ChatterPolicy> {
+        Ok(match self.given("chatter")? {
+            None => ChatterPolicy::Complete,
+            Some(cut) => ChatterPolicy::Cut(held::<ChatterCut>(&cut, "chatter")?.get().0),
+        })
+    }
+
+    /// The exception of an error of the library, in the words of this call.
+    pub(crate) fn refused(&self, error: impl Into<FitError>) -> PyErr {
+        errors::of_call(self.py(), error.into(), &self.0)
+    }
+
+    /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
+    pub(crate) fn run<T: Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        self.run_fit(work)
+    }
+
+    /// The same for a fit, which may be refused.
+    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
+    ) -> PyResult<T> {
+        let progress =
+            self.0.get_item(intern!(self.py(), "progress"))?.filter(|callable| !callable.is_none());
+        if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
+            return Err(PyTypeError::new_err("progress must be a callable or None"));
+        }
+        long_call::run(self, progress.map(Bound::unbind), work)
+    }
+}
+
+/// What an object of the package holds.
+pub(crate) fn held<'py, T: PyClass<Frozen = True>>(
+    object: &Bound<'py, PyAny>,
+    name: &str,
+) -> PyResult<Bound<'py, T>> {
+    let inner = object.getattr(intern!(object.py(), "_native")).ok().and_then(|own| own.cast_into().ok());
+    inner.ok_or_else(|| {
+        let own = T::NAME;
+        PyTypeError::new_err(format!("argument '{name}' must be a {own}, and is {}", object.get_type()))
+    })
+}
+
+/// One of the words of a `Literal`.
+pub(crate) fn choice<T: Copy>(given: &Bound<'_, PyAny>, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
+    let given: &str = given.extract().map_err(|_| PyTypeError::new_err(format!("{name} must be a text")))?;
+    let found = choices.iter().find(|(word, _)| *word == given).map(|(_, choice)| *choice);
+    found.ok_or_else(|| {
+        let words: Vec<_> = choices.iter().map(|(word, _)| format!("{word:?}")).collect();
+        PyValueError::new_err(format!("{name} must be {}, and is {given:?}", words.join(" or ")))
+    })
+}
+
+/// A real number: of Python, of NumPy, an array of no dimensions, or what has `__float__`.
+///
+/// `float()` makes numbers of truths, of texts in arrays, and of complex numbers, whose imaginary part it
+/// drops; all these are type errors here, as they are in arrays.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Real(pub(crate) f64);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Real {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(number) = object.cast::<PyFloat>() {
+            return Ok(Self(number.value()));
+        }
+        refuse_truth(&object)?;
+        if let Some(dtype) = object.getattr_opt(intern!(object.py(), "dtype"))? {
+            let kind: String = dtype.getattr(intern!(object.py(), "kind"))?.extract()?;
+            let dimensions: usize = object.getattr(intern!(object.py(), "ndim"))?.extract()?;
+            if !["i", "u", "f"].contains(&kind.as_str()) || dimensions > 0 {
+                let what = if dimensions > 0 { "an array" } else { "a number" };
+                return Err(PyTypeError::new_err(format!(
+                    "must be one real number, and is {what} of {dtype}"
+                )));
+            }
+            refuse_masked(&object)?;
+        }
+        match object.extract::<f64>() {
+            Ok(number) => Ok(Self(number)),
+            // An integer beyond all doubles is a value outside of every range.
+            Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => {
+                Ok(Self(if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY }))
+            }
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// Refuses True and False, which Python takes for 1 and 0.
+fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
+    if object.is_instance_of::<PyBool>() {
+        return Err(PyTypeError::new_err("must be a number, and is a bool"));
+    }
+    Ok(())
+}
+
+/// Two real numbers in a tuple or list.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pair(pub(crate) f64, pub(crate) f64);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        let numbers: Vec<Real> = object.extract()?;
+        match numbers[..] {
+            [Real(one), Real(other)] => Ok(Self(one, other)),
+            _ => Err(PyValueError::new_err(format!("must be two numbers, and is {}", numbers.len()))),
+        }
+    }
+}
+
+/// A whole number as Python has it: one that is negative or too large is refused as a value, not as an overflow.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Count {
     /// One that fits.
@@ -29,8 +260,7 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
         match object.extract::<u64>() {
             Ok(count) => Ok(Self::Fits(count)),
             Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => {
-                let negative = object.lt(0)?;
-                let beyond = if negative { f64::NEG_INFINITY } else { f64::INFINITY };
+                let beyond = if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY };
                 Ok(Self::Outside(object.extract::<f64>().unwrap_or(beyond)))
             }
             Err(error) => Err(error),
@@ -54,19 +284,12 @@ impl Count {
         }
     }
 
-    /// A number of 64 bits.
     pub(crate) fn u64(self, py: Python<'_>, field: &'static str) -> PyResult<u64> {
         self.at_most(py, field, u64::MAX, "[0, 18446744073709551615]")
     }
 
-    /// A number of 32 bits.
     pub(crate) fn u32(self, py: Python<'_>, field: &'static str) -> PyResult<u32> {
         self.at_most(py, field, u32::MAX.into(), "[0, 4294967295]").map(|count| count as u32)
-    }
-
-    /// A number of items.
-    pub(crate) fn usize(self, py: Python<'_>, field: &'static str) -> PyResult<usize> {
-        self.at_most(py, field, u32::MAX.into(), "[0, 4294967295]").map(|count| count as usize)
     }
 }
 
@@ -78,24 +301,28 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
+    /// One number.
+    pub(crate) fn one(value: f64) -> Self {
+        Self { values: vec![value], scalar: true }
+    }
+
     /// The number of an item of a call that has so many: one number is that of all.
     pub(crate) fn get(&self, index: usize) -> f64 {
         if self.scalar { self.values[0] } else { self.values[index] }
-    }
-
-    /// The numbers of all items.
-    pub(crate) fn spread(&self, items: usize) -> Vec<f64> {
-        if self.scalar { vec![self.values[0]; items] } else { self.values.clone() }
     }
 
     /// How many there are; `None` for one that goes with any.
     pub(crate) fn len(&self) -> Option<usize> {
         (!self.scalar).then_some(self.values.len())
     }
+
+    fn spread(&self, items: usize) -> Vec<f64> {
+        (0..items).map(|index| self.get(index)).collect()
+    }
 }
 
 /// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would count.
-pub(crate) fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
+fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let py = object.py();
     static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
     let masked = || Ok::<_, PyErr>(py.import("numpy.ma")?.getattr("is_masked")?.unbind());
@@ -107,23 +334,19 @@ pub(crate) fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     Ok(())
 }
 
-fn as_array<'py>(object: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
-    static AS_ARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
-    let py = object.py();
-    let import = || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind());
-    refuse_masked(object)?;
-    AS_ARRAY.get_or_try_init(py, import)?.bind(py).call1((object,))
-}
-
 /// An array of real numbers with one of these numbers of dimensions, as doubles.
 fn doubles<'py>(
     object: &Bound<'py, PyAny>,
     name: &str,
     dimensions: &[usize],
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let array = as_array(object)?;
+    static AS_ARRAY: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
+    let py = object.py();
+    let import = || Ok::<_, PyErr>(py.import("numpy")?.getattr("asarray")?.unbind());
+    refuse_masked(object)?;
+    let array = AS_ARRAY.get_or_try_init(py, import)?.bind(py).call1((object,))?;
     let untyped = array.cast::<PyUntypedArray>()?;
-    let kind: String = untyped.dtype().as_any().getattr(intern!(object.py(), "kind"))?.extract()?;
+    let kind: String = untyped.dtype().as_any().getattr(intern!(py, "kind"))?.extract()?;
     if !["i", "u", "f"].contains(&kind.as_str()) {
         let dtype = untyped.dtype();
         return Err(PyTypeError::new_err(format!("{name} must hold real numbers, and holds {dtype}")));
@@ -133,11 +356,10 @@ fn doubles<'py>(
         let wanted = if dimensions == [2] { "a 2-d array" } else { "a number or a 1-d array" };
         return Err(PyValueError::new_err(format!("{name} must be {wanted}, and has the shape {shape:?}")));
     }
-    Ok(array.call_method1(intern!(object.py(), "astype"), ("float64",))?.cast_into()?)
+    Ok(array.call_method1(intern!(py, "astype"), ("float64",))?.cast_into()?)
 }
 
-/// A number or a row of numbers.
-pub(crate) fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Numbers> {
+fn numbers(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Numbers> {
     let array = doubles(object, name, &[0, 1])?;
     let read = array.try_readonly().map_err(|error| PyValueError::new_err(error.to_string()))?;
     Ok(Numbers { values: read.as_array().iter().copied().collect(), scalar: array.ndim() == 0 })
@@ -152,15 +374,17 @@ pub(crate) fn row(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
     Ok(numbers.values)
 }
 
-/// The columns of a matrix.
-pub(crate) fn columns(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec<f64>>> {
+/// The runs of measured speeds: one row, or the columns of a matrix.
+pub(crate) fn runs(object: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Vec<f64>>> {
+    if let Ok(one) = row(object, name) {
+        return Ok(vec![one]);
+    }
     let array = doubles(object, name, &[2])?;
     let read = array.try_readonly().map_err(|error| PyValueError::new_err(error.to_string()))?;
     let view = read.as_array();
     let columns = view.shape().get(1).copied().unwrap_or(0);
-    Ok((0..columns)
-        .map(|column| view.index_axis(numpy::ndarray::Axis(1), column).iter().copied().collect())
-        .collect())
+    let column = |index| view.index_axis(numpy::ndarray::Axis(1), index).iter().copied().collect();
+    Ok((0..columns).map(column).collect())
 }
 
 /// The one length of several arguments, each a number or a row; of numbers alone one item.
@@ -182,9 +406,13 @@ pub(crate) fn common_length(all: &[(&str, Option<usize>)]) -> PyResult<usize> {
 
 /// The impact of a phase and a normalised speed.
 pub(crate) fn first_impact(impact_phase: f64, normalised_speed: f64) -> Result<ImpactState, Error> {
-    let speed = name("axial_impact_velocity", &["normalised_speed"]).given(normalised_speed);
-    ImpactState::from_normalised(impact_phase, normalised_speed)
-        .named(&[name("phase", &["impact_phase"]), speed.legal("[0, 5.7e307]")])
+    ImpactState::from_normalised(impact_phase, normalised_speed).map_err(|error| match error {
+        // The library's velocity is the speed times -pi, which nobody has given.
+        bouncing_disk::core::Error::OutOfRange { field: "axial_impact_velocity", .. } => {
+            Error::OutOfRange { field: "normalised_speed", value: normalised_speed, legal: "[0, 5.7e307]" }
+        }
+        error => error.into(),
+    })
 }
 
 /// The starts of orbits: four numbers each.
@@ -199,27 +427,19 @@ pub(crate) struct Starts {
 
 impl Starts {
     /// Those of four arguments that go together.
-    pub(crate) fn new(
-        axial_forcing: &Bound<'_, PyAny>,
-        restitution: &Bound<'_, PyAny>,
-        impact_phase: &Bound<'_, PyAny>,
-        normalised_speed: &Bound<'_, PyAny>,
-    ) -> PyResult<Self> {
-        let forcing = numbers(axial_forcing, "axial_forcing")?;
-        let restitution = numbers(restitution, "restitution")?;
-        let impact_phase = numbers(impact_phase, "impact_phase")?;
-        let normalised_speed = numbers(normalised_speed, "normalised_speed")?;
-        let items = common_length(&[
-            ("axial_forcing", forcing.len()),
-            ("restitution", restitution.len()),
-            ("impact_phase", impact_phase.len()),
-            ("normalised_speed", normalised_speed.len()),
-        ])?;
+    pub(crate) fn of(a: &Arguments<'_>) -> PyResult<Self> {
+        const NAMES: [&str; 4] = ["axial_forcing", "restitution", "impact_phase", "normalised_speed"];
+        let mut all = Vec::new();
+        for name in NAMES {
+            all.push(a.numbers(name)?);
+        }
+        let lengths: Vec<_> = NAMES.into_iter().zip(all.iter().map(Numbers::len)).collect();
+        let items = common_length(&lengths)?;
         Ok(Self {
-            axial_forcing: forcing.spread(items),
-            restitution: restitution.spread(items),
-            impact_phase,
-            normalised_speed,
+            axial_forcing: all[0].spread(items),
+            restitution: all[1].spread(items),
+            impact_phase: all.swap_remove(2),
+            normalised_speed: all.swap_remove(2),
         })
     }
 
@@ -238,23 +458,5 @@ impl Starts {
     /// The orbits.
     pub(crate) fn orbits(&self, policy: ChatterPolicy) -> Result<Vec<Orbit>, Error> {
         Ok(self.states()?.into_iter().map(|(map, state)| map.orbit(state, policy)).collect())
-    }
-}
-
-/// What is told how far a call is: `None`, or a callable.
-#[derive(Debug)]
-pub(crate) struct ProgressCallable(pub(crate) Option<Py<PyAny>>);
-
-impl<'a, 'py> FromPyObject<'a, 'py> for ProgressCallable {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        if object.is_none() {
-            return Ok(Self(None));
-        }
-        if !object.is_callable() {
-            return Err(PyTypeError::new_err("progress must be a callable or None"));
-        }
-        Ok(Self(Some(object.to_owned().unbind())))
     }
 }

@@ -1,239 +1,326 @@
-//! The attractors of a map, and their basins.
+//! Attractors of the map, their basins on a grid and over the forcing, and measures of basins.
 
 use bouncing_disk::core::{
-    AfterRest, AttractorKind, AttractorSearch, Attractors as Found, BasinSettings, RestCycle,
+    Error as CoreError, ImpactMap,
+    attractors::{
+        AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel, Axis,
+        BasinFractions as FractionsModel, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
+        RestCycle,
+    },
+    orbits::PeriodicOrbit as OrbitModel,
 };
+use bouncing_disk::{Error, Observer, Progress};
+use numpy::{PyArray2, PyArrayMethods, PyUntypedArrayMethods};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
-use crate::arguments::{Count, ProgressCallable};
-use crate::basins::{GridArguments, labels, result};
-use crate::chatter::{ChatterCut, policy};
-use crate::impact_map::ImpactMap;
-use crate::names::{Named, name};
-use crate::periodic_orbit::PeriodicOrbit;
-use crate::real::Pair;
-use crate::text::Json;
-use crate::{errors, long_call, results, text};
+use crate::arguments::{Arguments, Count, Made, Real, held};
+use crate::errors;
+use crate::orbits::{PeriodicOrbit, shown_orbit};
+use crate::parameters::python_map;
+use crate::results::{array, column, holders, holding, make, matrix, room_for};
 
-/// The attractors of an impact map: the disk at rest, and all others that were found.
-///
-/// Made by :func:`attractors`.
-#[pyclass(frozen, eq, module = "bouncing_disk")]
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Attractors(pub(crate) Found);
+holders! {
+    /// What an `Attractors` holds.
+    Attractors(AttractorsModel) = shown_attractors;
+    /// What a `BasinFractions` holds.
+    BasinFractions(FractionsModel) = shown_fractions;
+}
 
-#[pymethods]
-impl Attractors {
-    /// The map.
-    #[getter]
-    fn impact_map(&self) -> ImpactMap {
-        ImpactMap::of(*self.0.map())
-    }
+/// Starts on each circle that is tried for the radius of a known orbit.
+const SAMPLES: u32 = 64;
 
-    /// The disk at rest, which is number 0, and all other attractors: a tuple of :class:`Attractor`.
-    #[getter]
-    fn all<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        let mut all = Vec::new();
-        for (number, attractor) in self.0.all().iter().enumerate() {
-            let (mut orbit, mut leads_to) = (None, None);
-            let (mut radius, mut exponent, mut error) = (f64::NAN, f64::NAN, f64::NAN);
-            let kind = match &attractor.kind {
-                AttractorKind::Rest(after) => {
-                    if let AfterRest::LeadsTo(other) = after {
-                        leads_to = Some(*other);
-                    }
-                    "rest"
-                }
-                AttractorKind::Periodic(known) => {
-                    (orbit, radius) = (Some(PeriodicOrbit(known.orbit().clone())), known.radius());
-                    "periodic"
-                }
-                AttractorKind::Marginal(own) => {
-                    orbit = Some(PeriodicOrbit(own.clone()));
-                    "marginal"
-                }
-                AttractorKind::Chaotic { exponent: growth, standard_error, .. } => {
-                    (exponent, error) = (*growth, *standard_error);
-                    "chaotic"
-                }
-                _ => "unclassified",
-            };
-            let fields = (
-                kind,
-                self.0.label(number),
-                orbit,
-                radius,
-                exponent,
-                error,
-                attractor.starts.value(),
-                attractor.starts.interval(),
-                attractor.kind.lasts(),
-                leads_to,
-                attractor.kind.to_string(),
-                attractor.kind.rest_cycle().is_none_or(RestCycle::is_exact),
-            );
-            all.push(results::make(py, "Attractor", fields)?);
+fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, own: &Attractor) -> Made<'py> {
+    let (mut orbit, mut leads_to) = (None, None);
+    let (mut radius, mut exponent, mut error) = (f64::NAN, f64::NAN, f64::NAN);
+    let kind = match &own.kind {
+        AttractorKind::Rest(after) => {
+            if let AfterRest::LeadsTo(other) = after {
+                leads_to = Some(*other);
+            }
+            "rest"
         }
-        PyTuple::new(py, all)
-    }
-
-    /// The share of the starts that ended on none of them.
-    #[getter]
-    fn undecided(&self) -> f64 {
-        self.0.undecided().value()
-    }
-
-    /// Their basins on a grid of impacts.
-    ///
-    /// Parameters
-    /// ----------
-    /// phases, phase_range, speeds, speed_range, max_impacts, chatter : optional
-    ///     As of :func:`basins`.
-    /// progress : callable, optional
-    ///     Called as ``progress(done, total)`` with the number of rows.
-    ///
-    /// Returns
-    /// -------
-    /// Basins
-    #[pyo3(signature = (
-        *, phases=Count::Fits(400), phase_range=Pair(0.0, 1.0), speeds=Count::Fits(300), speed_range=Pair(0.0, 3.0),
-        max_impacts=Count::Fits(2000), chatter=None, progress=ProgressCallable(None)
-    ), text_signature = "($self, /, *, phases=400, phase_range=(0.0, 1.0), speeds=300, speed_range=(0.0, 3.0), \
-                         max_impacts=2000, chatter=None, progress=None)")]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords")]
-    fn basins<'py>(
-        &self,
-        py: Python<'py>,
-        phases: Count,
-        phase_range: Pair,
-        speeds: Count,
-        speed_range: Pair,
-        max_impacts: Count,
-        chatter: Option<&Bound<'py, ChatterCut>>,
-        progress: ProgressCallable,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let grid = GridArguments { phases, phase_range, speeds, speed_range }.grid(py)?;
-        let settings =
-            BasinSettings { max_impacts: max_impacts.u32(py, "max_impacts")?, policy: policy(chatter) };
-        let found =
-            long_call::run(py, progress.0, |observer| labels(&self.0.basins(grid, settings, observer)?))?;
-        let mut told = vec!["undecided".to_owned()];
-        told.extend(self.0.all().iter().map(|attractor| attractor.kind.to_string()));
-        let map = Bound::new(py, self.impact_map())?;
-        result(py, &map, &grid, found, told)
-    }
-
-    /// Number of attractors, the disk at rest among them.
-    fn __len__(&self) -> usize {
-        self.0.all().len()
-    }
-
-    /// The attractors as JSON, as the Rust library stores them.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn to_json(&self) -> PyResult<String> {
-        text::stored(&self.0)
-    }
-
-    /// The attractors of such a text.
-    ///
-    /// Parameters
-    /// ----------
-    /// json : str
-    ///     As of :meth:`to_json`.
-    ///
-    /// Returns
-    /// -------
-    /// Attractors
-    #[staticmethod]
-    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
-        json.read(py).map(Self)
-    }
-
-    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<text::Reduced<'py>> {
-        text::reduced::<Self>(py, self.to_json()?)
-    }
-
-    fn __repr__(&self) -> String {
-        let all: Vec<_> = self.0.all().iter().map(|attractor| attractor.kind.to_string()).collect();
-        format!("<Attractors: {}>", all.join("; "))
-    }
+        AttractorKind::Periodic(known) => {
+            (orbit, radius) = (Some(known.orbit().clone()), known.radius());
+            "periodic"
+        }
+        AttractorKind::Marginal(own) => {
+            orbit = Some(own.clone());
+            "marginal"
+        }
+        AttractorKind::Chaotic { exponent: growth, standard_error, .. } => {
+            (exponent, error) = (*growth, *standard_error);
+            "chaotic"
+        }
+        _ => "unclassified",
+    };
+    make!(
+        py,
+        "Attractor",
+        kind,
+        all.label(number),
+        orbit.map(|orbit| shown_orbit(py, orbit)).transpose()?,
+        radius,
+        exponent,
+        error,
+        own.starts.value(),
+        own.starts.interval(),
+        own.kind.lasts(),
+        leads_to,
+        own.kind.to_string(),
+        own.kind.rest_cycle().is_none_or(RestCycle::is_exact),
+    )
 }
 
-/// How attractors are looked for, as Python says it.
-pub(crate) struct SearchArguments {
-    pub(crate) starts: Count,
-    pub(crate) transient: Count,
-    pub(crate) impacts: Count,
-    pub(crate) longest_period: Count,
-    pub(crate) cells: Count,
+fn shown_attractors(py: Python<'_>, found: AttractorsModel) -> Made<'_> {
+    let all = found.all().iter().enumerate().map(|(number, own)| shown_attractor(py, &found, number, own));
+    let all = PyTuple::new(py, all.collect::<PyResult<Vec<_>>>()?)?;
+    let made = make!(py, "Attractors", python_map(py, found.map())?, all, found.undecided().value())?;
+    holding(made, Attractors(found))
 }
 
-impl SearchArguments {
-    /// The search, if it is legal.
-    pub(crate) fn search(self, py: Python<'_>) -> PyResult<AttractorSearch> {
-        let (starts, cells) = (self.starts.u32(py, "starts")?, self.cells.u32(py, "cells")?);
-        let (transient, impacts) = (self.transient.u64(py, "transient")?, self.impacts.u64(py, "impacts")?);
-        let longest = self.longest_period.usize(py, "longest_period")?;
-        AttractorSearch::default()
-            .with_starts(starts)
-            .and_then(|search| {
-                search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
-            })
-            .named(&[name("longest period", &["longest_period"]), name("cells along an axis", &["cells"])])
-            .map_err(|error| errors::of(py, error))
-    }
+fn search(a: &Arguments<'_>) -> PyResult<AttractorSearch> {
+    let (starts, cells, longest) = (a.u32("starts")?, a.u32("cells")?, a.usize("longest_period")?);
+    let (transient, impacts) = (a.u64("transient")?, a.u64("impacts")?);
+    AttractorSearch::default()
+        .with_starts(starts)
+        .and_then(|search| {
+            search.with_impacts(transient, impacts)?.with_longest_period(longest)?.with_cells(cells)
+        })
+        .map_err(|error| a.refused(error))
 }
 
-/// The attractors of a map, without being told.
-///
-/// Parameters
-/// ----------
-/// impact_map : ImpactMap
-/// starts : int, default 1024
-///     Starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
-/// transient : int, default 2000
-///     Impacts that are not looked at, at least 1.
-/// impacts : int, default 100000
-///     Impacts over which one orbit of each attractor is followed that is not periodic, at least 64.
-/// longest_period : int, default 256
-///     The longest period, in impacts, in [1, 4096].
-/// cells : int, default 256
-///     Cells along each axis by which attractors are told apart that are not periodic, in [8, 4096].
-/// progress : callable, optional
-///     Called as ``progress(done, total)``.
-///
-/// Returns
-/// -------
-/// Attractors
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
-/// >>> [attractor.orbit.period for attractor in found.all if attractor.orbit is not None]
-/// [1, 4]
+/// The attractors of a map.
 #[pyfunction]
-#[pyo3(signature = (
-    impact_map, *, starts=Count::Fits(1024), transient=Count::Fits(2000), impacts=Count::Fits(100_000),
-    longest_period=Count::Fits(256), cells=Count::Fits(256), progress=ProgressCallable(None)
-), text_signature = "(impact_map, *, starts=1024, transient=2000, impacts=100000, longest_period=256, cells=256, \
-                     progress=None)")]
-#[expect(clippy::too_many_arguments, reason = "they are keywords")]
-pub(crate) fn attractors(
-    py: Python<'_>,
-    impact_map: &Bound<'_, ImpactMap>,
-    starts: Count,
-    transient: Count,
-    impacts: Count,
-    longest_period: Count,
-    cells: Count,
-    progress: ProgressCallable,
-) -> PyResult<Attractors> {
-    let search = SearchArguments { starts, transient, impacts, longest_period, cells }.search(py)?;
-    let map = impact_map.get().map;
-    long_call::run(py, progress.0, |observer| Ok(map.attractors(&search, observer)?)).map(Attractors)
+pub(crate) fn attractors(a: Arguments<'_>) -> Made<'_> {
+    let (map, search) = (a.map()?, search(&a)?);
+    shown_attractors(a.py(), a.run(|observer| Ok(map.attractors(&search, observer)?))?)
+}
+
+/// The grid of the arguments.
+fn grid(a: &Arguments<'_>) -> PyResult<Grid> {
+    let axis = |range: &'static str, cells: &'static str| {
+        let (low, high) = a.pair(range)?;
+        // Both axes have the same names in the library.
+        Axis::new(low, high, a.usize(cells)?).map_err(|error| match error {
+            CoreError::OutOfRange { field, value, legal } => {
+                errors::named(a.py(), if field == "axis cells" { cells } else { range }, value, legal)
+            }
+            error => a.refused(error),
+        })
+    };
+    let (phase, speed) = (axis("phase_range", "phases")?, axis("speed_range", "speeds")?);
+    Grid::new(phase, speed).map_err(|error| a.refused(error))
+}
+
+fn basin_settings(a: &Arguments<'_>) -> PyResult<BasinSettings> {
+    Ok(BasinSettings { max_impacts: a.u32("max_impacts")?, policy: a.policy()? })
+}
+
+/// The basins as Python has them.
+fn shown_basins<'py>(
+    map: Bound<'py, PyAny>,
+    grid: &Grid,
+    labels: Vec<Label>,
+    meaning: Vec<String>,
+) -> Made<'py> {
+    let py = map.py();
+    let centres = |axis: &Axis| array(py, (0..axis.cells()).map(|cell| axis.centre(cell)).collect());
+    let (phase, speed) = (grid.phase(), grid.speed());
+    make!(
+        py,
+        "Basins",
+        map,
+        matrix(py, labels, [speed.cells(), phase.cells()])?,
+        centres(phase),
+        centres(speed),
+        (phase.low(), phase.high()),
+        (speed.low(), speed.high()),
+        PyTuple::new(py, meaning)?,
+    )
+}
+
+/// The labels in a vector of their own.
+fn labels(basins: &Basins) -> Result<Vec<Label>, Error> {
+    let mut labels = room_for(basins.labels().len())?;
+    labels.extend_from_slice(basins.labels());
+    Ok(labels)
+}
+
+/// The basins of all attractors.
+#[pyfunction]
+pub(crate) fn basins_of(a: Arguments<'_>) -> Made<'_> {
+    let (grid, settings, found) = (grid(&a)?, basin_settings(&a)?, a.held::<Attractors>("self")?);
+    let found = &found.get().0;
+    let labels = a.run(|observer| labels(&found.basins(grid, settings, observer)?))?;
+    let mut meaning = vec!["undecided".to_owned()];
+    meaning.extend(found.all().iter().map(|attractor| attractor.kind.to_string()));
+    shown_basins(a.get("self")?.getattr("impact_map")?, &grid, labels, meaning)
+}
+
+/// The orbits of the argument `known_orbits`, each with a radius if one is given.
+fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(OrbitModel, Option<f64>)>> {
+    const WRONG: &str = "known_orbits must hold orbits, or pairs of an orbit and a radius";
+    let mut orbits = Vec::new();
+    for item in known.try_iter()? {
+        let item = item?;
+        let pair = item.extract::<(Bound<'_, PyAny>, Real)>();
+        let (orbit, radius) = pair.map_or((item, None), |(orbit, radius)| (orbit, Some(radius.0)));
+        let orbit = held::<PeriodicOrbit>(&orbit, "known_orbits").map_err(|_| PyTypeError::new_err(WRONG))?;
+        orbits.push((orbit.get().0.clone(), radius));
+    }
+    Ok(orbits)
+}
+
+/// An orbit with its radius, which is sought where it is not given.
+fn known(
+    map: &ImpactMap,
+    (orbit, radius): (OrbitModel, Option<f64>),
+    observer: &dyn Observer,
+) -> Result<KnownOrbit, Error> {
+    // How far the search is says nothing about the rows that are to come.
+    let quiet = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
+    let radius = match radius {
+        Some(radius) => radius,
+        None => orbit.trapping_radius(map, SAMPLES, &quiet)?,
+    };
+    Ok(KnownOrbit::new(orbit, radius)?)
+}
+
+/// The basins of known orbits.
+#[pyfunction]
+pub(crate) fn basins(a: Arguments<'_>) -> Made<'_> {
+    let (map, grid, settings) = (a.map()?, grid(&a)?, basin_settings(&a)?);
+    let orbits = a.given("known_orbits")?.map_or_else(|| Ok(Vec::new()), |known| known_orbits(&known))?;
+    let mut meaning = vec!["undecided".to_owned(), "comes to rest".to_owned()];
+    meaning.extend(orbits.iter().map(|(orbit, _)| {
+        format!("periodic orbit: impacts {}, platform periods {}", orbit.period(), orbit.platform_periods)
+    }));
+    let labels = a.run(|observer| {
+        let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
+        let known = known.collect::<Result<Vec<_>, _>>()?;
+        labels(&map.basins(grid, &known, settings, observer)?)
+    })?;
+    shown_basins(a.get("impact_map")?, &grid, labels, meaning)
+}
+
+/// The basins of a result of these calls.
+fn given_basins(a: &Arguments<'_>) -> PyResult<Basins> {
+    let wrong = || PyTypeError::new_err("basins must be a Basins, as of basins() and Attractors.basins()");
+    let labels = a.get("basins")?.getattr("labels").map_err(|_| wrong())?;
+    let labels = labels.cast_into::<PyArray2<u8>>().map_err(|_| wrong())?.readonly();
+    let columns = labels.shape()[1];
+    let mut all = room_for(labels.len()).map_err(|error| a.refused(error))?;
+    all.extend(labels.as_array().iter());
+    Basins::of_labels(all, columns).map_err(|error| a.refused(error))
+}
+
+/// The entropy of basins.
+#[pyfunction]
+pub(crate) fn basin_entropy(a: Arguments<'_>) -> Made<'_> {
+    let (side, basins) = (a.usize("box_side")?, given_basins(&a)?);
+    let found = a.run(|_| Ok(basins.entropy(side)?))?;
+    make!(
+        a.py(),
+        "BasinEntropy",
+        found.box_side,
+        found.boxes,
+        found.boundary_boxes,
+        found.undecided_cells,
+        found.labels,
+        found.entropy,
+        found.boundary_entropy,
+    )
+}
+
+/// How the share of uncertain cells grows with their distance.
+#[pyfunction]
+pub(crate) fn boundary_scaling(a: Arguments<'_>) -> Made<'_> {
+    let (mut distances, py) = (Vec::new(), a.py());
+    for distance in a.get("distances")?.try_iter()? {
+        distances.push(distance?.extract::<Count>()?.u32(py, "distances")? as usize);
+    }
+    let basins = given_basins(&a)?;
+    let found = a.run(|observer| Ok(basins.boundary_scaling(&distances, observer)?))?;
+    let none = f64::NAN;
+    let (fit, exponent, error, dimension, slopes) = match found.fit {
+        BoundaryFit::PowerLaw { exponent, standard_error, dimension, slopes } => {
+            ("power-law", exponent, standard_error, dimension, slopes)
+        }
+        BoundaryFit::NoPowerLaw { slopes } => ("no-power-law", none, none, none, slopes),
+        _ => ("too-few", none, none, none, (none, none)),
+    };
+    let shares = &found.shares;
+    make!(
+        py,
+        "BoundaryScaling",
+        column(py, shares, |share| share.distance as i64),
+        column(py, shares, |share| share.uncertain.count() as i64),
+        shares.first().map_or(0, |share| share.uncertain.of()),
+        fit,
+        exponent,
+        error,
+        dimension,
+        slopes,
+    )
+}
+
+fn shown_fractions(py: Python<'_>, found: FractionsModel) -> Made<'_> {
+    let (attractors, forcings) = (found.followed.len(), found.at.len());
+    // A number of each attractor at each forcing, NaN where it is not there.
+    let table = |of: &dyn Fn(&Attractor) -> f64| {
+        let rows =
+            (0..attractors).flat_map(|number| found.over(number).map(|(_, own)| own.map_or(f64::NAN, of)));
+        matrix(py, rows.collect(), [attractors, forcings])
+    };
+    let mut moved = vec![f64::NAN; attractors * forcings];
+    for (index, at) in found.at.iter().enumerate() {
+        for (own, by) in at.followed.iter().zip(&at.moved) {
+            moved[own * forcings + index] = by.unwrap_or(f64::NAN);
+        }
+    }
+    let each = found.at.iter().map(|at| shown_attractors(py, at.attractors.clone()));
+    let made = make!(
+        py,
+        "BasinFractions",
+        found.restitution,
+        column(py, &found.at, |at| at.axial_forcing),
+        PyTuple::new(py, each.collect::<PyResult<Vec<_>>>()?)?,
+        PyTuple::new(py, found.at.iter().map(|at| column(py, &at.followed, |own| *own as i64)))?,
+        column(py, &found.followed, |own| own.appears as i64),
+        column(py, &found.followed, |own| own.vanishes as i64),
+        table(&|own| own.starts.value())?,
+        table(&|own| own.starts.interval().0)?,
+        table(&|own| own.starts.interval().1)?,
+        matrix(py, moved, [attractors, forcings])?,
+    )?;
+    holding(made, BasinFractions(found))
+}
+
+/// Attractors and the shares of their basins, followed over the forcing.
+#[pyfunction]
+pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
+    let (forcings, search, reach) = (a.row("axial_forcing")?, search(&a)?, a.real("reach")?);
+    let restitution = a.real("restitution")?;
+    let found = a.run(|observer| {
+        Ok(bouncing_disk::core::attractors::basin_fractions_over(
+            restitution,
+            &forcings,
+            &search,
+            reach,
+            observer,
+        )?)
+    })?;
+    shown_fractions(a.py(), found)
+}
+
+/// The same with more forcings.
+#[pyfunction]
+pub(crate) fn extended(a: Arguments<'_>) -> Made<'_> {
+    let (forcings, search, reach) = (a.row("axial_forcing")?, search(&a)?, a.real("reach")?);
+    let fractions = a.held::<BasinFractions>("self")?;
+    let fractions = &fractions.get().0;
+    let found = a.run(|observer| Ok(fractions.extended(&forcings, &search, reach, observer)?))?;
+    shown_fractions(a.py(), found)
 }

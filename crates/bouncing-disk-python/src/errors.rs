@@ -1,15 +1,11 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
-use std::borrow::Cow;
-
-use bouncing_disk::core::{Error as CoreError, NoCrisis};
+use bouncing_disk::core::{Error as CoreError, chaos::NoCrisis};
 use bouncing_disk::{Error, FitError, MeasuredSpeedsError, MotorFileError};
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyTuple};
-
-use crate::names::{self, Name, Told};
 
 /// The numbers of an error, by their names.
 enum Detail {
@@ -18,123 +14,96 @@ enum Detail {
     Text(String),
 }
 
-impl From<f64> for Detail {
-    fn from(number: f64) -> Self {
-        Self::Number(number)
+impl Detail {
+    /// What `Debug` has written.
+    fn read(text: &str) -> Self {
+        let number = || text.parse().map(Self::Number).ok();
+        text.parse()
+            .map(Self::Count)
+            .ok()
+            .or_else(number)
+            .unwrap_or_else(|| Self::Text(text.trim_matches('"').to_owned()))
     }
 }
 
-impl From<u64> for Detail {
-    fn from(count: u64) -> Self {
-        Self::Count(count)
-    }
-}
-
-impl From<usize> for Detail {
-    fn from(count: usize) -> Self {
-        Self::Count(count as u64)
-    }
-}
-
-impl From<u32> for Detail {
-    fn from(count: u32) -> Self {
-        Self::Count(count.into())
-    }
-}
-
-impl From<&str> for Detail {
-    fn from(text: &str) -> Self {
-        Self::Text(text.to_owned())
-    }
-}
+type Details = Vec<(String, Detail)>;
 
 /// A class of `bouncing_disk._errors` and what it is called with after its message.
 enum Raised {
-    OutOfRange(&'static str, f64, Cow<'static, str>),
+    OutOfRange(String, f64, String),
     TooLarge(&'static str, u64, u64),
     /// Arguments that do not fit together.
-    Invalid(&'static str, Vec<(&'static str, Detail)>),
+    Invalid(String, Details),
     /// The computation itself.
-    Computation(&'static str, Vec<(&'static str, Detail)>),
+    Computation(String, Details),
     FitRefused,
 }
 
-macro_rules! details {
-    ($($name:ident),*) => { vec![$((stringify!($name), Detail::from($name))),*] };
+/// The errors that arguments are the reason of which do not fit together.
+const INVALID: [&str; 11] = [
+    "not-of-kind",
+    "no-closed-form",
+    "no-decimal",
+    "unfitting",
+    "not-shared",
+    "not-an-orbit",
+    "not-given",
+    "neither-given",
+    "both-given",
+    "empty-axis",
+    "repeated-axis",
+];
+
+/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as
+/// they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
+fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
+    let text = format!("{error:?}");
+    let (name, fields) = text.split_once(" { ").unwrap_or((&text, ""));
+    let mut kind = String::new();
+    for letter in name.chars() {
+        if letter.is_uppercase() && !kind.is_empty() {
+            kind.push('-');
+        }
+        kind.extend(letter.to_lowercase());
+    }
+    let (mut details, mut start, mut depth, mut is_quoted) = (Vec::new(), 0, 0, false);
+    let fields = fields.strip_suffix(" }").unwrap_or(fields);
+    for (place, letter) in fields.char_indices().chain([(fields.len(), ',')]) {
+        match letter {
+            '"' => is_quoted = !is_quoted,
+            '(' | '{' | '[' => depth += 1,
+            ')' | '}' | ']' => depth -= 1,
+            ',' if depth == 0 && !is_quoted => {
+                if let Some((name, value)) = fields[start..place].trim().split_once(": ") {
+                    details.push((name.to_owned(), Detail::read(value)));
+                }
+                start = place + 1;
+            }
+            _ => {}
+        }
+    }
+    (kind, details)
 }
 
-fn of_core(error: CoreError) -> Raised {
-    use Raised::{Computation, Invalid, OutOfRange, TooLarge};
-    match error {
-        CoreError::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
-        CoreError::TooLarge { what, count, limit } => TooLarge(what, count, limit),
-        CoreError::NoLiftOff { phase, peak_acceleration } => {
-            Computation("no-lift-off", details![phase, peak_acceleration])
-        }
-        CoreError::FlightTooLong { relative_speed, duration, limit } => {
-            Computation("flight-too-long", details![relative_speed, duration, limit])
-        }
-        CoreError::NoConvergence { evaluations, time, gap } => {
-            Computation("no-convergence", details![evaluations, time, gap])
-        }
-        CoreError::NotSettled { what, iterations, residual } => {
-            Computation("not-settled", details![what, iterations, residual])
-        }
-        CoreError::NotAttracting { spectral_radius, trace_error } => {
-            Computation("not-attracting", details![spectral_radius, trace_error])
-        }
-        CoreError::NothingProven { region } => Computation("nothing-proven", details![region]),
-        CoreError::ImpactWithoutSpeed { index, phase } => {
-            Computation("impact-without-speed", details![index, phase])
-        }
-        CoreError::NoPlatformPeriods { impacts, speed } => {
-            Computation("no-platform-periods", details![impacts, speed])
-        }
-        CoreError::EarlierImpact { index, sought, found } => {
-            Computation("earlier-impact", details![index, sought, found])
-        }
-        CoreError::IllegalRestitution { restitution, impact_speed } => {
-            Computation("illegal-restitution", details![restitution, impact_speed])
-        }
-        CoreError::Stopped { done, total } => Computation("stopped", details![done, total]),
-        CoreError::NoBranch { what, parameter } => Computation("no-branch", details![what, parameter]),
-        CoreError::NotOfKind { what, index, count, expected } => {
-            Invalid("not-of-kind", details![what, index, count, expected])
-        }
-        CoreError::NoClosedForm => Invalid("no-closed-form", Vec::new()),
-        CoreError::NoDecimal { at } => Invalid("no-decimal", details![at]),
-        CoreError::Unfitting { what, found, expected } => {
-            Invalid("unfitting", details![what, found, expected])
-        }
-        _ => Computation("other", Vec::new()),
-    }
+fn owned(details: impl IntoIterator<Item = (&'static str, Detail)>) -> Details {
+    details.into_iter().map(|(name, detail)| (name.to_owned(), detail)).collect()
 }
 
 fn of_model(error: Error) -> Raised {
-    use Raised::{Computation, Invalid, OutOfRange};
     match error {
-        Error::Core(error) => of_core(error),
-        Error::OutOfRange { field, value, legal } => OutOfRange(field, value, legal.into()),
-        Error::NeverLeaves { peak_acceleration } => Computation("never-leaves", details![peak_acceleration]),
-        Error::SlipTooLong { duration, limit } => Computation("slip-too-long", details![duration, limit]),
-        Error::NotShared { field, one, other } => Invalid("not-shared", details![field, one, other]),
-        Error::DoesNotTurn { speed, standard_error } => {
-            Computation("does-not-turn", details![speed, standard_error])
+        Error::OutOfRange { field, value, legal }
+        | Error::Core(CoreError::OutOfRange { field, value, legal }) => {
+            Raised::OutOfRange(field.to_owned(), value, legal.to_owned())
         }
-        Error::NotSettled { speed, standard_error } => {
-            Computation("not-settled", details![speed, standard_error])
+        Error::Core(CoreError::TooLarge { what, count, limit }) => Raised::TooLarge(what, count, limit),
+        error => {
+            let (kind, details) = match &error {
+                Error::Core(error) => kind_and_details(error),
+                error => kind_and_details(error),
+            };
+            let is_invalid = INVALID.contains(&kind.as_str());
+            if is_invalid { Raised::Invalid(kind, details) } else { Raised::Computation(kind, details) }
         }
-        Error::Overpowered { load } => Computation("overpowered", details![load]),
-        Error::NotAnOrbit { impact, distance } => Invalid("not-an-orbit", details![impact, distance]),
-        Error::TooFewMotors { left, traps, needed } => {
-            Computation("too-few-motors", details![left, traps, needed])
-        }
-        Error::NotGiven { field } => Invalid("not-given", details![field]),
-        Error::NeitherGiven { one, other } => Invalid("neither-given", details![one, other]),
-        Error::BothGiven { one, other } => Invalid("both-given", details![one, other]),
-        Error::EmptyAxis { parameter } => Invalid("empty-axis", details![parameter]),
-        Error::RepeatedAxis { parameter } => Invalid("repeated-axis", details![parameter]),
-        _ => Computation("other", Vec::new()),
     }
 }
 
@@ -147,7 +116,7 @@ fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         .getattr(name)
 }
 
-fn dictionary<'py>(py: Python<'py>, details: Vec<(&'static str, Detail)>) -> PyResult<Bound<'py, PyDict>> {
+fn dictionary<'py>(py: Python<'py>, details: Details) -> PyResult<Bound<'py, PyDict>> {
     let dictionary = PyDict::new(py);
     for (name, detail) in details {
         match detail {
@@ -182,45 +151,147 @@ fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
     exception(py, message, raised).unwrap_or_else(|error| error)
 }
 
-/// The exception of an error of the model or of the core.
+/// The exception of an error that no argument of a call can be the reason of.
 pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
-    of_named(py, error, &[])
-}
-
-/// The same where the library has other names for the arguments.
-pub(crate) fn of_named(py: Python<'_>, error: impl Into<FitError>, names: &[Name]) -> PyErr {
-    let error = match error.into() {
-        FitError::Model(error) => error,
-        refused => return raise(py, refused.to_string(), Raised::FitRefused),
-    };
-    match names::told(&error, names) {
-        Some(Told::Argument(field, value, legal)) => {
-            // The words of the library for a value and its range, which here need not be its own.
-            let message = Error::OutOfRange { field, value, legal: "" }.to_string() + &legal;
-            raise(py, message, Raised::OutOfRange(field, value, legal))
-        }
-        Some(Told::Derived { quantity, value, legal: range, of }) => {
-            let arguments = of.join(", ");
-            let message = format!("{error}; it follows from {arguments}");
-            let details = details![quantity, value, range];
-            let details = details.into_iter().chain([("arguments", Detail::Text(arguments))]);
-            raise(py, message, Raised::Invalid("out-of-range-together", details.collect()))
-        }
-        None => raise(py, error.to_string(), of_model(error)),
+    let error = error.into();
+    let message = error.to_string();
+    match error {
+        FitError::Model(error) => raise(py, message, of_model(error)),
+        _ => raise(py, message, Raised::FitRefused),
     }
 }
 
+/// Arguments whose names do not follow from what the library calls them.
+const ARGUMENTS: [(&str, &[&str]); 23] = [
+    ("phase", &["impact_phase"]),
+    ("period", &["impact_phase"]),
+    ("impacts", &["impact_phase"]),
+    ("impact_phase", &["phase_range"]),
+    ("lowest_normalised_speed", &["speed_range"]),
+    ("highest_normalised_speed", &["speed_range"]),
+    ("attraction_radius", &["known_orbits"]),
+    ("relative_speed", &["relative_velocity"]),
+    ("distance", &["reach", "distances", "beyond"]),
+    ("axial_forcing", &["beyond"]),
+    ("parameter", &["parameter_range"]),
+    ("low_end", &["parameter_range"]),
+    ("high_end", &["parameter_range"]),
+    ("forcing", &["axial_forcing"]),
+    ("multiplier", &["inside", "orbit"]),
+    ("real_part", &["inside", "orbit"]),
+    ("starts_along_the_phase", &["phases"]),
+    ("starts_along_the_speed", &["speeds"]),
+    ("loads", &["load_torques"]),
+    ("load_acceleration", &["load_torque", "load_torques"]),
+    ("points", &["times"]),
+    ("cells_along_a_box", &["box_side"]),
+    ("fitted_parameters", &["ranges"]),
+];
+
+/// The argument of a call that a quantity of the library is about: `longest period`, `points of a branch` and
+/// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if it follows from several.
+fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
+    let is_given = |name: &String| call.contains(name.as_str()).unwrap_or(false);
+    let head = quantity.strip_prefix("number of ").unwrap_or(quantity);
+    let marks = [" (", " of ", " from ", " beyond ", " below ", " in periods", " along an axis"];
+    let cut = marks.iter().filter_map(|mark| head.find(mark)).min();
+    let head = head[..cut.unwrap_or(head.len())].replace(' ', "_");
+    // That of the map, which is no argument of its methods.
+    if quantity.starts_with("restitution of ") {
+        return Some(head);
+    }
+    let spellings = ["", "max_"].map(|prefix| format!("{prefix}{head}"));
+    let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
+    let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
+    let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
+    // What is illegal of one of many comes from the argument that holds them.
+    let containers = ["basins", "transients", "ranges", "axes"];
+    spellings
+        .into_iter()
+        .chain(plurals)
+        .chain(ranged.map(|_| "ranges".to_owned()))
+        .chain(others.chain(&containers).map(|name| (*name).to_owned()))
+        .find(is_given)
+}
+
+/// The exception of an error, with the name that the call has for the quantity it is about.
+pub(crate) fn of_call(py: Python<'_>, error: FitError, call: &Bound<'_, PyDict>) -> PyErr {
+    let FitError::Model(
+        Error::OutOfRange { field, value, legal }
+        | Error::Core(CoreError::OutOfRange { field, value, legal }),
+    ) = error
+    else {
+        return of(py, error);
+    };
+    let Some(name) = argument(field, call) else {
+        let message = format!("{error}; it follows from several arguments");
+        let given = call.iter().filter(|(_, value)| !value.is_none()).map(|(name, _)| name.to_string());
+        let arguments = given.filter(|name| name != "self").collect::<Vec<_>>().join(", ");
+        let details = [
+            ("quantity", Detail::Text(field.to_owned())),
+            ("value", Detail::Number(value)),
+            ("range", Detail::Text(legal.to_owned())),
+            ("arguments", Detail::Text(arguments)),
+        ];
+        return raise(py, message, Raised::Invalid("out-of-range-together".to_owned(), owned(details)));
+    };
+    // The caller's number where the library has it in other units, and its range in those of the caller.
+    let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
+    match given.filter(|given| given.total_cmp(&value).is_ne()) {
+        Some(given) => {
+            let legal = in_unit(legal, given / value, unit(&name)).unwrap_or(legal.to_owned());
+            named(py, &name, given, &legal)
+        }
+        None => named(py, &name, value, legal),
+    }
+}
+
+/// The unit of an argument that the library has in another one.
+fn unit(argument: &str) -> &'static str {
+    match argument {
+        "gap" => " m",
+        "relative_velocity" => " m/s",
+        "angular_speed" => " rad/s",
+        "duration" => " s",
+        "load_torque" => " N m",
+        _ => "",
+    }
+}
+
+/// An interval such as `(0, 1e17] (units of g/omega^2)` in another unit, of which the library's is `one`;
+/// `None` of what is no interval of two numbers. Six digits are enough to see which end is passed.
+fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
+    let (low, rest) = interval.split_once(", ")?;
+    let (high, _) = rest.split_at(rest.find([']', ')'])?);
+    let opens = low.get(..1).filter(|bracket| one.is_normal() && ["[", "("].contains(bracket))?;
+    let end = |text: &str| {
+        let rounded = format!("{:.5e}", text.parse::<f64>().ok()? * one);
+        let text = format!("{:?}", rounded.parse::<f64>().ok()?);
+        Some(text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned))
+    };
+    let closes = &rest[high.len()..=high.len()];
+    Some(format!("{opens}{}, {}{closes}{unit}", end(&low[1..])?, end(high)?))
+}
+
+/// The exception of an argument outside its range.
+pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
+    // The words of the library for a value and its range.
+    let message = Error::OutOfRange { field: "", value, legal: "" }.to_string();
+    let message = format!("{field}{message}{legal}");
+    raise(py, message, Raised::OutOfRange(field.to_owned(), value, legal.to_owned()))
+}
+
 /// The exception of a data sheet that cannot be read.
-pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError, names: &[Name]) -> PyErr {
-    let number = |line: usize| Detail::Count(line as u64);
+pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
+    let number = |place: &usize| Detail::Count(*place as u64);
     let details = match error {
-        MotorFileError::Illegal(illegal) => return of_named(py, *illegal, names),
+        MotorFileError::Illegal(illegal) => return of(py, *illegal),
         MotorFileError::Text { line, column, .. } => {
-            vec![("line", number(*line)), ("column", number(*column))]
+            vec![("line", number(line)), ("column", number(column))]
         }
         _ => Vec::new(),
     };
-    raise(py, error.to_string(), Raised::Invalid("text", details))
+    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), owned(details)))
 }
 
 /// The exception of measured speeds that cannot be read.
@@ -234,19 +305,14 @@ pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr 
 
 /// The exception of a text that means nothing, by what is said of it.
 pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyErr {
-    raise(py, error.to_string(), Raised::Invalid("text", Vec::new()))
+    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), Vec::new()))
 }
 
 /// The exception of a JSON text that cannot be read.
 pub(crate) fn unreadable(py: Python<'_>, error: &serde_json::Error) -> PyErr {
-    let (line, column) = (error.line(), error.column());
-    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text", details![line, column]))
-}
-
-/// The exception of what is no text at all: half of a pair of surrogates is in it.
-pub(crate) fn no_unicode(py: Python<'_>, position: usize) -> PyErr {
-    let message = format!("the text cannot be read: its character {position} is none of Unicode");
-    raise(py, message, Raised::Invalid("text", details![position]))
+    let details = [("line", error.line()), ("column", error.column())];
+    let details = owned(details.map(|(name, place)| (name, Detail::Count(place as u64))));
+    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text".to_owned(), details))
 }
 
 /// A number outside its range, which the types of Rust would not have let through.
@@ -258,25 +324,12 @@ pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, rang
 pub(crate) fn no_events(py: Python<'_>) -> PyErr {
     let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
                    begins, and there is nothing to sample; give simulate() a duration";
-    raise(py, message.to_owned(), Raised::Computation("no-events", Vec::new()))
+    raise(py, message.to_owned(), Raised::Computation("no-events".to_owned(), Vec::new()))
 }
 
 /// Why there is no crisis.
 pub(crate) fn no_crisis(py: Python<'_>, reason: &NoCrisis) -> PyErr {
-    let (kind, details) = match *reason {
-        NoCrisis::NotBorn { forcing, birth } => ("not-born", details![forcing, birth]),
-        NoCrisis::NotFollowed { forcing, reached } => ("not-followed", details![forcing, reached]),
-        NoCrisis::NoneRests { forcing, samples, impacts } => {
-            ("none-rests", details![forcing, samples, impacts])
-        }
-        NoCrisis::RestsBefore { forcing, life } => ("rests-before", details![forcing, life]),
-        NoCrisis::NotChaotic { forcing, exponent } => ("not-chaotic", details![forcing, exponent]),
-        NoCrisis::LivesDoNotShrink { forcing, near, far } => {
-            ("lives-do-not-shrink", details![forcing, near, far])
-        }
-        NoCrisis::OtherReason { bracket: (low, high), .. } => ("other-reason", details![low, high]),
-        _ => ("other", Vec::new()),
-    };
+    let (kind, details) = kind_and_details(reason);
     raise(py, format!("there is no crisis: {reason}"), Raised::Computation(kind, details))
 }
 

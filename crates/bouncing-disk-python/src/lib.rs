@@ -1,121 +1,72 @@
 //! The compiled module `bouncing_disk._native` of the Python package `bouncing_disk`.
 //!
-//! It has no physics and no numerics of its own: arguments are checked and turned into those of the Rust
-//! library, results into NumPy arrays and plain Python objects.
+//! It has no physics, no numerics and no signatures of its own: Python hands over the arguments of a call by
+//! their names; they are checked and turned into those of the Rust library, results into NumPy arrays and the
+//! classes of the Python package.
 #![cfg(feature = "extension-module")]
 
 mod arguments;
 mod attractors;
-mod basin_fractions;
-mod basin_measures;
-mod basins;
-mod braking;
-mod branch;
-mod chatter;
-mod crisis;
-mod design;
-mod diagram;
+mod chaos;
 mod errors;
-mod fits;
-mod impact_map;
-mod impact_state;
+mod estimate;
 mod long_call;
-mod manifold;
 mod motor;
-mod motor_sweep;
-mod names;
-mod operation;
-mod orbit_batch;
-mod parameter_fit;
-mod periodic_orbit;
-mod real;
-mod regime;
+mod orbits;
+mod parameters;
 mod results;
-mod rotary;
-mod sensitivity;
-mod spectra;
-mod start;
-mod system;
-mod system_dict;
-mod system_names;
-mod text;
 mod threads;
 mod toss;
-mod trajectory;
-mod transients;
-mod traps;
-mod verdicts;
 
 use pyo3::prelude::*;
 
-/// What `bouncing_disk` exports.
+/// What the Python package calls.
 #[pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::attractors::{Attractors, attractors};
+    use crate::attractors::{
+        Attractors, BasinFractions, attractors, basin_entropy, basin_fractions_over, basins, basins_of,
+        boundary_scaling, extended,
+    };
     #[pymodule_export]
-    use crate::basin_fractions::{BasinFractions, basin_fractions_over};
+    use crate::chaos::{
+        Crisis, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram, survival_times,
+        verdicts,
+    };
     #[pymodule_export]
-    use crate::basin_measures::{basin_entropy, boundary_scaling};
+    use crate::estimate::{
+        ensemble, fit_braking, fit_exponential, fit_parameters, fit_transients, read_speeds, transient,
+        transients,
+    };
     #[pymodule_export]
-    use crate::basins::basins;
+    use crate::motor::{
+        best_phase_lag, elementary_effects, input_spreads, local_sensitivities, low_period_traps, motor_map,
+        nearest_trap, operating_point, report, sobol_indices, stall_load, torque_speed_curve,
+    };
     #[pymodule_export]
-    use crate::braking::fit_braking;
+    use crate::orbits::{
+        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, iterate_orbits,
+        periodic_orbits, proven_radius, refine, settled_orbit, switched, trapping_radius,
+    };
     #[pymodule_export]
-    use crate::branch::{Branch, continued, doubling_cascade};
-    #[pymodule_export]
-    use crate::chatter::ChatterCut;
-    #[pymodule_export]
-    use crate::crisis::{Crisis, crisis};
-    #[pymodule_export]
-    use crate::design::best_toss;
-    #[pymodule_export]
-    use crate::diagram::{lyapunov_exponents, orbit_diagram, survival_times};
-    #[pymodule_export]
-    use crate::fits::{fit_exponential, fit_transients, read_speeds};
-    #[pymodule_export]
-    use crate::impact_map::ImpactMap;
-    #[pymodule_export]
-    use crate::manifold::manifold;
-    #[pymodule_export]
-    use crate::motor::Motor;
-    #[pymodule_export]
-    use crate::motor_sweep::motor_map;
-    #[pymodule_export]
-    use crate::operation::{best_phase_lag, input_spreads, operating_point, stall_load, torque_speed_curve};
-    #[pymodule_export]
-    use crate::orbit_batch::iterate_orbits;
-    #[pymodule_export]
-    use crate::parameter_fit::fit_parameters;
-    #[pymodule_export]
-    use crate::periodic_orbit::{PeriodicOrbit, periodic_orbits};
-    #[pymodule_export]
-    use crate::rotary::rotary_response;
-    #[pymodule_export]
-    use crate::sensitivity::{elementary_effects, local_sensitivities, sobol_indices};
-    #[pymodule_export]
-    use crate::spectra::lyapunov_spectra;
-    #[pymodule_export]
-    use crate::system::System;
+    use crate::parameters::{
+        amplitudes_of_stroke, chatter_cut, excluded_by, impact_map, known_motor, known_system,
+        load_acceleration, motor, paper_cut, platform_motion, system,
+    };
     #[pymodule_export]
     use crate::threads::{set_threads, threads};
     #[pymodule_export]
-    use crate::toss::{multi_toss, single_toss};
-    #[pymodule_export]
-    use crate::trajectory::{Trajectory, simulate, toss_trajectory};
-    #[pymodule_export]
-    use crate::transients::{ensemble, transient, transients};
-    #[pymodule_export]
-    use crate::traps::{low_period_traps, nearest_trap};
-    #[pymodule_export]
-    use crate::verdicts::verdicts;
+    use crate::toss::{
+        Trajectory, best_toss, events, multi_toss, rotary_response, samples, simulate, single_toss,
+        toss_trajectory,
+    };
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
     #[pymodule_export]
-    const UNDECIDED: u8 = bouncing_disk::core::UNDECIDED;
+    const UNDECIDED: u8 = bouncing_disk::core::attractors::UNDECIDED;
     /// Label of a start that comes to rest.
     #[pymodule_export]
-    const ATTACHED: u8 = bouncing_disk::core::ATTACHED;
+    const ATTACHED: u8 = bouncing_disk::core::attractors::ATTACHED;
     /// Label of the first known orbit; the next ones count up from here.
     #[pymodule_export]
-    const FIRST_ORBIT: u8 = bouncing_disk::core::FIRST_ORBIT;
+    const FIRST_ORBIT: u8 = bouncing_disk::core::attractors::FIRST_ORBIT;
 }

@@ -11,10 +11,10 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use bouncing_disk::{FitError, Observer, Progress};
+use bouncing_disk::{Error, FitError, Observer, Progress};
 use pyo3::prelude::*;
 
-use crate::names::Name;
+use crate::arguments::Arguments;
 use crate::{errors, threads};
 
 /// How often signals are looked at, and the callable is called.
@@ -55,20 +55,11 @@ impl Watched {
 
 /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the callable raises.
 pub(crate) fn run<T: Send, E: Into<FitError> + Send>(
-    py: Python<'_>,
+    call: &Arguments<'_>,
     progress: Option<Py<PyAny>>,
     work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
 ) -> PyResult<T> {
-    run_named(py, progress, &[], work)
-}
-
-/// The same where the library has other names for the arguments.
-pub(crate) fn run_named<T: Send, E: Into<FitError> + Send>(
-    py: Python<'_>,
-    progress: Option<Py<PyAny>>,
-    names: &[Name],
-    work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
-) -> PyResult<T> {
+    let py = call.py();
     let watched = Watched::default();
     let callable = progress.as_ref();
     let outcome = py.detach(|| {
@@ -99,7 +90,7 @@ pub(crate) fn run_named<T: Send, E: Into<FitError> + Send>(
             (None, Some(Err(_)) | None) => Err(errors::defect()),
         }
     })?;
-    let value = outcome.map_err(|error| errors::of_named(py, error, names))?;
+    let value = outcome.map_err(|error| call.refused(error))?;
     if let Some(progress) = progress {
         // Of nothing everything is done.
         let total = watched.total.load(Ordering::Relaxed);
@@ -109,13 +100,11 @@ pub(crate) fn run_named<T: Send, E: Into<FitError> + Send>(
 }
 
 /// Runs what takes microseconds, where it is.
-pub(crate) fn short<T, E: Into<FitError>>(
-    py: Python<'_>,
-    names: &[Name],
-    work: impl FnOnce() -> Result<T, E>,
-) -> PyResult<T> {
-    match catch_unwind(AssertUnwindSafe(work)) {
-        Ok(result) => result.map_err(|error| errors::of_named(py, error, names)),
-        Err(_) => Err(errors::defect()),
-    }
+pub(crate) fn short<T>(call: &Arguments<'_>, work: impl FnOnce() -> Result<T, Error>) -> PyResult<T> {
+    caught(work)?.map_err(|error| call.refused(error))
+}
+
+/// The outcome of `work`, whose panic is a defect.
+pub(crate) fn caught<T>(work: impl FnOnce() -> Result<T, Error>) -> PyResult<Result<T, Error>> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|_| errors::defect())
 }

@@ -1,446 +1,434 @@
-//! Data sheets of motors.
+//! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
-use bouncing_disk::{Motor as Model, MotorField, MotorParameters};
+use bouncing_disk::{
+    ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
+    OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, SobolIndices, SweepAxis,
+    TrapVerdict,
+};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{PyDict, PyMapping, PyString, PyTuple};
 
-use crate::arguments::ProgressCallable;
-use crate::real::{Real, optional};
-use crate::regime::regime;
-use crate::system::System;
-use crate::system_names::OF_MOTOR;
-use crate::text::Json;
-use crate::{errors, long_call, results, text};
+use crate::arguments::{Arguments, Made, Pair, row};
+use crate::parameters::Motor;
+use crate::results::{column, made, make, signed};
 
-/// A motor by its data sheet, in SI units.
-///
-/// Of each pair of alternatives exactly one is given: ``peak_angular_speed`` or ``twist_amplitude``, ``mass``
-/// or ``density``, ``preload_force`` or ``preload_acceleration``.
-///
-/// Parameters
-/// ----------
-/// drive_frequency : float
-///     Drive frequency omega/(2 pi) (Hz), positive.
-/// amplitude : float
-///     Axial amplitude A of the stator (m), not negative.
-/// peak_angular_speed : float, optional
-///     Largest angular speed omega Phi of the stator (rad/s), not negative.
-/// twist_amplitude : float, optional
-///     Twist amplitude Phi of the stator (rad), not negative.
-/// phase_lag : float, default 0
-///     Phase lag theta of the twist (rad).
-/// mass : float, optional
-///     Mass m of the rotor (kg), positive.
-/// density : float, optional
-///     Density of the rotor (kg/m^3), positive, with ``rotor_radius`` and ``rotor_thickness`` of a solid
-///     disc.
-/// rotor_radius, rotor_thickness : float, optional
-///     Outer radius and thickness of the rotor (m), positive.
-/// contact_radius : float
-///     Effective contact radius a_e (m), positive.
-/// gyration_radius : float, optional
-///     Radius of gyration a_g (m), positive; that of a solid disc where a rotor radius is given.
-/// preload_force : float, optional
-///     All of the force that presses the rotor onto the stator (N), positive.
-/// preload_acceleration : float, optional
-///     That force by the mass (m/s^2), positive.
-/// spring_constant : float, optional
-///     Constant of the spring that makes the preload (N/m), positive.
-/// friction : float
-///     Coefficient of friction mu, not negative.
-/// restitution : float
-///     Coefficient of restitution, in [0, 1).
-/// load_torque : float, default 0
-///     Load torque T_L (N m); a positive one decelerates a positive rotation.
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3, contact_radius=1.25e-3,
-/// ...     gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
-/// >>> motor.replace(friction=0.2).friction
-/// 0.2
-/// >>> bd.Motor.from_json(motor.to_json()) == motor
-/// True
-#[pyclass(frozen, eq, module = "bouncing_disk")]
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Motor(pub(crate) Model);
-
-impl Motor {
-    fn arguments<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let sheet = self.0.parameters();
-        let arguments = PyDict::new(py);
-        let optional = [
-            ("drive_frequency", Some(sheet.drive_frequency)),
-            ("amplitude", Some(sheet.amplitude)),
-            ("peak_angular_speed", sheet.peak_angular_speed),
-            ("twist_amplitude", sheet.twist_amplitude),
-            ("phase_lag", Some(sheet.phase_lag)),
-            ("mass", sheet.mass),
-            ("density", sheet.density),
-            ("rotor_radius", sheet.rotor_radius),
-            ("rotor_thickness", sheet.rotor_thickness),
-            ("contact_radius", Some(sheet.contact_radius)),
-            ("gyration_radius", sheet.gyration_radius),
-            ("preload_force", sheet.preload_force),
-            ("preload_acceleration", sheet.preload_acceleration),
-            ("spring_constant", sheet.spring_constant),
-            ("friction", Some(sheet.friction)),
-            ("restitution", Some(sheet.restitution)),
-            ("load_torque", Some(sheet.load_torque)),
-        ];
-        for (name, value) in optional {
-            if let Some(value) = value {
-                arguments.set_item(name, value)?;
-            }
+/// What a data sheet says before anything turns.
+#[pyfunction]
+pub(crate) fn report(a: Arguments<'_>) -> Made<'_> {
+    let (motor, none) = (a.held::<Motor>("self")?.get().0, f64::NAN);
+    let report = a.run(|observer| motor.report(observer))?;
+    let (name, impacts, platform_periods, rests, exponent) = match &report.regime {
+        MotorRegime::NoLiftOff => ("no-lift-off", 0, none, 0, none),
+        MotorRegime::Periodic { impacts, platform_periods } => {
+            ("periodic", *impacts as u64, *platform_periods as f64, 0, none)
         }
-        Ok(arguments)
+        MotorRegime::LowPeriodChattering(cycle) => {
+            ("low-period-chattering", cycle.impacts as u64, cycle.platform_periods as f64, 0, none)
+        }
+        MotorRegime::LongChattering { platform_periods, rests } => {
+            ("long-chattering", 0, *platform_periods, *rests, none)
+        }
+        MotorRegime::Chaotic { lyapunov_exponent } => ("chaotic", 0, none, 0, *lyapunov_exponent),
+        MotorRegime::Undecided { impacts } => ("undecided", *impacts as u64, none, 0, none),
+        _ => ("unknown", 0, none, 0, none),
+    };
+    make!(
+        a.py(),
+        "MotorReport",
+        report.axial_forcing,
+        report.angular_forcing,
+        report.peak_acceleration,
+        name,
+        impacts,
+        platform_periods,
+        rests,
+        exponent,
+        report.periods_per_flight,
+        report.largest_torque,
+        report.static_deflection,
+        report.preload_change_bound,
+        PyTuple::new(a.py(), motor.warnings().iter().map(ToString::to_string))?,
+        report.to_string(),
+    )
+}
+
+/// How many doubles an operation has.
+const COLUMNS: usize = 18;
+
+/// The numbers of an operation; NaN where there are none.
+struct Numbers {
+    values: [f64; COLUMNS],
+    impacts: i64,
+    /// The place in `OperatingPoints.STATUSES`.
+    status: u8,
+    shortfall: String,
+}
+
+/// Those of a point, in the order of the fields of `OperatingPoint`.
+fn of_point(point: &OperatingPoint) -> [f64; COLUMNS] {
+    let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
+    let efficiency = point.efficiency.unwrap_or(none);
+    [
+        point.load_torque,
+        point.speed.value,
+        point.speed.standard_error,
+        point.mechanical_power.value,
+        point.mechanical_power.standard_error,
+        point.input_power.value,
+        point.input_power.standard_error,
+        point.restitution_loss.value,
+        point.restitution_loss.standard_error,
+        point.friction_loss.value,
+        point.friction_loss.standard_error,
+        efficiency.value,
+        efficiency.standard_error,
+        point.perturbation_power,
+        point.energy_residual,
+        point.averaged_time,
+        point.start_up,
+        f64::NAN,
+    ]
+}
+
+fn shortfall(shortfall: &Shortfall) -> String {
+    match shortfall {
+        Shortfall::Error { standard_error, wanted } => {
+            format!("standard error of the speed {standard_error:?} rad/s, asked for {wanted:?} rad/s")
+        }
+        Shortfall::Drift { drift, standard_error } => {
+            format!("the speed drifts by {drift:?} rad/s, with a standard error of {standard_error:?} rad/s")
+        }
+        Shortfall::PowerBalance { stored_power, input_power } => {
+            format!("the disk stores {stored_power:?} W of the {input_power:?} W that are put in")
+        }
+        _ => "not settled".to_owned(),
     }
 }
 
-#[pymethods]
-impl Motor {
-    #[new]
-    #[pyo3(signature = (
-        *, drive_frequency, amplitude, peak_angular_speed=None, twist_amplitude=None, phase_lag=Real(0.0), mass=None,
-        density=None, rotor_radius=None, rotor_thickness=None, contact_radius, gyration_radius=None,
-        preload_force=None, preload_acceleration=None, spring_constant=None, friction, restitution,
-        load_torque=Real(0.0)
-    ), text_signature = "(*, drive_frequency, amplitude, peak_angular_speed=None, twist_amplitude=None, \
-                         phase_lag=0.0, mass=None, density=None, rotor_radius=None, rotor_thickness=None, \
-                         contact_radius, gyration_radius=None, preload_force=None, preload_acceleration=None, \
-                         spring_constant=None, friction, restitution, load_torque=0.0)")]
-    #[expect(clippy::too_many_arguments, reason = "they are keywords")]
-    fn new(
-        py: Python<'_>,
-        drive_frequency: Real,
-        amplitude: Real,
-        peak_angular_speed: Option<Real>,
-        twist_amplitude: Option<Real>,
-        phase_lag: Real,
-        mass: Option<Real>,
-        density: Option<Real>,
-        rotor_radius: Option<Real>,
-        rotor_thickness: Option<Real>,
-        contact_radius: Real,
-        gyration_radius: Option<Real>,
-        preload_force: Option<Real>,
-        preload_acceleration: Option<Real>,
-        spring_constant: Option<Real>,
-        friction: Real,
-        restitution: Real,
-        load_torque: Real,
-    ) -> PyResult<Self> {
-        let sheet = MotorParameters {
-            drive_frequency: drive_frequency.0,
-            amplitude: amplitude.0,
-            peak_angular_speed: optional(peak_angular_speed),
-            twist_amplitude: optional(twist_amplitude),
-            phase_lag: phase_lag.0,
-            mass: optional(mass),
-            density: optional(density),
-            rotor_radius: optional(rotor_radius),
-            rotor_thickness: optional(rotor_thickness),
-            contact_radius: contact_radius.0,
-            gyration_radius: optional(gyration_radius),
-            preload_force: optional(preload_force),
-            preload_acceleration: optional(preload_acceleration),
-            spring_constant: optional(spring_constant),
-            friction: friction.0,
-            restitution: restitution.0,
-            load_torque: load_torque.0,
-        };
-        sheet.build().map(Self).map_err(|error| errors::of_named(py, error, &OF_MOTOR))
-    }
-
-    /// The same motor with other values in its data sheet.
-    ///
-    /// Parameters
-    /// ----------
-    /// **changes : float or None
-    ///     Arguments of :class:`Motor`; None takes a value out. A number takes the place of its alternative, so that
-    ///     a motor with a ``preload_acceleration`` gets a ``preload_force`` by naming the force alone.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    ///
-    /// Examples
-    /// --------
-    /// >>> import bouncing_disk as bd
-    /// >>> pressed = bd.Motor.paper_70_khz().replace(preload_force=0.02)
-    /// >>> "preload_acceleration" in pressed.to_dict()
-    /// False
-    #[pyo3(signature = (**changes))]
-    fn replace<'py>(
-        &self,
-        py: Python<'py>,
-        changes: Option<&Bound<'py, PyDict>>,
-    ) -> PyResult<Bound<'py, PyAny>> {
-        let arguments = self.arguments(py)?;
-        if let Some(changes) = changes {
-            // Who names both alternatives is told so.
-            for (name, value) in changes {
-                let field = name.extract::<String>()?.parse::<MotorField>();
-                for other in field.ok().filter(|_| !value.is_none()).map_or(&[][..], MotorField::excluded) {
-                    if arguments.contains(other.name())? {
-                        arguments.del_item(other.name())?;
-                    }
-                }
-            }
-            arguments.update(changes.as_mapping())?;
+fn numbers(operation: &Operation) -> Numbers {
+    let nothing =
+        Numbers { values: [f64::NAN; COLUMNS], impacts: 0, status: 1, shortfall: "unknown".to_owned() };
+    let of = |point: &OperatingPoint, status, shortfall| Numbers {
+        values: of_point(point),
+        impacts: signed(point.impacts),
+        status,
+        shortfall,
+    };
+    match operation {
+        Operation::Steady(point) => of(point, 0, String::new()),
+        Operation::Unsettled(point, lack) => of(point, 1, shortfall(lack)),
+        Operation::Runaway { load_torque, acceleration, .. } => {
+            let mut values = nothing.values;
+            (values[0], values[17]) = (*load_torque, *acceleration);
+            Numbers { values, status: 2, shortfall: String::new(), ..nothing }
         }
-        py.get_type::<Self>().call((), Some(&arguments))
+        _ => nothing,
     }
+}
 
-    /// The system without the mass.
-    #[getter]
-    fn system(&self) -> System {
-        System(*self.0.system())
-    }
+/// The columns of many operations.
+fn columns<'py>(py: Python<'py>, operations: &[Operation]) -> Vec<Bound<'py, PyAny>> {
+    let all: Vec<_> = operations.iter().map(numbers).collect();
+    let doubles = (0..COLUMNS).map(|index| column(py, &all, |one| one.values[index]).into_any());
+    let mut fields: Vec<_> = doubles.collect();
+    fields.push(column(py, &all, |one| one.impacts).into_any());
+    fields.push(column(py, &all, |one| one.status).into_any());
+    fields
+}
 
-    /// Drive frequency (Hz).
-    #[getter]
-    fn drive_frequency(&self) -> f64 {
-        self.0.parameters().drive_frequency
-    }
+fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
+    Ok(OperatingSettings {
+        relative_error: a.real("relative_error")?,
+        members: a.usize("members")?,
+        most_impacts: a.u64("most_impacts")?,
+        relaunch_perturbation: a.real("relaunch_perturbation")?,
+        seed: a.u64("seed")?,
+    })
+}
 
-    /// Axial amplitude A of the stator (m).
-    #[getter]
-    fn amplitude(&self) -> f64 {
-        self.0.parameters().amplitude
+/// How a motor runs under its load.
+#[pyfunction]
+pub(crate) fn operating_point(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
+    let load = a.optional("load_torque")?.unwrap_or_else(|| motor.load_torque());
+    let operation = a.run(|observer| motor.operating_point(load, &settings, observer))?;
+    let Numbers { values, impacts, status, shortfall } = numbers(&operation);
+    let mut fields = Vec::new();
+    for value in values {
+        fields.push(value.into_pyobject(py)?.into_any());
     }
+    fields.push(impacts.into_pyobject(py)?.into_any());
+    for text in [["steady", "unsettled", "runaway"][usize::from(status)], &shortfall] {
+        fields.push(text.into_pyobject(py)?.into_any());
+    }
+    made(py, "OperatingPoint", fields)
+}
 
-    /// Largest angular speed omega Phi of the stator (rad/s).
-    #[getter]
-    fn peak_angular_speed(&self) -> f64 {
-        self.0.system().platform().peak_angular_speed()
-    }
+/// Speed, power and efficiency of a motor against its load.
+#[pyfunction]
+pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
+    let operations = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
+    made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
+}
 
-    /// Twist amplitude Phi of the stator (rad).
-    #[getter]
-    fn twist_amplitude(&self) -> f64 {
-        self.0.system().platform().twist_amplitude()
-    }
+/// The load at which a motor stops.
+#[pyfunction]
+pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings) = (a.motor()?, settings(&a)?);
+    let stall = a.run(|observer| motor.stall_load(&settings, observer))?;
+    make!(
+        a.py(),
+        "StallLoad",
+        stall.torque.value,
+        stall.torque.standard_error,
+        stall.share,
+        (stall.bracket[0], stall.bracket[1]),
+        stall.no_load_speed.value,
+        stall.no_load_speed.standard_error,
+    )
+}
 
-    /// Phase lag theta of the twist (rad).
-    #[getter]
-    fn phase_lag(&self) -> f64 {
-        self.0.parameters().phase_lag
-    }
+fn shown_spread<'py>(py: Python<'py>, spread: &InputSpread) -> Made<'py> {
+    make!(
+        py,
+        "InputSpread",
+        spread.mean.value,
+        spread.mean.standard_error,
+        spread.standard_deviation.value,
+        spread.standard_deviation.standard_error,
+        (spread.from_to[0], spread.from_to[1]),
+        spread.draws,
+        spread.without,
+        spread.unsettled,
+        spread.trapped,
+    )
+}
 
-    /// Mass m of the rotor (kg).
-    #[getter]
-    fn mass(&self) -> f64 {
-        self.0.mass()
-    }
+/// How far a motor's speed or its stall load lies apart over the tolerances of its inputs.
+#[pyfunction]
+pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, PyAny>>>> {
+    let (motor, settings, tolerance) = (a.motor()?, settings(&a)?, a.real("tolerance")?);
+    let tolerance = InputTolerance {
+        preload: tolerance,
+        amplitude: tolerance,
+        perturbation_decades: a.real("perturbation_decades")?,
+        draws: a.usize("draws")?,
+    };
+    let loads = a.given("load_torques")?.map(|loads| row(&loads, "load_torques")).transpose()?;
+    let spreads = a.run(|observer| match &loads {
+        Some(loads) => motor.speed_spreads(loads, &settings, &tolerance, observer),
+        None => Ok(vec![motor.stall_spread(&settings, &tolerance, observer)?]),
+    })?;
+    spreads
+        .iter()
+        .map(|spread| spread.as_ref().map(|spread| shown_spread(a.py(), spread)).transpose())
+        .collect()
+}
 
-    /// Moment of inertia m a_g^2 of the rotor (kg m^2).
-    #[getter]
-    fn inertia(&self) -> f64 {
-        self.0.inertia()
-    }
+/// The phase lag at which a motor turns fastest.
+#[pyfunction]
+pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings) = (a.motor()?, settings(&a)?);
+    let best = a.run(|observer| motor.best_phase_lag(&settings, observer))?;
+    make!(
+        a.py(),
+        "BestPhaseLag",
+        best.phase_lag.value,
+        best.phase_lag.standard_error,
+        best.speed.value,
+        best.speed.standard_error,
+        (best.good_from_to[0], best.good_from_to[1]),
+    )
+}
 
-    /// Effective contact radius a_e (m).
-    #[getter]
-    fn contact_radius(&self) -> f64 {
-        self.0.system().disk().contact_radius()
+/// A motor in steady operation over one or two of its parameters.
+#[pyfunction]
+pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
+    let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
+    let (mut axes, values) = (Vec::new(), PyDict::new(py));
+    for item in a.of::<Bound<'_, PyMapping>>("axes")?.items()? {
+        let (name, given): (String, Bound<'_, PyAny>) = item.extract()?;
+        let parameter: MotorField =
+            name.parse().map_err(|unknown| PyValueError::new_err(format!("axes: {unknown}")))?;
+        let axis = SweepAxis::new(parameter, row(&given, &name)?);
+        values.set_item(parameter.name(), column(py, &axis.values, |value| *value))?;
+        axes.push(axis);
     }
+    let shape = PyTuple::new(py, axes.iter().map(|axis| axis.values.len()))?;
+    let sweep = MotorSweep::new(motor, axes, settings).map_err(|error| a.refused(error))?;
+    let found = a.run(|observer| sweep.run(observer))?;
+    let columns = columns(py, found.cells()).into_iter();
+    let shaped = columns.map(|column| column.call_method1("reshape", (&shape,)));
+    let mut fields = shaped.collect::<PyResult<Vec<_>>>()?;
+    fields.extend([a.get("motor")?, values.into_any()]);
+    made(py, "MotorMap", fields)
+}
 
-    /// Radius of gyration a_g (m).
-    #[getter]
-    fn gyration_radius(&self) -> f64 {
-        self.0.system().disk().gyration_radius()
-    }
+/// The numbers of the round without perturbation: impacts, periods of the stator, long flights; 0 where there
+/// is none.
+fn round(verdict: &TrapVerdict) -> [i64; 3] {
+    verdict.cycle.map_or([0; 3], |cycle| {
+        [cycle.impacts as i64, cycle.platform_periods as i64, cycle.long_flights as i64]
+    })
+}
 
-    /// Force that presses the rotor onto the stator (N).
-    #[getter]
-    fn preload_force(&self) -> f64 {
-        self.0.preload_force()
-    }
+/// Which preloads trap a motor in a short round of flights and rest.
+#[pyfunction]
+pub(crate) fn low_period_traps(a: Arguments<'_>) -> Made<'_> {
+    let (motor, preloads, py) = (a.motor()?, a.row("preload_accelerations")?, a.py());
+    let found = a.run(|observer| bouncing_disk::low_period_traps(&motor, &preloads, observer))?;
+    make!(
+        py,
+        "LowPeriodTraps",
+        column(py, &found, |one| one.preload_acceleration),
+        column(py, &found, |one| one.axial_forcing),
+        column(py, &found, |one| one.is_trap),
+        column(py, &found, |one| round(one)[0]),
+        column(py, &found, |one| round(one)[1]),
+        column(py, &found, |one| round(one)[2]),
+        column(py, &found, |one| i64::from(one.relaunches)),
+        column(py, &found, |one| i64::from(one.returns)),
+        column(py, &found, |one| one.mean_platform_periods.unwrap_or(f64::NAN)),
+    )
+}
 
-    /// That force by the mass (m/s^2).
-    #[getter]
-    fn preload_acceleration(&self) -> f64 {
-        self.0.preload_acceleration()
-    }
+/// The low-period trap that is nearest to a motor.
+#[pyfunction]
+pub(crate) fn nearest_trap(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny>>> {
+    let (motor, range) = (a.motor()?, a.real("relative_range")?);
+    let found = a.run(|observer| motor.nearest_trap(range, observer))?;
+    let Some(trap) = found else { return Ok(None) };
+    let [impacts, periods, flights] = round(&trap.verdict);
+    let made = make!(
+        a.py(),
+        "NearestTrap",
+        trap.relative_distance,
+        trap.preload_acceleration,
+        trap.amplitude,
+        trap.drive_frequency,
+        (trap.forcing_from_to[0], trap.forcing_from_to[1]),
+        trap.forcing_step,
+        impacts,
+        periods,
+        flights,
+        trap.verdict.return_share(),
+    );
+    made.map(Some)
+}
 
-    /// Coefficient of friction mu.
-    #[getter]
-    fn friction(&self) -> f64 {
-        self.0.parameters().friction
-    }
+fn quantity(a: &Arguments<'_>) -> PyResult<SensitivityQuantity> {
+    let quantities = [
+        ("steady-speed", SensitivityQuantity::SteadySpeed),
+        ("stall-torque", SensitivityQuantity::StallTorque),
+    ];
+    a.choice("quantity", &quantities)
+}
 
-    /// Coefficient of restitution.
-    #[getter]
-    fn restitution(&self) -> f64 {
-        self.0.parameters().restitution
-    }
+/// The parameter of a name.
+fn parameter(name: &str) -> PyResult<SensitivityParameter> {
+    SensitivityParameter::ALL.into_iter().find(|parameter| parameter.name() == name).ok_or_else(|| {
+        let known: Vec<_> = SensitivityParameter::ALL.iter().map(|parameter| parameter.name()).collect();
+        PyValueError::new_err(format!("the parameter {name:?} is unknown; there are {}", known.join(", ")))
+    })
+}
 
-    /// Load torque T_L (N m).
-    #[getter]
-    fn load_torque(&self) -> f64 {
-        self.0.load_torque()
+/// The parameters of the argument `parameters`; by default those that share one vertical motion.
+fn parameters(a: &Arguments<'_>) -> PyResult<Vec<SensitivityParameter>> {
+    let Some(names) = a.given("parameters")? else {
+        let all = SensitivityParameter::ALL.into_iter();
+        return Ok(all.filter(|parameter| parameter.shares_vertical_motion()).collect());
+    };
+    if names.is_instance_of::<PyString>() {
+        return Err(PyTypeError::new_err("parameters must be names, and is one text"));
     }
+    names.try_iter()?.map(|one| parameter(&one?.extract::<String>()?)).collect()
+}
 
-    /// mu m g a_e (N m), which no motor exceeds in the mean.
-    #[getter]
-    fn largest_torque(&self) -> f64 {
-        self.0.largest_torque()
-    }
+/// Values with their errors, as two arrays.
+type Estimates<'py> = [Bound<'py, PyArray1<f64>>; 2];
 
-    /// Static deflection of the preload's spring (m); None without one.
-    #[getter]
-    fn static_deflection(&self) -> Option<f64> {
-        self.0.static_deflection()
-    }
+fn estimates<'py, T>(py: Python<'py>, all: &[T], of: fn(&T) -> Estimate) -> Estimates<'py> {
+    [column(py, all, |one| of(one).value), column(py, all, |one| of(one).standard_error)]
+}
 
-    /// What is unlikely to be meant in the data sheet, in words.
-    ///
-    /// Returns
-    /// -------
-    /// tuple of str
-    fn warnings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
-        PyTuple::new(py, self.0.warnings().iter().map(ToString::to_string))
-    }
+/// How a motor depends on its parameters next to its data sheet.
+#[pyfunction]
+pub(crate) fn local_sensitivities(a: Arguments<'_>) -> Made<'_> {
+    let (motor, operating, py) = (a.motor()?, settings(&a)?, a.py());
+    let (half_range, points) = (a.real("half_range")?, a.usize("points")?);
+    let settings = SensitivitySettings { operating, half_range, points };
+    let (chosen, asked) = (parameters(&a)?, quantity(&a)?);
+    let found = a.run(|observer| motor.local_sensitivities(asked, &chosen, &settings, observer))?;
+    let [derivative, error] = estimates(py, &found, |one| one.derivative);
+    let methods = found.iter().map(|one| match one.method {
+        SensitivityMethod::SharedMotion { .. } => "shared-motion",
+        SensitivityMethod::Regression { .. } => "regression",
+        _ => "unknown",
+    });
+    let traps = column(py, &found, |one| match one.method {
+        SensitivityMethod::Regression { traps, .. } => traps as i64,
+        _ => 0,
+    });
+    make!(
+        py,
+        "LocalSensitivities",
+        PyTuple::new(py, found.iter().map(|one| one.parameter.name()))?,
+        derivative,
+        error,
+        PyTuple::new(py, methods)?,
+        traps,
+        a.get("quantity")?,
+    )
+}
 
-    /// What the data sheet says before anything turns: forcing, regime, largest torque.
-    ///
-    /// Parameters
-    /// ----------
-    /// progress : callable, optional
-    ///     Called as ``progress(done, total)``.
-    ///
-    /// Returns
-    /// -------
-    /// MotorReport
-    #[pyo3(signature = (*, progress=ProgressCallable(None)), text_signature = "($self, /, *, progress=None)")]
-    fn report<'py>(&self, py: Python<'py>, progress: ProgressCallable) -> PyResult<Bound<'py, PyAny>> {
-        let report = long_call::run(py, progress.0, |observer| self.0.report(observer))?;
-        let (name, impacts, platform_periods, rests, exponent) = regime(&report.regime);
-        let fields = (
-            report.axial_forcing,
-            report.angular_forcing,
-            report.peak_acceleration,
-            name,
-            impacts,
-            platform_periods,
-            rests,
-            exponent,
-            report.periods_per_flight,
-            report.largest_torque,
-            report.static_deflection,
-            report.preload_change_bound,
-        );
-        let rest = (self.warnings(py)?, report.to_string());
-        results::make(py, "MotorReport", results::joined(py, fields, rest)?)
-    }
+/// What the two calls over ranges share.
+struct Sample<'py> {
+    ranges: Vec<ParameterRange>,
+    quantity: SensitivityQuantity,
+    sampling: SamplingSettings,
+    operating: OperatingSettings,
+    names: Bound<'py, PyTuple>,
+}
 
-    /// The data sheet as a dictionary: the values that are given.
-    ///
-    /// Returns
-    /// -------
-    /// dict
-    fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.arguments(py)
+impl<'py> Sample<'py> {
+    fn of(a: &Arguments<'py>) -> PyResult<Self> {
+        let mut ranges = Vec::new();
+        for item in a.of::<Bound<'_, PyMapping>>("ranges")?.items()? {
+            let (name, Pair(low, high)): (String, Pair) = item.extract()?;
+            ranges.push((parameter(&name)?, [low, high]));
+        }
+        let names = PyTuple::new(a.py(), ranges.iter().map(|(parameter, _)| parameter.name()))?;
+        let sampling = SamplingSettings { rows: a.usize("rows")?, seed: a.u64("sampling_seed")? };
+        Ok(Self { ranges, quantity: quantity(a)?, sampling, operating: settings(a)?, names })
     }
+}
 
-    /// The motor of such a dictionary.
-    ///
-    /// Parameters
-    /// ----------
-    /// parameters : dict
-    ///     As of :meth:`to_dict`.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    #[staticmethod]
-    fn from_dict<'py>(py: Python<'py>, parameters: &Bound<'py, PyDict>) -> PyResult<Bound<'py, PyAny>> {
-        py.get_type::<Self>().call((), Some(parameters))
-    }
+/// Which share of the variance each parameter has over its range.
+#[pyfunction]
+pub(crate) fn sobol_indices(a: Arguments<'_>) -> Made<'_> {
+    let (motor, py) = (a.motor()?, a.py());
+    let Sample { ranges, quantity, sampling, operating, names } = Sample::of(&a)?;
+    let found: Vec<SobolIndices> =
+        a.run(|observer| motor.sobol_indices(quantity, &ranges, sampling, &operating, observer))?;
+    let [first, first_error] = estimates(py, &found, |one| one.first);
+    let [total, total_error] = estimates(py, &found, |one| one.total);
+    make!(py, "SobolIndices", names, first, first_error, total, total_error, a.get("quantity")?)
+}
 
-    /// The motor of the paper's Table III, driven at 70 kHz.
-    ///
-    /// The paper does not print its mass: it is that of a solid steel ball of the printed 20 mm.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    #[staticmethod]
-    fn paper_70_khz() -> Self {
-        Self(Model::paper_70_khz())
-    }
-
-    /// The same motor as the paper drives it at 184 kHz.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    #[staticmethod]
-    fn paper_184_khz() -> Self {
-        Self(Model::paper_184_khz())
-    }
-
-    /// The motor of a data sheet in TOML, such as the command line's ``--template`` writes.
-    ///
-    /// Parameters
-    /// ----------
-    /// toml : str
-    ///     The text of the file.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    ///
-    /// Examples
-    /// --------
-    /// >>> import bouncing_disk as bd
-    /// >>> text = "\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
-    /// >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
-    /// True
-    #[staticmethod]
-    fn from_toml(py: Python<'_>, toml: Json) -> PyResult<Self> {
-        let read = Model::from_toml(toml.as_str());
-        read.map(Self).map_err(|error| errors::of_motor_file(py, &error, &OF_MOTOR))
-    }
-
-    /// The data sheet as the JSON that the Rust library and its command line read.
-    ///
-    /// Returns
-    /// -------
-    /// str
-    fn to_json(&self) -> String {
-        self.0.to_json()
-    }
-
-    /// The motor of such a text; errors name the line.
-    ///
-    /// Parameters
-    /// ----------
-    /// json : str
-    ///     As of :meth:`to_json`.
-    ///
-    /// Returns
-    /// -------
-    /// Motor
-    #[staticmethod]
-    fn from_json(py: Python<'_>, json: Json) -> PyResult<Self> {
-        let read = Model::from_json(json.as_str());
-        read.map(Self).map_err(|error| errors::of_motor_file(py, &error, &OF_MOTOR))
-    }
-
-    fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((), Bound<'py, PyDict>)> {
-        Ok(((), self.arguments(py)?))
-    }
-
-    fn __hash__(&self) -> u64 {
-        let numbers =
-            [self.drive_frequency(), self.amplitude(), self.mass(), self.friction(), self.load_torque()];
-        text::hash(&numbers)
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        text::call("Motor", &self.arguments(py)?)
-    }
+/// By how much a motor changes with each parameter over its range.
+#[pyfunction]
+pub(crate) fn elementary_effects(a: Arguments<'_>) -> Made<'_> {
+    let (motor, py) = (a.motor()?, a.py());
+    let Sample { ranges, quantity, sampling, operating, names } = Sample::of(&a)?;
+    let found: Vec<ElementaryEffects> =
+        a.run(|observer| motor.elementary_effects(quantity, &ranges, sampling, &operating, observer))?;
+    let [mean, mean_error] = estimates(py, &found, |one| one.mean);
+    let [size, size_error] = estimates(py, &found, |one| one.mean_size);
+    let [spread, spread_error] = estimates(py, &found, |one| one.deviation);
+    let asked = a.get("quantity")?;
+    make!(py, "ElementaryEffects", names, mean, mean_error, size, size_error, spread, spread_error, asked)
 }

@@ -1,21 +1,47 @@
-//! Results, which are classes of `bouncing_disk._results`: plain Python, so that they pickle, compare and
-//! print as Python's own do.
+//! Results, which are classes of the Python package: plain Python, so that they pickle, compare and print as
+//! Python's own do.
 
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use bouncing_disk::Error;
+use bouncing_disk::core::Error as CoreError;
+use numpy::{Complex64, IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::PyClass;
+use pyo3::exceptions::PyValueError;
+use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyTuple;
+use pyo3::types::{PyTuple, PyType};
 
-/// The result of a class that is made of these fields, in their order.
-pub(crate) fn make<'py>(
-    py: Python<'py>,
-    class: &str,
-    fields: impl IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
-) -> PyResult<Bound<'py, PyAny>> {
+use crate::arguments::Made;
+use crate::errors;
+
+/// The result of a class with these fields, in their order.
+macro_rules! make {
+    ($py:expr, $class:literal, $($field:expr),+ $(,)?) => {
+        $crate::results::made($py, $class, vec![$(pyo3::IntoPyObjectExt::into_bound_py_any($field, $py)?),+])
+    };
+}
+pub(crate) use make;
+
+/// The result of a class that is made of these fields.
+pub(crate) fn made<'py>(py: Python<'py>, class: &str, fields: Vec<Bound<'py, PyAny>>) -> Made<'py> {
     static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
-    let module =
-        MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._results")?.unbind()))?;
-    module.bind(py).getattr(class)?.call1(fields.into_pyobject(py).map_err(Into::into)?)
+    let module = MODULE.get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk")?.unbind()))?;
+    let (class, fields) = (module.bind(py).getattr(class)?, PyTuple::new(py, fields)?);
+    if class.cast::<PyType>()?.is_subclass_of::<PyTuple>()? {
+        // A named tuple; its own constructor is written in Python, and takes longer than all else of a toss.
+        return py.get_type::<PyTuple>().call_method1(intern!(py, "__new__"), (class, fields));
+    }
+    class.call1(fields)
+}
+
+/// A result with what it holds of the library.
+pub(crate) fn holding<'py, T: Into<PyClassInitializer<T>> + PyClass>(
+    made: Bound<'py, PyAny>,
+    held: T,
+) -> Made<'py> {
+    // The classes are frozen, so that users change nothing.
+    made.getattr("__dict__")?.set_item("_native", Bound::new(made.py(), held)?)?;
+    Ok(made)
 }
 
 /// An array that takes over the memory of these numbers.
@@ -32,13 +58,71 @@ pub(crate) fn matrix<T: numpy::Element>(
     numbers.into_pyarray(py).reshape(shape)
 }
 
-/// The fields of a result that has more than a tuple of Rust holds.
-pub(crate) fn joined<'py>(
+/// One number of each item, as an array.
+pub(crate) fn column<'py, I, T: numpy::Element>(
     py: Python<'py>,
-    first: impl IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
-    rest: impl IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>, Error: Into<PyErr>>,
-) -> PyResult<Bound<'py, PyTuple>> {
-    let first = first.into_pyobject(py).map_err(Into::into)?;
-    let rest = rest.into_pyobject(py).map_err(Into::into)?;
-    Ok(first.as_sequence().concat(rest.as_sequence())?.cast_into()?)
+    items: &[I],
+    of: impl Fn(&I) -> T,
+) -> Bound<'py, PyArray1<T>> {
+    array(py, items.iter().map(of).collect())
 }
+
+/// A count as NumPy's integers have it.
+pub(crate) fn signed(count: u64) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}
+
+/// Both multipliers as complex numbers.
+pub(crate) fn complex(multipliers: bouncing_disk::core::orbits::Multipliers) -> [Complex64; 2] {
+    use bouncing_disk::core::orbits::Multipliers;
+    match multipliers {
+        Multipliers::Real(large, small) => [Complex64::new(large, 0.0), Complex64::new(small, 0.0)],
+        Multipliers::Complex { real, imaginary } => {
+            [Complex64::new(real, imaginary), Complex64::new(real, -imaginary)]
+        }
+    }
+}
+
+/// An empty vector with room for so many numbers; their lack is an error.
+pub(crate) fn room_for<T>(count: usize) -> Result<Vec<T>, Error> {
+    let mut room = Vec::new();
+    room.try_reserve_exact(count).map_err(|_| CoreError::TooLarge {
+        what: "numbers of a result",
+        count: count as u64,
+        limit: count as u64,
+    })?;
+    Ok(room)
+}
+
+/// What the library stores, as JSON.
+pub(crate) fn stored<T: serde::Serialize>(value: &T) -> PyResult<String> {
+    serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
+}
+
+/// What the library has stored; its checks are those of a value that is made.
+pub(crate) fn read<T: serde::de::DeserializeOwned>(py: Python<'_>, json: &str) -> PyResult<T> {
+    serde_json::from_str(json).map_err(|error| errors::unreadable(py, &error))
+}
+
+/// What a Python object holds of the library: it is compared and stored by that.
+macro_rules! holders {
+    ($($(#[$doc:meta])* $name:ident($model:ty) = $shown:path;)*) => {$(
+        $(#[$doc])*
+        #[pyclass(frozen, eq, module = "bouncing_disk._native")]
+        #[derive(Debug, PartialEq)]
+        pub(crate) struct $name(pub(crate) $model);
+
+        #[pymethods]
+        impl $name {
+            fn to_json(&self) -> PyResult<String> {
+                $crate::results::stored(&self.0)
+            }
+
+            #[staticmethod]
+            fn from_json<'py>(py: Python<'py>, json: &str) -> $crate::arguments::Made<'py> {
+                $shown(py, $crate::results::read(py, json)?)
+            }
+        }
+    )*};
+}
+pub(crate) use holders;

@@ -13,7 +13,7 @@ use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::arguments::Count;
+use crate::arguments::Arguments;
 use crate::errors;
 
 /// The most threads of a pool.
@@ -83,46 +83,20 @@ impl Drop for Borrowed {
 }
 
 /// How many threads a call computes with.
-///
-/// Returns
-/// -------
-/// int
-///     The number that :func:`set_threads` has set, else that of the environment variable
-///     ``RAYON_NUM_THREADS``, else that of the processor's threads. No bit of a result depends on it.
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> bd.threads() >= 1
-/// True
 #[pyfunction]
 pub(crate) fn threads(py: Python<'_>) -> PyResult<usize> {
     py.detach(|| Ok(Borrowed::take()?.current_num_threads()))
 }
 
-/// Set how many threads each later call computes with.
-///
-/// Parameters
-/// ----------
-/// count : int, optional
-///     In [1, 1024]; ``None`` for as many as the processor has. No bit of a result depends on it.
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> bd.set_threads(count=1)
-/// >>> bd.threads()
-/// 1
-/// >>> bd.set_threads()
+/// Sets how many threads each later call computes with.
 #[pyfunction]
-#[pyo3(signature = (*, count=None))]
-pub(crate) fn set_threads(py: Python<'_>, count: Option<Count>) -> PyResult<()> {
-    let threads = match count {
+pub(crate) fn set_threads(a: Arguments<'_>) -> PyResult<()> {
+    const RANGE: &str = "[1, 1024]";
+    let threads = match a.given("count")? {
         None => None,
-        Some(count) => {
-            let refusal = |value| errors::out_of_range(py, "count", value, "[1, 1024]");
-            let count = count.at_most(py, "count", MOST, "[1, 1024]")?;
-            Some(NonZeroUsize::new(count as usize).ok_or_else(|| refusal(0.0))?)
+        Some(_) => {
+            let count = a.count("count", MOST, RANGE)? as usize;
+            Some(NonZeroUsize::new(count).ok_or_else(|| errors::out_of_range(a.py(), "count", 0.0, RANGE))?)
         }
     };
     let old = {
@@ -130,6 +104,6 @@ pub(crate) fn set_threads(py: Python<'_>, count: Option<Count>) -> PyResult<()> 
         idle.threads = threads;
         mem::take(&mut idle.pools)
     };
-    py.detach(|| drop(old));
+    a.py().detach(|| drop(old));
     Ok(())
 }

@@ -1,35 +1,43 @@
-//! Single and multiple tosses.
+//! Tosses and trajectories: the motion of the engine, in SI units.
 
-use bouncing_disk::core::{LyapunovEstimate, Multipliers};
+use bouncing_disk::core::{Error as CoreError, Phase, chaos::LyapunovEstimate, run::Watch};
 use bouncing_disk::{
-    InitialSpin, MultiTossSettings, OrbitClass, SiEnergy, TossOrbit, TossPerformance, multi_toss,
+    DiskParameters, DiskState, Engine, Error, Event, EventKind, EventRecord, InitialCondition, InitialSpin,
+    Mode, MultiTossSettings, OrbitClass, OverFriction, PhaseSpan, PlatformState, RotaryOutcome, Scales,
+    SiEnergy, SiState, SlipDirection, Snapshot, System as SystemModel, TossConstraints, TossObjective,
+    TossOrbit, TossPerformance, Trajectory as Motion, rotary_response as response, single_toss as toss,
+    toss_trajectory as toss_motion,
 };
 use numpy::Complex64;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::arguments::{Count, ProgressCallable};
-use crate::chatter::{ChatterCut, policy};
-use crate::periodic_orbit::complex;
-use crate::real::Real;
-use crate::start::Start;
-use crate::system::System;
-use crate::{long_call, results};
+use crate::arguments::{Arguments, Made, Pair, choice, held};
+use crate::orbits::PeriodicOrbit;
+use crate::parameters::{System, python_system};
+use crate::results::{array, column, complex, holders, holding, make, room_for};
+use crate::{errors, long_call};
 
-/// The spin of an argument `initial_spin`.
-pub(crate) fn initial_spin(name: &str) -> PyResult<InitialSpin> {
-    match name {
-        "absolute-rest" => Ok(InitialSpin::AbsoluteRest),
-        "with-hand" => Ok(InitialSpin::RestRelativeToHand),
-        _ => Err(PyValueError::new_err(format!(
-            "initial_spin must be \"absolute-rest\" or \"with-hand\", and is {name:?}"
-        ))),
-    }
+holders! {
+    /// What a `Trajectory` holds: the system, and the motion.
+    Trajectory((SystemModel, Motion)) = shown_trajectory;
 }
 
-/// The energies as Python has them.
-pub(crate) fn energy<'py>(py: Python<'py>, energy: &SiEnergy) -> PyResult<Bound<'py, PyAny>> {
-    let parts = (
+/// The most events of a trajectory: each takes some 400 bytes.
+const MOST_EVENTS: u64 = 1_000_000;
+
+/// The most samples.
+const MOST_SAMPLES: u64 = 1 << 24;
+
+/// What an event counts as for an observer, in flights.
+const FLIGHTS_OF_EVENT: u64 = 4;
+
+const SPINS: [(&str, InitialSpin); 2] =
+    [("absolute-rest", InitialSpin::AbsoluteRest), ("with-hand", InitialSpin::RestRelativeToHand)];
+
+fn shown_energy<'py>(py: Python<'py>, energy: &SiEnergy) -> Made<'py> {
+    make!(
+        py,
+        "Energy",
         energy.normal_work,
         energy.friction_work,
         energy.restitution_loss,
@@ -38,13 +46,13 @@ pub(crate) fn energy<'py>(py: Python<'py>, energy: &SiEnergy) -> PyResult<Bound<
         energy.axial_kinetic_change,
         energy.potential_change,
         energy.rotary_kinetic_change,
-    );
-    results::make(py, "Energy", parts)
+    )
 }
 
-/// The performance as Python has it.
-pub(crate) fn performance<'py>(py: Python<'py>, toss: &TossPerformance) -> PyResult<Bound<'py, PyAny>> {
-    let fields = (
+fn shown_toss<'py>(py: Python<'py>, toss: &TossPerformance) -> Made<'py> {
+    make!(
+        py,
+        "TossPerformance",
         toss.airborne_speed,
         toss.efficiency,
         toss.speed_ratio,
@@ -52,39 +60,57 @@ pub(crate) fn performance<'py>(py: Python<'py>, toss: &TossPerformance) -> PyRes
         toss.sliding_at_separation,
         toss.launch_speed,
         toss.rotary_energy_gain,
-        energy(py, &toss.energy)?,
-    );
-    results::make(py, "TossPerformance", fields)
+        shown_energy(py, &toss.energy)?,
+    )
 }
 
-/// The toss of a disk from its platform, up to the separation.
+/// The toss of a disk from its platform.
 ///
-/// Parameters
-/// ----------
-/// system : System
-/// initial_spin : {"absolute-rest", "with-hand"}, default "absolute-rest"
-///     Whether the disk does not turn at first, or turns with the platform.
-///
-/// Returns
-/// -------
-/// TossPerformance
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> toss = bd.single_toss(bd.System.pizza_toss())
-/// >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
-/// 14
+/// Thousands a second are asked for, so that it takes no dictionary.
 #[pyfunction]
-#[pyo3(signature = (system, *, initial_spin="absolute-rest"))]
-pub(crate) fn single_toss<'py>(
-    py: Python<'py>,
-    system: &Bound<'py, System>,
-    initial_spin: &str,
-) -> PyResult<Bound<'py, PyAny>> {
-    let initial = self::initial_spin(initial_spin)?;
-    let toss = long_call::short(py, &[], || bouncing_disk::single_toss(&system.get().0, initial))?;
-    performance(py, &toss)
+pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<'py, PyAny>) -> Made<'py> {
+    let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
+    let initial = choice(initial_spin, "initial_spin", &SPINS)?;
+    let done = long_call::caught(|| toss(&system, initial))?;
+    shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
+}
+
+/// How a motion starts, in SI units.
+struct Start {
+    phase: f64,
+    angular_speed: Option<f64>,
+    gap: Option<f64>,
+    relative_velocity: Option<f64>,
+}
+
+impl Start {
+    fn of(a: &Arguments<'_>) -> PyResult<Self> {
+        Ok(Self {
+            phase: a.real("phase")?,
+            angular_speed: a.optional("angular_speed")?,
+            gap: a.optional("gap")?,
+            relative_velocity: a.optional("relative_velocity")?,
+        })
+    }
+
+    fn condition(&self, system: &SystemModel) -> Result<InitialCondition, Error> {
+        let (scales, phase) = (system.scales(), Phase::new(self.phase)?);
+        let angular_speed = match self.angular_speed {
+            Some(speed) => speed / scales.angular_speed,
+            None => system.dimensionless().platform_angular_speed(phase),
+        };
+        let velocity = self.relative_velocity.map(|velocity| velocity / scales.velocity);
+        Ok(match (self.gap, velocity) {
+            (None, None) => InitialCondition::Contact { phase, angular_speed },
+            (None, Some(relative_speed)) => InitialCondition::Launch { phase, relative_speed, angular_speed },
+            (Some(gap), velocity) => InitialCondition::Flight {
+                phase,
+                gap: gap / scales.length,
+                relative_velocity: velocity.unwrap_or(0.0),
+                angular_speed,
+            },
+        })
+    }
 }
 
 /// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a
@@ -95,8 +121,7 @@ fn class(class: &OrbitClass) -> Class {
     const NONE: Complex64 = Complex64::new(f64::NAN, f64::NAN);
     match class {
         OrbitClass::Periodic { period, platform_periods, vertical, rotary } => {
-            let multipliers: &Multipliers = vertical;
-            let [one, other] = complex(*multipliers);
+            let [one, other] = complex(*vertical);
             ("periodic", *period, *platform_periods, 0, [one, other, Complex64::new(*rotary, 0.0)], None)
         }
         OrbitClass::Chattering(cycle) => {
@@ -113,95 +138,273 @@ fn class(class: &OrbitClass) -> Class {
     }
 }
 
-/// What a motion settles on: a periodic orbit, chattering, chaos or rest, with its collisions.
-///
-/// Parameters
-/// ----------
-/// system : System
-/// phase, angular_speed, gap, relative_velocity : float, optional
-///     The start, as of :func:`simulate`.
-/// transient_impacts : int, default 4000
-///     Impacts that are not looked at.
-/// examined_impacts : int, default 1024
-///     Impacts that are looked at after them, in [2, 10000000].
-/// longest_period : int, default 128
-///     The longest period, in impacts, that is recognised, up to 4096.
-/// tolerance : float, default 1e-9
-///     Phases (rad) and relative speeds that differ by no more are the same.
-/// chatter : ChatterCut, optional
-///     How a chatter ends; ``None`` sums it.
-/// progress : callable, optional
-///     Called as ``progress(done, total)`` with the number of impacts.
-///
-/// Returns
-/// -------
-/// TossOrbit
-///
-/// Examples
-/// --------
-/// >>> import bouncing_disk as bd
-/// >>> tossed = bd.System.pizza_toss().replace(amplitude=0.0566)
-/// >>> bd.multi_toss(tossed, phase=4.7).kind
-/// 'chattering'
+/// What a motion settles on.
 #[pyfunction]
-#[pyo3(signature = (
-    system, *, phase=Real(0.0), angular_speed=None, gap=None, relative_velocity=None, transient_impacts=Count::Fits(4000),
-    examined_impacts=Count::Fits(1024), longest_period=Count::Fits(128), tolerance=Real(1e-9), chatter=None,
-    progress=ProgressCallable(None)
-), text_signature = "(system, *, phase=0.0, angular_speed=None, gap=None, relative_velocity=None, \
-                     transient_impacts=4000, examined_impacts=1024, longest_period=128, tolerance=1e-09, \
-                     chatter=None, progress=None)")]
-#[expect(clippy::too_many_arguments, reason = "they are keywords")]
-pub(crate) fn multi_toss<'py>(
-    py: Python<'py>,
-    system: &Bound<'py, System>,
-    phase: Real,
-    angular_speed: Option<Real>,
-    gap: Option<Real>,
-    relative_velocity: Option<Real>,
-    transient_impacts: Count,
-    examined_impacts: Count,
-    longest_period: Count,
-    tolerance: Real,
-    chatter: Option<&Bound<'py, ChatterCut>>,
-    progress: ProgressCallable,
-) -> PyResult<Bound<'py, PyAny>> {
-    let model = system.get().0;
+pub(crate) fn multi_toss(a: Arguments<'_>) -> Made<'_> {
+    let (system, start, py) = (a.system()?, Start::of(&a)?, a.py());
     let settings = MultiTossSettings {
-        policy: policy(chatter),
-        transient_impacts: transient_impacts.usize(py, "transient_impacts")?,
-        examined_impacts: examined_impacts.usize(py, "examined_impacts")?,
-        longest_period: longest_period.usize(py, "longest_period")?,
-        tolerance: tolerance.0,
+        policy: a.policy()?,
+        transient_impacts: a.usize("transient_impacts")?,
+        examined_impacts: a.usize("examined_impacts")?,
+        longest_period: a.usize("longest_period")?,
+        tolerance: a.real("tolerance")?,
     };
-    let start = Start::new(phase, angular_speed, gap, relative_velocity);
-    let orbit: TossOrbit = long_call::run_named(py, progress.0, &start.names(&model), |observer| {
-        multi_toss(model, start.condition(&model)?, settings, observer)
-    })?;
+    let orbit: TossOrbit =
+        a.run(|observer| bouncing_disk::multi_toss(system, start.condition(&system)?, settings, observer))?;
     let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);
-    let scales = model.scales();
-    let row = |of: &dyn Fn(&bouncing_disk::Collision) -> f64| {
-        results::array(py, orbit.collisions.iter().map(of).collect())
-    };
-    let fields = (
+    let (scales, collisions) = (system.scales(), &orbit.collisions);
+    make!(
+        py,
+        "TossOrbit",
         kind,
         period,
         platform_periods,
         long_flights,
-        results::array(py, multipliers.to_vec()),
+        array(py, multipliers.to_vec()),
         exponent.map(|own| own.exponent),
         orbit.mean_angular_speed.map(|speed| speed * scales.angular_speed),
         orbit.rotation_repeats,
-        row(&|one| scales.time_seconds(one.time)),
-        row(&|one| one.state.phase.angle()),
-        row(&|one| one.state.axial_impact_velocity * scales.velocity),
-        row(&|one| one.state.tangential_impact_velocity * scales.angular_speed),
-    );
-    let rest = (
-        row(&|one| one.angular_speed * scales.angular_speed),
-        row(&|one| one.angle * scales.angle),
-        results::array(py, orbit.collisions.iter().map(|one| one.capped).collect()),
+        column(py, collisions, |one| scales.time_seconds(one.time)),
+        column(py, collisions, |one| one.state.phase.angle()),
+        column(py, collisions, |one| one.state.axial_impact_velocity * scales.velocity),
+        column(py, collisions, |one| one.state.tangential_impact_velocity * scales.angular_speed),
+        column(py, collisions, |one| one.angular_speed * scales.angular_speed),
+        column(py, collisions, |one| one.angle * scales.angle),
+        column(py, collisions, |one| one.capped),
         exponent.map(|own| own.standard_error),
-    );
-    results::make(py, "TossOrbit", results::joined(py, fields, rest)?)
+    )
+}
+
+/// The place in `TrajectorySamples.MODES`.
+fn mode(mode: Mode) -> u8 {
+    match mode {
+        Mode::Flight => 0,
+        Mode::Sticking => 1,
+        Mode::Sliding(SlipDirection::Forward) => 2,
+        Mode::Sliding(SlipDirection::Backward) => 3,
+    }
+}
+
+/// The place in `EventTable.KINDS`.
+fn kind(event: &Event) -> u8 {
+    EventKind::ALL.iter().position(|kind| *kind == event.kind()).map_or(u8::MAX, |place| place as u8)
+}
+
+fn shown_trajectory(py: Python<'_>, (system, motion): (SystemModel, Motion)) -> Made<'_> {
+    let scales = system.scales();
+    let made = make!(
+        py,
+        "Trajectory",
+        python_system(py, &system)?,
+        scales.time_seconds(motion.start()),
+        scales.time_seconds(motion.end()),
+        motion.records().len(),
+        shown_energy(py, &scales.energy(&motion.ledger()))?,
+    )?;
+    holding(made, Trajectory((system, motion)))
+}
+
+/// The platform in SI units: its state scales as that of the disk.
+fn platform(scales: &Scales, state: &PlatformState) -> SiState {
+    let PlatformState { height, axial_velocity, angle, angular_speed } = *state;
+    scales.state(&DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed })
+}
+
+/// Disk and platform at instants of equal distances.
+#[pyfunction]
+pub(crate) fn samples(a: Arguments<'_>) -> Made<'_> {
+    const RANGE: &str = "[2, 16777216]";
+    let (trajectory, count, py) =
+        (a.held::<Trajectory>("self")?, a.count("count", MOST_SAMPLES, RANGE)?, a.py());
+    if count < 2 {
+        return Err(errors::out_of_range(py, "count", count as f64, RANGE));
+    }
+    let (system, motion) = &trajectory.get().0;
+    if motion.end() == motion.start() {
+        return Err(errors::no_events(py));
+    }
+    let scales = system.scales();
+    let (numbers, modes) = a.run(|observer| {
+        let watch = Watch::begin(observer, 0, count)?;
+        let mut work = watch.work();
+        let mut numbers: [Vec<f64>; 9] = Default::default();
+        for column in &mut numbers {
+            *column = room_for(count as usize)?;
+        }
+        let mut modes = room_for(count as usize)?;
+        for Snapshot { time, disk, platform: under } in motion.uniform(count as usize) {
+            let (state, under) = (scales.state(&disk), platform(&scales, &under));
+            let of = |state: &SiState| [state.height, state.axial_velocity, state.angle, state.angular_speed];
+            let row = [scales.time_seconds(time)].into_iter().chain(of(&state)).chain(of(&under));
+            for (column, number) in numbers.iter_mut().zip(row) {
+                column.push(number);
+            }
+            modes.push(mode(disk.mode));
+            work.finish(1)?;
+        }
+        Ok((numbers, modes))
+    })?;
+    let mut fields: Vec<_> = numbers.into_iter().map(|column| array(py, column).into_any()).collect();
+    fields.push(array(py, modes).into_any());
+    crate::results::made(py, "TrajectorySamples", fields)
+}
+
+/// The events of a trajectory.
+#[pyfunction]
+pub(crate) fn events(a: Arguments<'_>) -> Made<'_> {
+    let (trajectory, py) = (a.held::<Trajectory>("self")?, a.py());
+    let (system, motion) = &trajectory.get().0;
+    let (scales, records) = (system.scales(), motion.records());
+    let impact = |record: &EventRecord| match record.event {
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+            (axial_impact_velocity, tangential_impact_velocity, capped)
+        }
+        _ => (f64::NAN, f64::NAN, false),
+    };
+    let chatter = |record: &EventRecord| match record.event {
+        Event::Attachment { impacts, error_bound } => (impacts as i64, error_bound),
+        _ => (0, f64::NAN),
+    };
+    make!(
+        py,
+        "EventTable",
+        column(py, records, |record| scales.time_seconds(record.time)),
+        column(py, records, |record| record.time.phase.angle()),
+        column(py, records, |record| kind(&record.event)),
+        column(py, records, |record| mode(record.before.mode)),
+        column(py, records, |record| mode(record.after.mode)),
+        column(py, records, |record| scales.state(&record.after).height),
+        column(py, records, |record| scales.state(&record.before).axial_velocity),
+        column(py, records, |record| scales.state(&record.after).axial_velocity),
+        column(py, records, |record| scales.state(&record.after).angle),
+        column(py, records, |record| scales.state(&record.before).angular_speed),
+        column(py, records, |record| scales.state(&record.after).angular_speed),
+        column(py, records, |record| impact(record).0 * scales.velocity),
+        column(py, records, |record| impact(record).1 * scales.angular_speed),
+        column(py, records, |record| impact(record).2),
+        column(py, records, |record| chatter(record).0),
+        column(py, records, |record| chatter(record).1),
+    )
+}
+
+/// The whole toss of a disk from its platform.
+#[pyfunction]
+pub(crate) fn toss_trajectory(a: Arguments<'_>) -> Made<'_> {
+    let (system, initial) = (a.system()?, a.choice("initial_spin", &SPINS)?);
+    let motion = long_call::short(&a, || toss_motion(&system, initial))?;
+    shown_trajectory(a.py(), (system, motion))
+}
+
+/// The motion of a disk, event by event.
+#[pyfunction]
+pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
+    const RANGE: &str = "[1, 1000000]";
+    let (system, start, policy, py) = (a.system()?, Start::of(&a)?, a.policy()?, a.py());
+    let (most, duration) = (a.count("events", MOST_EVENTS, RANGE)?, a.optional("duration")?);
+    if most == 0 {
+        return Err(errors::out_of_range(py, "events", 0.0, RANGE));
+    }
+    if let Some(duration) = duration
+        && !(duration > 0.0 && duration.is_finite())
+    {
+        return Err(errors::out_of_range(py, "duration", duration, "(0, inf) (s)"));
+    }
+    let motion = a.run(|observer| {
+        let mut engine = Engine::new(system, start.condition(&system)?, policy)?;
+        let (scales, begun) = (system.scales(), engine.time());
+        let watch = Watch::begin(observer, 0, most)?;
+        let (mut work, mut seen, mut stopped) = (watch.work(), 0, false);
+        let radians = duration.map_or(0.0, |duration| duration / scales.time);
+        let end = begun.after(PhaseSpan::from_radians(radians));
+        let motion = Motion::record_until(&mut engine, end, |record| {
+            seen += 1;
+            watch.finish(1);
+            stopped = work.spend(FLIGHTS_OF_EVENT).is_err();
+            let late = |duration| scales.span_seconds(record.time.since(&begun)) >= duration;
+            stopped || seen >= most || duration.is_some_and(late)
+        })?;
+        if stopped {
+            return Err(Error::from(CoreError::Stopped { done: seen, total: most }));
+        }
+        Ok(motion)
+    })?;
+    shown_trajectory(py, (system, motion))
+}
+
+/// The hand motion that tosses best.
+#[pyfunction]
+pub(crate) fn best_toss(a: Arguments<'_>) -> Made<'_> {
+    let (table, py) = (TossConstraints::pizza_toss(), a.py());
+    let or = |name: &str, own: f64| PyResult::Ok(a.optional(name)?.unwrap_or(own));
+    let pair = |name: &str, own: [f64; 2]| {
+        PyResult::Ok(a.of::<Option<Pair>>(name)?.map_or(own, |Pair(low, high)| [low, high]))
+    };
+    let objectives = [
+        ("airborne-speed", TossObjective::AirborneSpeed),
+        ("efficiency", TossObjective::Efficiency),
+        ("turns-per-toss", TossObjective::TurnsPerToss),
+    ];
+    let constraints = TossConstraints {
+        dough: DiskParameters {
+            contact_radius: or("contact_radius", table.dough.contact_radius)?,
+            gyration_radius: or("gyration_radius", table.dough.gyration_radius)?,
+            preload_acceleration: or("preload_acceleration", table.dough.preload_acceleration)?,
+            ..table.dough
+        },
+        initial: a.choice("initial_spin", &SPINS)?,
+        stroke: or("stroke", table.stroke)?,
+        friction: pair("friction", table.friction)?,
+        angular_frequency: pair("angular_frequency", table.angular_frequency)?,
+        phase_lag: pair("phase_lag", table.phase_lag)?,
+        highest_flight: a.optional("highest_flight")?,
+        objective: a.choice("objective", &objectives)?,
+        over_friction: a
+            .choice("over_friction", &[("worst", OverFriction::Worst), ("mean", OverFriction::Mean)])?,
+    };
+    let design = a.run(|observer| bouncing_disk::best_toss(&constraints, observer))?;
+    make!(
+        py,
+        "TossDesign",
+        design.hand.stroke,
+        design.hand.amplitude_angle,
+        design.hand.angular_frequency,
+        design.hand.phase_lag,
+        design.amplitude_ratio,
+        design.value,
+        shown_toss(py, &design.toss)?,
+        design.flight_height,
+        design.turns,
+        design.certificate.grid_points,
+        design.certificate.best_on_grid,
+        design.certificate.hidden_gain,
+    )
+}
+
+/// What becomes of the spin of a disk on a periodic orbit.
+#[pyfunction]
+pub(crate) fn rotary_response(a: Arguments<'_>) -> Made<'_> {
+    let (system, orbit, py) = (a.system()?, a.held::<PeriodicOrbit>("orbit")?, a.py());
+    let (unit, none) = (system.scales().angular_speed, f64::NAN);
+    let found = long_call::short(&a, || response(system.dimensionless(), &orbit.get().0))?;
+    let (outcome, own, limit, change) = match &found {
+        RotaryOutcome::Steady(own) => ("steady", Some(own), none, none),
+        RotaryOutcome::Kept { limit } => ("kept", None, limit.map_or(none, |limit| limit * unit), none),
+        RotaryOutcome::Runaway { change } => ("runaway", None, none, change * unit),
+        _ => ("unknown", None, none, none),
+    };
+    let speeds = |speeds: &[f64]| column(py, speeds, |speed| speed * unit);
+    let sliding = own.map_or(&[][..], |own| &own.sliding);
+    make!(
+        py,
+        "RotaryResponse",
+        outcome,
+        found.multiplier().unwrap_or(none),
+        speeds(own.map_or(&[], |own| &own.angular_speeds)),
+        speeds(own.map_or(&[], |own| &own.slips)),
+        column(py, sliding, |slides| slides.map_or(0, |direction| direction.sign() as i64)),
+        own.map_or(none, |own| own.stick_margin * unit),
+        own.map_or(none, |own| own.mean_angular_speed * unit),
+        limit,
+        change,
+    )
 }

@@ -1,18 +1,67 @@
-"""The programs of docs/python.md run, one after the other, and print what the page says."""
+"""What is documented is so: docstrings, the README, docs/python.md and the notebooks run, and print what they say."""
 
 from __future__ import annotations
 
 import contextlib
+import doctest
+import inspect
 import io
+import json
+import os
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import bouncing_disk as bd
 import pytest
 
-pytest.importorskip("matplotlib").use("Agg")
-pytest.importorskip("distributed")
-pytest.importorskip("xarray")
+
+def needs(*packages: str) -> None:
+    """Skips a test where an optional package is missing; pictures go to no screen."""
+    pytest.importorskip("matplotlib").use("Agg")
+    for package in packages:
+        pytest.importorskip(package)
+
+
+def documented() -> Iterator[tuple[str, str]]:
+    """Names and docstrings of everything that the package exports, and of the members of its classes."""
+    yield "bouncing_disk", bd.__doc__ or ""
+    for name in bd.__all__:
+        thing = getattr(bd, name)
+        if not callable(thing):
+            continue
+        yield name, inspect.getdoc(thing) or ""
+        if inspect.isclass(thing):
+            for member in vars(thing):
+                if not member.startswith("_"):
+                    yield f"{name}.{member}", inspect.getdoc(getattr(thing, member)) or ""
+
+
+DOCUMENTED = dict(documented())
+
+
+@pytest.mark.parametrize("name", [name for name, text in DOCUMENTED.items() if ">>>" in text])
+def test_examples_run_and_print_what_they_say(name: str) -> None:
+    test = doctest.DocTestParser().get_doctest(DOCUMENTED[name], {}, name, None, 0)
+    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
+    report: list[str] = []
+    runner.run(test, out=report.append)
+    assert runner.summarize(verbose=False).failed == 0, "".join(report)
+
+
+@pytest.mark.parametrize("name", [name for name in DOCUMENTED if "." not in name])
+def test_everything_is_documented(name: str) -> None:
+    assert len(DOCUMENTED[name]) > 20, name
+
+
+@pytest.mark.parametrize("name", [name for name in bd.__all__ if inspect.isfunction(getattr(bd, name))])
+def test_functions_say_what_they_take(name: str) -> None:
+    # Objects, and what all long calls have, speak for themselves.
+    plain = {"system", "motor", "impact_map", "orbit", "basins", "progress", "function", "client"}
+    for argument in set(inspect.signature(getattr(bd, name)).parameters) - plain:
+        assert argument in DOCUMENTED[name], (name, argument)
+
 
 PAGE = Path(__file__).parents[3] / "docs" / "python.md"
 BLOCK = re.compile(r"^```(.*)\n((?:.*\n)*?)```$", re.MULTILINE)
@@ -23,6 +72,7 @@ def blocks() -> list[tuple[str, str]]:
 
 
 def test_the_page_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    needs("distributed", "xarray")
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {"__name__": "__main__"}
     printed = ""
@@ -44,6 +94,7 @@ def test_the_page_prints_what_it_says(tmp_path: Path, monkeypatch: pytest.Monkey
     assert ran >= 8 and not printed
 
 
+@pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
 def test_the_programs_for_clusters_are_python() -> None:
     programs = [text for language, text in blocks() if language == "python no-run"]
     assert len(programs) == 3
@@ -51,9 +102,61 @@ def test_the_programs_for_clusters_are_python() -> None:
         compile(program, "docs/python.md", "exec")
 
 
+@pytest.mark.skipif(not PAGE.exists(), reason="the tests were copied without the docs")
 def test_the_installation_is_two_commands() -> None:
     (commands,) = [text for language, text in blocks() if language == "sh"]
     assert len(commands.splitlines()) == 2
     program = re.search(r'python -c "(.*)"', commands)
     assert program is not None
     compile(program[1], "docs/python.md", "exec")
+
+
+README = Path(__file__).parents[1] / "README.md"
+
+
+@pytest.mark.skipif(not README.exists(), reason="the tests were copied without the README")
+def test_the_programs_of_the_readme_run_one_after_the_other() -> None:
+    programs = re.findall(r"```python\n(.*?)```", README.read_text(encoding="utf-8"), re.DOTALL)
+    assert len(programs) == 2
+    names: dict[str, object] = {}
+    for program in programs:
+        exec(compile(program, str(README), "exec"), names)
+    assert getattr(names["x"], "shape", 0) == getattr(names["y"], "shape", 1)
+
+
+FOLDER = Path(__file__).parents[1] / "notebooks"
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
+
+
+@pytest.mark.skipif(not FOLDER.exists(), reason="the tests were copied without the notebooks")
+def test_there_are_three() -> None:
+    assert [path.stem for path in NOTEBOOKS] == ["a_bifurcation_study", "a_motor", "a_toss"]
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_is_stored_without_outputs(path: Path) -> None:
+    content = json.loads(path.read_text(encoding="utf-8"))
+    assert path.stat().st_size < 20_000
+    for cell in content["cells"]:
+        assert not cell.get("outputs") and cell.get("execution_count") is None
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_it_runs(path: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    needs("ipykernel")
+    nbclient, nbformat = pytest.importorskip("nbclient"), pytest.importorskip("nbformat")
+    # Nothing of the user's own settings, such as a startup file, takes part.
+    monkeypatch.setenv("IPYTHONDIR", str(tmp_path / "ipython"))
+    monkeypatch.setenv("JUPYTER_RUNTIME_DIR", str(tmp_path / "runtime"))
+    notebook: Any = nbformat.read(path, as_version=4)
+    work = tmp_path / "work"
+    work.mkdir()
+    nbclient.NotebookClient(
+        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(work)}}
+    ).execute()
+    if target := os.environ.get("BOUNCING_DISK_EXECUTED_NOTEBOOKS"):
+        nbformat.write(notebook, Path(target) / path.name)
+    outputs = [output for cell in notebook.cells if cell.cell_type == "code" for output in cell.outputs]
+    assert not [output for output in outputs if output.output_type == "stream" and output.name == "stderr"]
+    pictures = [output for output in outputs if "image/png" in output.get("data", {})]
+    assert len(pictures) >= 2

@@ -1,4 +1,4 @@
-"""Objects: equality, hashes, pickles, dictionaries, JSON, representations."""
+"""Objects: equality, hashes, pickles, dictionaries, JSON and texts that cannot be read, representations."""
 
 from __future__ import annotations
 
@@ -8,25 +8,10 @@ import math
 import pickle
 from typing import Any
 
+import bouncing_disk as bd
 import numpy as np
 import pytest
-
-import bouncing_disk as bd
-
-STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
-MAP = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
-MOTOR = bd.Motor(
-    drive_frequency=70e3,
-    amplitude=1e-8,
-    peak_angular_speed=30.0,
-    mass=1e-3,
-    contact_radius=1.25e-3,
-    gyration_radius=6.3e-3,
-    preload_acceleration=9.8,
-    friction=0.1,
-    restitution=0.5,
-)
-
+from good_calls import MAP, MOTOR, STARTS
 
 FORCED = bd.System.pizza_toss().replace(angular_frequency=8.5)
 SADDLE = bd.periodic_orbits(bd.ImpactMap.of_system(FORCED), max_impacts=1, max_platform_periods=1)[0]
@@ -125,31 +110,88 @@ def test_representations_are_one_line(name: str) -> None:
         assert "\n" not in text
         assert len(text) < 1500
 
-
-@pytest.mark.parametrize(
-    "one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__
-)
-def test_parameters_are_shown_as_the_call_that_makes_them(one: Any) -> None:
-    assert eval(repr(one), vars(bd).copy()) == one
-    assert hash(eval(repr(one), vars(bd).copy())) == hash(one)
+PARAMETERS: list[Any] = [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()]
+STORED = ["PeriodicOrbit", "Attractors", "BasinFractions", "Branch", "Trajectory", "Crisis"]
+READABLE: list[Any] = [*PARAMETERS, *(EVERYTHING[name] for name in STORED)]
 
 
-@pytest.mark.parametrize(
-    "one", [bd.System.motor(), MAP, MOTOR, bd.ChatterCut.paper()], ids=lambda one: type(one).__name__
-)
-def test_parameters_survive_dictionaries_and_json(one: Any) -> None:
+@pytest.mark.parametrize("one", PARAMETERS, ids=lambda one: type(one).__name__)
+def test_parameters_are_the_call_that_makes_them(one: Any) -> None:
+    again = eval(repr(one), vars(bd).copy())
+    assert again == one and hash(again) == hash(one)
     assert type(one).from_dict(one.to_dict()) == one
-    assert type(one).from_json(one.to_json()) == one
     assert type(one).from_dict(json.loads(one.to_json())) == one
+    with pytest.raises(AttributeError):
+        one.restitution = 0.1
 
 
-@pytest.mark.parametrize("name", ["PeriodicOrbit", "Attractors", "BasinFractions", "Branch", "Trajectory", "Crisis"])
-def test_stored_objects_survive_json(name: str) -> None:
-    one = EVERYTHING[name]
-    assert type(one).from_json(one.to_json()) == one
-    for text in ["", "{}", "[]", "null", "1", one.to_json()[:-2], one.to_json().replace("0.", "x.")]:
+#: Texts that are none of ours, whatever was to be read.
+WRONG = {
+    "nothing": "",
+    "space": " \n",
+    "an array": "[]",
+    "null": "null",
+    "a number": "1",
+    "a text": '"x"',
+    "true": "true",
+    "NaN": "NaN",
+    "an unknown key": '{"frikshun": 1.0}',
+    "half": "{",
+    "deep": "[" * 100_000,
+    "deep objects": '{"platform":' * 100_000,
+    "a control character": "\0",
+    "half of a pair of surrogates": "\ud800",
+}
+
+
+@pytest.mark.parametrize("one", READABLE, ids=lambda one: type(one).__name__)
+def test_texts_are_read_or_refused(one: Any) -> None:
+    for wrong in WRONG.values():
+        with pytest.raises(bd.InvalidError) as refused:
+            type(one).from_json(wrong)
+        assert refused.value.kind == "text" and str(refused.value)
+        if wrong in ("", "{", "\0", "\ud800"):
+            assert {"line", "position"} & set(refused.value.details), refused.value.details
+    text = one.to_json().rstrip()
+    assert type(one).from_json(text) == one == type(one).from_json(f" \n{text}\n")
+    places = [len(text) // part for part in (2, 3, 5, 7)] + [len(text) - 1, 1]
+    number = next(place for place in range(len(text)) if text[place : place + 2] in ("0.", "1.", "1e"))
+    spoilt = [text[:place] for place in places]
+    spoilt += [text + "x", text + text, text + "]"]
+    spoilt += [text[:number] + other + text[number:] for other in ("NaN, ", "true, ", '"', "x")]
+    for wrong in spoilt:
+        with pytest.raises(bd.InvalidError) as refused:
+            type(one).from_json(wrong)
+        assert refused.value.kind == "text", wrong
+    no_texts: list[Any] = [None, 1, b"{}", {}, object()]
+    for none in no_texts:
+        with pytest.raises(TypeError):
+            type(one).from_json(none)
+
+
+@pytest.mark.parametrize("key", ["friction", "restitution", "amplitude"])
+@pytest.mark.parametrize("value", ["true", "null", '"0.5"', "[0.5]", "{}", "NaN", "Infinity"])
+def test_what_is_no_number_in_a_system_is_named(key: str, value: str) -> None:
+    toss = bd.System.pizza_toss()
+    with pytest.raises(bd.InvalidError, match=value if value in ("NaN", "Infinity") else key):
+        bd.System.from_json(toss.to_json().replace(f'"{key}": {getattr(toss, key)!r}', f'"{key}": {value}'))
+
+
+def test_keys_that_are_missing_unknown_or_there_twice_are_refused() -> None:
+    text, toss = MAP.to_json(), bd.System.pizza_toss()
+    doubled = '{"restitution": 0.5, "restitution": 0.5}'
+    for wrong in ("{}", text.replace("restitution", "axial_forcing"), doubled):
         with pytest.raises(bd.InvalidError):
-            type(one).from_json(text)
+            bd.ImpactMap.from_json(wrong)
+    with pytest.raises(bd.InvalidError, match="friction"):
+        bd.System.from_json(toss.to_json().replace('"friction": 0.6, ', ""))
+    unknown: list[Any] = [{"plattform": {}}, {"platform": {"amplitud": 1.0}}, {"platform": 1}, {1: {}}, {}]
+    for parameters in unknown:
+        with pytest.raises((TypeError, ValueError)):
+            bd.System.from_dict(parameters)
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.ImpactMap.from_json('{"axial_forcing": 0.5, "restitution": 1.5}')
+    assert (refused.value.field, refused.value.value) == ("restitution", 1.5)
 
 
 def test_results_differ_where_a_field_does() -> None:
@@ -213,23 +255,6 @@ def test_data_sheets_that_are_wrong_say_where() -> None:
     with pytest.raises(bd.InvalidError) as invalid:
         MOTOR.replace(density=1e3, mass=1e-3)
     assert invalid.value.kind == "both-given"
-
-
-def test_systems_of_unknown_keys_are_refused() -> None:
-    wrong: list[Any] = [
-        {"plattform": {}},
-        {"platform": {"amplitud": 1.0}},
-        {"platform": {"friction": 1.0}},
-        {"platform": 1},
-        {1: {}},
-        {},
-    ]
-    for parameters in wrong:
-        with pytest.raises((TypeError, ValueError)):
-            bd.System.from_dict(parameters)
-    for text in ("", "1", "[]", "{", '{"platform": null}'):
-        with pytest.raises((TypeError, ValueError)):
-            bd.System.from_json(text)
 
 
 @pytest.mark.parametrize(

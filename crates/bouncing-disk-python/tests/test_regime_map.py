@@ -49,14 +49,3 @@ def test_the_plan_of_a_map_of_four_hundred_million_cells() -> None:
     assert plan.seconds_a_chunk == pytest.approx(4.096)
     assert plan.result_bytes == 400_000_000
     assert regime_map.measured_rate(256) > 0.0
-
-
-def test_the_map_of_a_thousand_by_a_thousand(tmp_path: Path) -> None:
-    """On local processes, with a folder: a minute of two processors."""
-    pytest.importorskip("distributed")
-    result = regime_map.regime_map(1_000, folder=tmp_path / "map")
-    assert result.values.shape == (1_000, 1_000)
-    places = np.random.default_rng(3).integers(0, 1_000_000, 3_000)
-    assert np.array_equal(result.values.ravel()[places], alone(result, places))
-    assert len(list((tmp_path / "map").glob("chunk-*.npz"))) == 16
-    assert bd.read_sweep(tmp_path / "map").values.tobytes() == result.values.tobytes()

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 import bouncing_disk as bd
-from bouncing_disk._sweep.cluster import check_versions, unlike
-from bouncing_disk._sweep.identity import PACKAGES, versions
+from bouncing_disk._sweep.runners import check_versions, unlike
+from bouncing_disk._sweep.folder import PACKAGES, versions
 
 OWN = versions()
 

@@ -138,7 +138,7 @@ def other_versions() -> None:
     """Has a worker report another NumPy than it has, as a badly installed node would."""
     from importlib import metadata
 
-    from bouncing_disk._sweep import identity
+    from bouncing_disk._sweep import folder as identity
 
     own = metadata.version
     setattr(metadata, "version", lambda package: "1.0.0" if package == "numpy" else own(package))

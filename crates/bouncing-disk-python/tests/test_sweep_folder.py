@@ -166,7 +166,7 @@ def test_another_function_source_or_version_is_refused(folder: Path, monkeypatch
     with pytest.raises(bd.SweepFolderError, match="function is 'sweep_functions.product' there"):
         bd.sweep(functions.nothing_or_ratio, GRID, "serial", folder=folder)
     with monkeypatch.context() as patch:
-        patch.setattr("bouncing_disk._sweep.identity.package_version", lambda: "9.9.9")
+        patch.setattr("bouncing_disk._sweep.folder.package_version", lambda: "9.9.9")
         with pytest.raises(bd.SweepFolderError, match="program.version is .* there, '9.9.9' here"):
             bd.sweep(functions.product, GRID, "serial", folder=folder)
     monkeypatch.setattr("inspect.getsource", lambda function: "def product(a, b): return a + b")
@@ -329,7 +329,7 @@ def test_a_read_only_folder(folder: Path, monkeypatch: pytest.MonkeyPatch) -> No
                 raise PermissionError(13, "Permission denied", str(path))
             return real(path, flags, *rest, **options)
 
-        monkeypatch.setattr("bouncing_disk._sweep.lock.os.open", denied)
+        monkeypatch.setattr("bouncing_disk._sweep.folder.os.open", denied)
     with pytest.raises(bd.SweepFolderError, match="Permission denied") as refusal:
         bd.sweep(functions.product, GRID, "serial", folder=folder)
     assert refusal.value.kind == "cannot-write"
@@ -345,7 +345,7 @@ def test_a_full_disk_leaves_no_half_file(folder: Path, log: Path, monkeypatch: p
             raise OSError(28, "No space left on device")
 
     with monkeypatch.context() as patch:
-        patch.setattr("bouncing_disk._sweep.files.os.fsync", full)
+        patch.setattr("bouncing_disk._sweep.folder.os.fsync", full)
         with pytest.raises(bd.SweepFolderError, match="No space left"):
             swept(folder, log)
     assert sorted(path.name for path in folder.glob("chunk*")) == ["chunk-000000.npz"]

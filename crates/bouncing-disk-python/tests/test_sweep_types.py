@@ -12,7 +12,7 @@ import pytest
 import sweep_functions as functions
 
 import bouncing_disk as bd
-from bouncing_disk._sweep.dtypes import joined
+from bouncing_disk._sweep.grid import joined
 
 GRID = {"a": [1.0, 2.0, 3.0, 4.0], "b": [10.0, 20.0, 30.0]}
 

@@ -15,8 +15,8 @@ fn main() -> Result<(), Error> {
     let mut explorer = Explorer::new();
     for line in std::io::stdin().lock().lines() {
         let reply = explorer.respond(&line?);
-        let refused = if reply.refused() { "refused" } else { "answered" };
-        println!("{refused} {} {}", reply.digest(), reply.json());
+        let refused = if reply.refused { "refused" } else { "answered" };
+        println!("{refused} {} {}", reply.digest, reply.json);
     }
     Ok(())
 }

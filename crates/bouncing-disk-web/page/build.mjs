@@ -1,8 +1,7 @@
 /**
  * Builds the page: one file with everything in it, and the same split for hosting.
  *
- *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR   (--fake stands for the first two)
- *     node build.mjs --check
+ *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--check: the types first]
  *
  * The glue is what `wasm-bindgen --target no-modules` writes.
  */
@@ -18,26 +17,14 @@ import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 
-/** An empty module: the fake glue has no use for more. */
-const EMPTY_MODULE = Buffer.from([0, 0x61, 0x73, 0x6d, 1, 0, 0, 0]);
-
 const { values: options } = parseArgs({
   options: {
     wasm: { type: "string" },
     glue: { type: "string" },
     out: { type: "string" },
-    fake: { type: "boolean", default: false },
     check: { type: "boolean", default: false },
   },
 });
-
-function typesAreRight() {
-  const { status } = spawnSync(process.execPath, [join(here, "node_modules/typescript/bin/tsc"), "--noEmit"], {
-    cwd: here,
-    stdio: "inherit",
-  });
-  return status === 0;
-}
 
 /** The text of a script's bundle, and of the style sheets that it imports. */
 async function bundled(entry) {
@@ -66,7 +53,13 @@ const sha256 = (text) => `'sha256-${createHash("sha256").update(text).digest("ba
 /** Browsers keep old files; a new one has another address. */
 const version = (content) => createHash("sha256").update(content).digest("hex").slice(0, 10);
 
-const policy = (rules) => `<meta http-equiv="Content-Security-Policy" content="${rules.join("; ")}" />`;
+const policy = (...rules) =>
+  `<meta http-equiv="Content-Security-Policy" content="${[
+    "default-src 'none'",
+    ...rules,
+    "base-uri 'none'",
+    "form-action 'none'",
+  ].join("; ")}" />`;
 
 /** Replaced text can have dollar signs in it. */
 function filled(html, parts) {
@@ -82,35 +75,33 @@ function written(path, content) {
 }
 
 async function main() {
-  if (options.check) {
-    process.exitCode = typesAreRight() ? 0 : 1;
-    if (!options.out) return;
-  }
-  if (!options.out || (!options.fake && !(options.wasm && options.glue))) {
-    console.error("usage: node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR, or --fake --out DIR, or --check");
+  const { wasm, glue, out, check } = options;
+  if (!wasm || !glue || !out) {
+    console.error("usage: node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--check]");
     process.exitCode = 2;
+    return;
+  }
+  const compiler = join(here, "node_modules/typescript/bin/tsc");
+  if (check && spawnSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" }).status !== 0) {
+    process.exitCode = 1;
     return;
   }
   const html = readFileSync(join(here, "index.html"), "utf8");
   const page = await bundled("src/main.ts");
   const worker = await bundled("src/worker.ts");
-  const glue = options.fake ? (await bundled("dev/fake_glue.ts")).script : readFileSync(options.glue, "utf8").trim();
-  const module = options.fake ? EMPTY_MODULE : readFileSync(options.wasm);
-  const workerScript = `${glue}\n${worker.script}\n`;
+  const module = readFileSync(wasm);
+  const workerScript = `${readFileSync(glue, "utf8").trim()}\n${worker.script}\n`;
   const pageScript = inScript(page.script);
 
   const single = filled(html, {
     // No address at all may be asked for anything: the browser itself sees to it.
-    policy: policy([
-      "default-src 'none'",
+    policy: policy(
       `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:`,
       "worker-src blob:",
       "style-src 'unsafe-inline'",
       "img-src data: blob:",
       "connect-src 'none'",
-      "base-uri 'none'",
-      "form-action 'none'",
-    ]),
+    ),
     styles: `<style>${page.styles}</style>`,
     scripts:
       `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
@@ -118,25 +109,22 @@ async function main() {
       `<script>${pageScript}</script>`,
   });
   const hosted = filled(html, {
-    policy: policy([
-      "default-src 'none'",
+    policy: policy(
       "script-src 'self' 'wasm-unsafe-eval'",
       "worker-src 'self'",
       "style-src 'self' 'unsafe-inline'",
       "img-src 'self' data: blob:",
       "connect-src 'self'",
-      "base-uri 'none'",
-      "form-action 'none'",
-    ]),
+    ),
     styles: `<link rel="stylesheet" href="explorer.css?${version(page.styles)}" />`,
     scripts:
       `<script id="page-script" src="explorer.js?${version(page.script)}" defer ` +
       `data-worker="worker.js?${version(workerScript)}" data-module="module.wasm?${version(module)}"></script>`,
   });
 
-  const site = join(options.out, "site");
+  const site = join(out, "site");
   rmSync(site, { recursive: true, force: true });
-  written(join(options.out, "explorer.html"), single);
+  written(join(out, "explorer.html"), single);
   written(join(site, "index.html"), hosted);
   written(join(site, "explorer.js"), page.script);
   written(join(site, "explorer.css"), page.styles);

@@ -3,14 +3,14 @@
 //! Which branches there are, and where their bifurcations lie, does not depend on the window that is looked at: each is
 //! followed from its birth on, and the window gets its own points of it.
 
-use bouncing_disk::core::{
-    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, Error as CoreError, ImpactMap,
-    PeriodicOrbit, Unobserved,
+use bouncing_disk::core::orbits::{
+    BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, PeriodicOrbit,
 };
+use bouncing_disk::core::{Error as CoreError, ImpactMap, Unobserved};
 use serde::Serialize;
+use serde_json::json;
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use crate::reply::{Refusal, Reply};
 use crate::request::map;
 
 /// Pairs with one impact every k periods up to this k, and the branches that double from each.
@@ -36,34 +36,23 @@ const STRIDE: f64 = 2.0;
 const BEYOND_DOUBLING: f64 = 2.0;
 
 #[derive(Debug, Serialize)]
-struct BranchesJson {
-    branches: Vec<BranchJson>,
-    bifurcations: Vec<BifurcationJson>,
-}
-
-#[derive(Debug, Serialize)]
-struct BranchJson {
-    impacts: usize,
-    platform_periods: u64,
-    end: String,
-}
-
-#[derive(Debug, Serialize)]
 struct BifurcationJson {
     kind: &'static str,
     axial_forcing: f64,
     impact_phase: f64,
     normalised_speed: f64,
-    branch: usize,
 }
 
+/// How many branches there are in a window, and their bifurcations with the first impact of the orbit there. Numbers: rows
+/// of the forcing, the phase (rad) and the normalised speed of one impact of an orbit on a branch, the number of the
+/// branch, 1 where the orbit is stable, and the number of the line: one impact along one part of the branch. The rows of
+/// a line follow each other.
 pub(crate) fn answer(restitution: f64, axial_forcing: [f64; 2]) -> Result<Reply, Refusal> {
     let window = (axial_forcing[0], axial_forcing[1]);
     // Checks the window and the restitution, whatever is born in it.
     settings(window, true)?;
     map(window.1, restitution)?;
-    let json = BranchesJson { branches: vec![], bifurcations: vec![] };
-    let mut found = Found { json, numbers: vec![], window, lines: 0 };
+    let mut found = Found { window, branches: 0, bifurcations: vec![], numbers: vec![], lines: 0 };
     // Without restitution a disk forgets its past in each impact: the library does not continue such orbits.
     let pairs = if restitution > 0.0 { MOST_PERIODS } else { 0 };
     for periods in 1..=pairs {
@@ -80,7 +69,8 @@ pub(crate) fn answer(restitution: f64, axial_forcing: [f64; 2]) -> Result<Reply,
             }
         }
     }
-    Reply::new(&found.json, found.numbers, Vec::new())
+    let json = json!({ "branches": found.branches, "bifurcations": found.bifurcations });
+    Reply::new(&json, found.numbers, Vec::new())
 }
 
 fn settings(range: (f64, f64), rising: bool) -> Result<Continuation, CoreError> {
@@ -100,9 +90,10 @@ fn if_any<T>(found: Result<T, CoreError>) -> Result<Option<T>, CoreError> {
 }
 
 struct Found {
-    json: BranchesJson,
-    numbers: Vec<f64>,
     window: (f64, f64),
+    branches: usize,
+    bifurcations: Vec<BifurcationJson>,
+    numbers: Vec<f64>,
     lines: usize,
 }
 
@@ -177,7 +168,6 @@ impl Found {
 
     fn add(&mut self, branch: &Branch) -> Result<(), Refusal> {
         let (low, high) = self.window;
-        let number = self.json.branches.len();
         let Some(first) = branch.points.first() else { return Ok(()) };
         let impacts = first.orbit.period();
         let here = branch.bifurcations.iter().filter(|one| (low..=high).contains(&one.point.parameter));
@@ -195,24 +185,19 @@ impl Found {
                     let stable = f64::from(u8::from(point.is_stable()));
                     let (phase, speed) = (state.phase().angle(), state.normalised_speed());
                     let line = self.lines as f64;
-                    self.numbers.extend([point.parameter, phase, speed, number as f64, stable, line]);
+                    self.numbers.extend([point.parameter, phase, speed, self.branches as f64, stable, line]);
                 }
                 self.lines += 1;
             }
         }
-        self.json.branches.push(BranchJson {
-            impacts,
-            platform_periods: first.orbit.platform_periods,
-            end: end(&branch.end),
-        });
-        self.json.bifurcations.extend(here.iter().filter_map(|found| {
+        self.branches += 1;
+        self.bifurcations.extend(here.iter().filter_map(|found| {
             let state = found.point.orbit.states.first()?;
             Some(BifurcationJson {
                 kind: kind(&found.kind),
                 axial_forcing: found.point.parameter,
                 impact_phase: state.phase().angle(),
                 normalised_speed: state.normalised_speed(),
-                branch: number,
             })
         }));
         Ok(())
@@ -227,16 +212,5 @@ const fn kind(kind: &BifurcationKind) -> &'static str {
         BifurcationKind::VanishingImpact { .. } => "vanishing impact",
         BifurcationKind::Birth => "birth",
         _ => "unknown",
-    }
-}
-
-fn end(end: &BranchEnd) -> String {
-    match end {
-        BranchEnd::RangeLimit(_) => "the end of the range".to_owned(),
-        BranchEnd::Bifurcation => "a bifurcation".to_owned(),
-        BranchEnd::Closed => "its own start".to_owned(),
-        BranchEnd::PointLimit(points) => format!("the limit of {points} points"),
-        BranchEnd::StepTooSmall(_) => "no next point".to_owned(),
-        _ => "unknown".to_owned(),
     }
 }

@@ -1,15 +1,13 @@
 //! Columns of orbit diagrams.
 
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactState, Orbit, Unobserved, is_settling, orbit_diagram, repeats_every,
-};
+use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved};
 use bouncing_disk::{
     CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
 };
-use serde::Serialize;
+use serde_json::json;
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use crate::reply::{Refusal, Reply};
 use crate::request::{DiagramRequest, map};
 
 /// Most forcings of a diagram, and most impacts of an answer.
@@ -31,13 +29,6 @@ const NEARLY: f64 = 1e-3;
 /// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
 const SPIN_UPS: f64 = 10.0;
 
-#[derive(Debug, Serialize)]
-struct DiagramJson {
-    resting: usize,
-    unsettled: usize,
-    left_out: usize,
-}
-
 /// What one column has.
 struct Column {
     impacts: Vec<(ImpactState, f64)>,
@@ -45,6 +36,10 @@ struct Column {
     settled: bool,
 }
 
+/// Orbits that came to rest for ever and have no impacts left, those that are still on their way to what they repeat, and
+/// the most impacts that were left out of one. Numbers: rows of the forcing, the phase of impact (rad), the normalised
+/// speed, and the angular speed after the impact in units of omega Phi (NaN where the platform does not twist or there is
+/// no friction).
 pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     let system = request.system.build()?;
     let forcings = forcings(request)?;
@@ -65,11 +60,11 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
             numbers.extend([*forcing, state.phase().angle(), state.normalised_speed(), *angular_speed]);
         }
     }
-    let json = DiagramJson {
-        resting: columns.iter().filter(|column| column.impacts.len() < request.recorded).count(),
-        unsettled: columns.iter().filter(|column| !column.settled).count(),
-        left_out: columns.iter().map(|column| column.left_out).max().unwrap_or(request.transient),
-    };
+    let json = json!({
+        "resting": columns.iter().filter(|column| column.impacts.len() < request.recorded).count(),
+        "unsettled": columns.iter().filter(|column| !column.settled).count(),
+        "left_out": columns.iter().map(|column| column.left_out).max().unwrap_or(request.transient),
+    });
     Reply::new(&json, numbers, Vec::new())
 }
 

@@ -1,25 +1,41 @@
 //! Digests that name the bits of results: the same on every machine.
 //!
 //! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is compiled for
-//! (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core.
+//! (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core. `tests/test_same_bits.py`
+//! of the Python package makes the same calls.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;
-mod results;
 
-use bouncing_disk::{Error, PAPER_CHATTER};
+use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration,
+    attractors::{Axis, BasinSettings, CycleTrust, Grid, KnownOrbit, Verdict, VerdictSettings, verdicts},
+    chaos::{CrisisSearch, LyapunovOutcome, ManifoldKind, ManifoldSettings, lyapunov_spectra},
+    orbits::OrbitSearch,
+    sweep::orbit_diagram,
+};
+use bouncing_disk::{
+    Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
+    SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,
+    SweepQuantity, System, TransientSettings, ensemble, single_toss,
+};
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The digests of what users compute most, as JSON, by their names.
 ///
 /// # Errors
-/// None of the results fails; the library's errors are passed on.
-pub fn digests() -> Result<String, Error> {
-    let lines: Vec<_> =
-        results::all()?.iter().map(|(name, digest)| format!("  \"{name}\": \"{digest}\"")).collect();
+/// None of the results fails; the library's errors are passed on as texts.
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
+pub fn digests() -> Result<String, String> {
+    let found = all().map_err(|error| error.to_string())?;
+    let lines: Vec<_> = found.iter().map(|(name, digest)| format!("  \"{name}\": \"{digest}\"")).collect();
     Ok(format!("{{\n{}\n}}\n", lines.join(",\n")))
 }
 
 /// What differs from the golden digests of the core, a line each: nothing, wherever IEEE 754 is kept.
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 #[must_use]
 pub fn golden_differences() -> Vec<String> {
     [
@@ -29,6 +45,208 @@ pub fn golden_differences() -> Vec<String> {
         golden::basin_labels(),
     ]
     .concat()
+}
+
+/// All of them, by their names.
+fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
+    Ok(vec![
+        ("diagram", diagram(ChatterPolicy::Complete)?),
+        ("diagram with the paper's cut", diagram(PAPER_CHATTER)?),
+        ("basins", basins()?),
+        ("verdicts", judged()?),
+        ("tosses", tosses()?),
+        ("motors", motors()?),
+        ("spectra", spectra()?),
+        ("manifolds", manifolds()?),
+        ("crisis", crisis()?),
+        ("operations", operations()?),
+    ])
+}
+
+/// The forcings of the diagram and of the verdicts: sums and products of doubles that Python forms alike.
+fn forcings(count: u32, low: f64, step: f64) -> Vec<f64> {
+    (0..count).map(|index| low + f64::from(index) * step).collect()
+}
+
+fn starts(forcings: &[f64], restitution: f64) -> Result<Vec<(ImpactMap, ImpactState)>, Error> {
+    let start = ImpactState::from_normalised(1.2, 1.3)?;
+    let maps = forcings
+        .iter()
+        .map(|forcing| Ok((ImpactMap::new(Vibration::from_axial_forcing(*forcing)?, restitution)?, start)));
+    maps.collect()
+}
+
+fn digest_of(numbers: impl IntoIterator<Item = f64>) -> Digest {
+    let mut digest = Digest::new();
+    for number in numbers {
+        digest.number(number);
+    }
+    digest
+}
+
+fn numbers_of(state: &ImpactState) -> [f64; 2] {
+    [state.phase().angle(), state.velocity()]
+}
+
+fn diagram(policy: ChatterPolicy) -> Result<Digest, Error> {
+    let starts = starts(&forcings(200, 0.3, 0.002), 0.5)?;
+    let orbits: Vec<_> = starts.iter().map(|(map, state)| map.orbit(*state, policy)).collect();
+    let columns = orbit_diagram(&orbits, 1000, 50, &Unobserved)?;
+    Ok(digest_of(columns.iter().flatten().flat_map(numbers_of)))
+}
+
+fn basins() -> Result<Digest, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    let start = ImpactState::from_normalised(1.2, 1.3)?;
+    let mut digest = Digest::new();
+    let Some(orbit) = map.settled_orbit(start, 2000, 64, 1e-7, &Unobserved)? else { return Ok(digest) };
+    let radius = orbit.trapping_radius(&map, 64, &Unobserved)?;
+    digest.number(radius);
+    let grid = Grid::new(Axis::new(0.0, 1.0, 200)?, Axis::new(0.0, 3.0, 150)?)?;
+    let basins =
+        map.basins(grid, &[KnownOrbit::new(orbit, radius)?], BasinSettings::default(), &Unobserved)?;
+    digest.bytes(basins.labels());
+    Ok(digest)
+}
+
+fn judged() -> Result<Digest, Error> {
+    let settings = VerdictSettings { impacts: 20_000, ..VerdictSettings::default() };
+    let mut digest = Digest::new();
+    for verdict in verdicts(&starts(&forcings(100, 0.2, 0.005), 0.5)?, settings, &Unobserved)? {
+        match verdict {
+            Verdict::Periodic { impacts, platform_periods, .. } => {
+                digest.bytes(&[0]);
+                digest.number(impacts as f64);
+                digest.number(platform_periods as f64);
+            }
+            Verdict::Chaotic { exponent, standard_error, .. } => {
+                digest.bytes(&[1]);
+                digest.number(exponent);
+                digest.number(standard_error);
+            }
+            Verdict::Chattering { cycle, after } => {
+                digest.bytes(&[2]);
+                digest.number(after as f64);
+                if let CycleTrust::ChosenByRounding { exponent: Some(exponent), .. } = cycle.trust {
+                    digest.number(exponent);
+                }
+            }
+            Verdict::AtRest { after, .. } => {
+                digest.bytes(&[3]);
+                digest.number(after as f64);
+            }
+            _ => digest.bytes(&[4]),
+        }
+    }
+    Ok(digest)
+}
+
+fn tosses() -> Result<Digest, Error> {
+    let mut numbers = Vec::new();
+    for lag in forcings(100, -1.5, 0.03) {
+        let system = System::pizza_toss().with_platform(|hand| hand.phase_lag = lag)?;
+        for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
+            let toss = single_toss(&system, initial)?;
+            let [speed, efficiency] = [toss.airborne_speed, toss.efficiency];
+            numbers.extend([speed, efficiency, toss.launch_speed, toss.energy.friction_loss]);
+        }
+    }
+    Ok(digest_of(numbers))
+}
+
+fn motors() -> Result<Digest, Error> {
+    let settings = TransientSettings { duration: 0.5, intervals: 50, ..TransientSettings::default() };
+    let runs = ensemble(&System::motor(), &settings, 16, &Unobserved)?;
+    let curves = runs.curves.iter().flat_map(|curve| curve.times.iter().chain(&curve.speeds)).copied();
+    let ends = [runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error];
+    Ok(digest_of(curves.chain(ends)))
+}
+
+fn spectra() -> Result<Digest, Error> {
+    let mut digest = Digest::new();
+    for outcome in lyapunov_spectra(&starts(&forcings(60, 0.2, 0.01), 0.5)?, 1000, 5000, &Unobserved)? {
+        match outcome {
+            LyapunovOutcome::Exponents(found) => {
+                for number in [Some(found.largest), Some(found.standard_error), found.second, found.exact_sum]
+                {
+                    digest.number(number.unwrap_or(f64::NEG_INFINITY));
+                }
+            }
+            LyapunovOutcome::Rested { impacts } => digest.number(impacts as f64),
+            LyapunovOutcome::Grazed { phase, .. } => digest.number(phase.angle()),
+            _ => digest.bytes(&[255]),
+        }
+    }
+    Ok(digest)
+}
+
+fn manifolds() -> Result<Digest, Error> {
+    let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;
+    let mut numbers = Vec::new();
+    let orbits = map.periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?.orbits;
+    for orbit in orbits.iter().filter(|orbit| orbit.multipliers().spectral_radius() > 1.0) {
+        for kind in [ManifoldKind::Unstable, ManifoldKind::Stable] {
+            let manifold = map.manifold(orbit, kind, &ManifoldSettings::new(10.0, 20_000)?, &Unobserved)?;
+            numbers.push(manifold.multiplier);
+            numbers.extend(manifold.pieces().flat_map(|piece| &piece.states).flat_map(numbers_of));
+        }
+    }
+    Ok(digest_of(numbers))
+}
+
+fn crisis() -> Result<Digest, Error> {
+    let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 400_000)?;
+    let Ok(crisis) = search.crisis(None, &Unobserved)? else { return Ok(Digest::new()) };
+    let Ok(tangency) = &crisis.tangency else { return Ok(Digest::new()) };
+    let numbers = [crisis.forcing, crisis.forcing_error, tangency.share, tangency.curvature];
+    let lives = crisis.lives(&[1e-4, 1e-3], 50, 20_000, &Unobserved)?.lives;
+    Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
+}
+
+/// What the three calls about a motor in operation give.
+fn operations() -> Result<Digest, Error> {
+    let sheet = MotorParameters {
+        drive_frequency: 70e3,
+        amplitude: 1e-8,
+        peak_angular_speed: Some(30.0),
+        twist_amplitude: None,
+        phase_lag: 0.0,
+        mass: Some(1e-3),
+        density: None,
+        rotor_radius: None,
+        rotor_thickness: None,
+        contact_radius: 1.25e-3,
+        gyration_radius: Some(6.3e-3),
+        preload_force: None,
+        preload_acceleration: Some(9.8),
+        spring_constant: None,
+        friction: 0.1,
+        restitution: 0.5,
+        load_torque: 0.0,
+    };
+    let motor = sheet.build()?;
+    let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+    let axes = vec![
+        SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),
+        SweepAxis::new(MotorField::Amplitude, vec![1e-8, 1.1e-8]),
+    ];
+    let mut numbers = Vec::new();
+    for row in MotorSweep::new(motor, axes, settings)?.run(&Unobserved)?.matrix(SweepQuantity::Speed) {
+        numbers.extend(row.into_iter().map(|speed| speed.unwrap_or(f64::NAN)));
+    }
+    let quantity = SensitivityQuantity::SteadySpeed;
+    let near = SensitivitySettings { operating: settings, ..SensitivitySettings::default() };
+    let slopes =
+        motor.local_sensitivities(quantity, &[SensitivityParameter::Friction], &near, &Unobserved)?;
+    numbers.extend(slopes.iter().map(|one| one.derivative.value));
+    let ranges =
+        [(SensitivityParameter::Friction, [0.05, 0.2]), (SensitivityParameter::PhaseLag, [-0.2, 0.2])];
+    let sampling = SamplingSettings { rows: 8, seed: 3 };
+    let indices = motor.sobol_indices(quantity, &ranges, sampling, &settings, &Unobserved)?;
+    numbers.extend(indices.iter().map(|one| one.total.value));
+    let effects = motor.elementary_effects(quantity, &ranges, sampling, &settings, &Unobserved)?;
+    numbers.extend(effects.iter().map(|one| one.mean.value));
+    Ok(digest_of(numbers))
 }
 
 #[cfg(test)]

@@ -1,46 +1,52 @@
-//! The one who answers.
+//! What answers the requests of the page.
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen::prelude::wasm_bindgen;
+
+use crate::reply::{Refusal, Reply};
 use crate::request::Request;
 use crate::shared_basins::SharedAttractors;
-use crate::{branches, diagram, motion, motor, orbit, summary};
+use crate::{branches, diagram, motion, motor, orbit};
 
 /// Answers requests. It keeps the attractors of the last map, whose basins are asked for row by row.
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 #[derive(Debug, Default)]
 pub struct Explorer {
     attractors: SharedAttractors,
 }
 
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 impl Explorer {
     /// One that knows nothing yet.
+    #[cfg_attr(target_arch = "wasm32", wasm_bindgen(constructor))]
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The answer to a request in JSON: the calls of `page/src/protocol.ts`. Whatever is wrong with a request is told in the
-    /// answer ([`Reply::refused`]).
+    /// The answer to a request in JSON (`request.rs`). The answer also says what is wrong with a request.
     pub fn respond(&mut self, request: &str) -> Reply {
         serde_json::from_str(request)
             .map_err(|error| Refusal::of_request(&error))
             .and_then(|request| self.answer(request))
             .unwrap_or_else(|refusal| Reply::refusal(&refusal))
     }
+}
 
+impl Explorer {
     fn answer(&mut self, request: Request) -> Result<Reply, Refusal> {
         match request {
-            Request::Check { system } => summary::answer(&system.build()?),
+            Request::Check { system } => orbit::summary(&system.build()?),
             Request::Motion { system, start, periods, samples_per_period } => {
                 motion::answer(&system.build()?, start, periods, samples_per_period)
             }
             Request::Diagram(request) => diagram::answer(&request),
             Request::Orbit { axial_forcing, restitution, start } => {
-                orbit::answer(axial_forcing, restitution, start)
+                orbit::verdict(axial_forcing, restitution, start)
             }
             Request::Branches { restitution, axial_forcing } => branches::answer(restitution, axial_forcing),
             Request::Attractors { axial_forcing, restitution } => {
-                self.attractors.told(axial_forcing, restitution)
+                self.attractors.list(axial_forcing, restitution)
             }
             Request::Basins(request) => self.attractors.rows(&request),
             Request::MotorReport { sheet } => motor::report(sheet),

@@ -10,11 +10,9 @@
 //! let request = r#"{"call": "orbit", "axial_forcing": 0.45, "restitution": 0.5,
 //!                   "start": {"impact_phase": 1.2, "normalised_speed": 1.3}}"#;
 //! let reply = Explorer::new().respond(request);
-//! assert!(!reply.refused() && reply.json().contains("\"kind\":\"periodic\""));
+//! assert!(!reply.refused && reply.json.contains("\"kind\":\"periodic\""));
 //! ```
 
-#[cfg(target_arch = "wasm32")]
-mod binding;
 mod branches;
 mod diagram;
 #[cfg(feature = "digests")]
@@ -23,17 +21,11 @@ mod explorer;
 mod motion;
 mod motor;
 mod orbit;
-mod refusal;
 mod reply;
 mod request;
 mod shared_basins;
-mod summary;
-#[cfg(feature = "digests")]
-mod workloads;
 
 #[cfg(feature = "digests")]
 pub use digests::{digests, golden_differences};
 pub use explorer::Explorer;
 pub use reply::Reply;
-#[cfg(feature = "digests")]
-pub use workloads::Workloads;

@@ -6,10 +6,9 @@ use bouncing_disk::{
     CollisionState, DiskState, EnergyLedger, Engine, Event, EventKind, EventRecord, InitialCondition,
     MAX_SAMPLES, Mode, PhaseSpan, PlatformState, Scales, SlipDirection, System,
 };
-use serde::Serialize;
+use serde_json::json;
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, MotionStart};
 
 /// Most events of an answer: a disk that chatters on a platform with little restitution has many.
@@ -18,23 +17,12 @@ const MOST_EVENTS: usize = 500_000;
 /// Most periods of an answer.
 const MOST_PERIODS: u64 = 100_000;
 
-#[derive(Debug, Serialize)]
-struct MotionJson {
-    samples: usize,
-    events: usize,
-    event_kinds: Vec<String>,
-    energy: EnergyJson,
-}
-
-#[derive(Debug, Serialize)]
-struct EnergyJson {
-    platform_work: f64,
-    restitution_loss: f64,
-    friction_loss: f64,
-    load_work: f64,
-    stored: f64,
-}
-
+/// Energy is per mass from the start to the end (J/kg): what came in by the platform, what impacts, friction and the load
+/// took, and what the disk has more than at the start. Numbers: a row for each sample with the time, height, angle,
+/// velocity and angular speed of the disk, and height, angle, velocity and angular speed of the platform; then a row for
+/// each event with its time, phase, normalised speed and tangential velocity of an impact (an angular speed relative to
+/// the platform; both else NaN), the angular speed after it and the height. Bytes: modes of the samples, kinds of the
+/// events by their place in `event_kinds`.
 pub(crate) fn answer(
     system: &System,
     start: MotionStart,
@@ -95,18 +83,18 @@ pub(crate) fn answer(
         bytes.push(kind(&record.event));
     }
     let ledger = scales.energy(&(ledger + unfinished));
-    let json = MotionJson {
-        samples: snapshots.len(),
-        events: records.len(),
-        event_kinds: EventKind::ALL.iter().map(ToString::to_string).collect(),
-        energy: EnergyJson {
-            platform_work: ledger.normal_work + ledger.friction_work,
-            restitution_loss: ledger.restitution_loss,
-            friction_loss: ledger.friction_loss,
-            load_work: ledger.load_work,
-            stored: ledger.axial_kinetic_change + ledger.potential_change + ledger.rotary_kinetic_change,
+    let json = json!({
+        "samples": snapshots.len(),
+        "events": records.len(),
+        "event_kinds": EventKind::ALL.map(|kind| kind.to_string()),
+        "energy": {
+            "platform_work": ledger.normal_work + ledger.friction_work,
+            "restitution_loss": ledger.restitution_loss,
+            "friction_loss": ledger.friction_loss,
+            "load_work": ledger.load_work,
+            "stored": ledger.axial_kinetic_change + ledger.potential_change + ledger.rotary_kinetic_change,
         },
-    };
+    });
     Reply::new(&json, numbers, bytes)
 }
 

@@ -2,14 +2,13 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
-    Error, Estimate, FitError, FitRefusal, FitSettings, IntervalEstimate, Motor, MotorParameters, OperatingPoint,
+    Error, Estimate, FitError, FitRefusal, FitSettings, Motor, MotorParameters, OperatingPoint,
     OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
     TransientSettings, ensemble_members, transients,
 };
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use crate::reply::{Refusal, Reply};
 use crate::request::{LoadsRequest, SystemParameters};
 
 /// Impacts that an answer may take where the request says nothing: a second or two for most motors.
@@ -21,64 +20,36 @@ const MOST_IMPACTS: u64 = 20_000_000;
 /// How far away a trap is told, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
-#[derive(Debug, Serialize)]
-struct ReportJson {
-    axial_forcing: f64,
-    angular_forcing: Option<f64>,
-    regime: String,
-    largest_torque: f64,
-    warnings: Vec<String>,
-    text: String,
-    system: SystemParameters,
-    mass: f64,
-    trap: Option<TrapJson>,
-}
-
-#[derive(Debug, Serialize)]
-struct TrapJson {
-    preload_acceleration: f64,
-    caught: bool,
-    relative_distance: f64,
-    forcing_from_to: [f64; 2],
-}
-
+/// What a data sheet says before anything turns, with its system and the mass of its rotor (kg). The trap is the nearest
+/// preload at which the motor may be caught in a motion of few impacts: whether it is, the relative change of the preload
+/// or the amplitude that reaches it, and from where to where in the forcing it reaches.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report(&Unobserved)?;
-    let trap = motor.nearest_trap(TRAP_RANGE, &Unobserved)?.map(|trap| TrapJson {
-        preload_acceleration: trap.preload_acceleration,
-        caught: trap.relative_distance == 0.0,
-        relative_distance: trap.relative_distance,
-        forcing_from_to: trap.forcing_from_to,
+    let trap = motor.nearest_trap(TRAP_RANGE, &Unobserved)?.map(|trap| {
+        json!({
+            "preload_acceleration": trap.preload_acceleration,
+            "caught": trap.relative_distance == 0.0,
+            "relative_distance": trap.relative_distance,
+            "forcing_from_to": trap.forcing_from_to,
+        })
     });
-    Reply::short(&ReportJson {
-        axial_forcing: report.axial_forcing,
-        angular_forcing: report.angular_forcing,
-        regime: report.regime.to_string(),
-        largest_torque: report.largest_torque,
-        warnings: report.warnings.iter().map(ToString::to_string).collect(),
-        text: report.to_string(),
-        system: motor.system().into(),
-        mass: motor.mass(),
-        trap,
-    })
+    Reply::short(&json!({
+        "axial_forcing": report.axial_forcing,
+        "angular_forcing": report.angular_forcing,
+        "regime": report.regime.to_string(),
+        "largest_torque": report.largest_torque,
+        "warnings": report.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "text": report.to_string(),
+        "system": SystemParameters::from(motor.system()),
+        "mass": motor.mass(),
+        "trap": trap,
+    }))
 }
 
-#[derive(Debug, Serialize)]
-struct TransientJson {
-    points: usize,
-    rise: Option<RiseJson>,
-    refusal: Option<&'static str>,
-}
-
-/// The form that fits the run-up best.
-#[derive(Debug, Serialize)]
-struct RiseJson {
-    form: RiseForm,
-    constant: IntervalEstimate,
-    residual: f64,
-}
-
+/// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
+/// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
+/// mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(
     sheet: MotorParameters,
     members: usize,
@@ -101,16 +72,15 @@ pub(crate) fn transient(
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
         Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
-        Err(FitError::Model(error)) => return Err(error.into()),
-        Err(error) => return Err(Refusal::computation(&error)),
+        Err(error) => return Err(error.into()),
     };
-    Reply::new(&TransientJson { points: times.len(), rise, refusal }, numbers, Vec::new())
+    Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())
 }
 
-fn rise_of(fit: &TransientFit) -> RiseJson {
+fn rise_of(fit: &TransientFit) -> Value {
     let ramp = fit.ramp.as_ref().filter(|_| fit.form == RiseForm::Ramp);
     let rise = ramp.unwrap_or(&fit.exponential);
-    RiseJson { form: fit.form, constant: rise.constant, residual: rise.residual }
+    json!({ "form": fit.form, "constant": rise.constant, "residual": rise.residual })
 }
 
 /// Why a run-up has no time constant, for readers: what the library says has its numbers to the last digit.
@@ -129,11 +99,9 @@ const fn refused_since(reason: &FitRefusal) -> &'static str {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct OperationsJson {
-    shortfalls: Vec<Option<String>>,
-}
-
+/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and input power
+/// (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the numbers are the best so
+/// far), 2 runaway (the load drives the rotor; the numbers are NaN).
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let settings = settings(*relative_error, *most_impacts, *seed)?;
@@ -145,7 +113,7 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
         numbers.extend(row);
         shortfalls.push(shortfall);
     }
-    Reply::new(&OperationsJson { shortfalls }, numbers, Vec::new())
+    Reply::new(&json!({ "shortfalls": shortfalls }), numbers, Vec::new())
 }
 
 fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
@@ -209,63 +177,41 @@ fn lacking(shortfall: &Shortfall) -> String {
     }
 }
 
-#[derive(Debug, Serialize)]
-struct StallJson {
-    torque: Option<f64>,
-    torque_error: Option<f64>,
-    bracket: Option<[f64; 2]>,
-    no_load_speed: f64,
-    no_load_speed_error: Option<f64>,
-}
-
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let json = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
-        Ok(stall) => StallJson {
-            torque: Some(stall.torque.value),
-            torque_error: Some(stall.torque.standard_error),
-            bracket: Some(stall.bracket),
-            no_load_speed: stall.no_load_speed.value,
-            no_load_speed_error: Some(stall.no_load_speed.standard_error),
-        },
-        Err(Error::DoesNotTurn { speed, standard_error }) => StallJson {
-            torque: None,
-            torque_error: None,
-            bracket: None,
-            no_load_speed: speed,
-            no_load_speed_error: Some(standard_error).filter(|error| error.is_finite()),
-        },
-        Err(error) => return Err(error.into()),
-    };
-    Reply::short(&json)
+    let (torque, bracket, speed) =
+        match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
+            Ok(stall) => (Some(stall.torque), Some(stall.bracket), stall.no_load_speed),
+            Err(Error::DoesNotTurn { speed, standard_error }) => {
+                (None, None, Estimate { value: speed, standard_error })
+            }
+            Err(error) => return Err(error.into()),
+        };
+    Reply::short(&json!({
+        "torque": torque.map(|torque| torque.value),
+        "torque_error": torque.map(|torque| torque.standard_error),
+        "bracket": bracket,
+        "no_load_speed": speed.value,
+        "no_load_speed_error": speed.standard_error,
+    }))
 }
 
-#[derive(Debug, Serialize)]
-struct TextJson {
-    text: String,
-}
-
+/// A data sheet as the command line and Python read it.
 pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
-    Reply::short(&TextJson { text: sheet.build()?.to_json() })
+    Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
-#[derive(Debug, Serialize)]
-struct SheetJson {
-    sheet: MotorParameters,
-    system: SystemParameters,
-    mass: f64,
-}
-
-impl SheetJson {
-    fn of(motor: &Motor) -> Self {
-        Self { sheet: motor.parameters(), system: motor.system().into(), mass: motor.mass() }
-    }
-}
-
+/// The data sheet of such a text.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
-    Reply::short(&SheetJson::of(&Motor::from_json(text)?))
+    sheet_of(&Motor::from_json(text)?)
 }
 
+/// The sheet of a system and a mass (kg), with the load as a torque.
 pub(crate) fn of_system(system: &System, mass: f64) -> Result<Reply, Refusal> {
-    Reply::short(&SheetJson::of(&MotorParameters::of_system(system, mass).build()?))
+    sheet_of(&MotorParameters::of_system(system, mass).build()?)
+}
+
+fn sheet_of(motor: &Motor) -> Result<Reply, Refusal> {
+    let system = SystemParameters::from(motor.system());
+    Reply::short(&json!({ "sheet": motor.parameters(), "system": system, "mass": motor.mass() }))
 }

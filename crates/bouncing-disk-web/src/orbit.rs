@@ -1,72 +1,78 @@
-//! What one orbit does for good.
+//! What follows from the parameters of a system, and what one orbit does for good.
 
-use bouncing_disk::core::{Multipliers, UndecidedReason, Verdict, VerdictSettings};
-use serde::Serialize;
+use std::f64::consts::TAU;
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use bouncing_disk::System;
+use bouncing_disk::core::{
+    attractors::{UndecidedReason, Verdict, VerdictSettings},
+    orbits::Multipliers,
+};
+use serde_json::json;
+
+use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, map};
 
-#[derive(Debug, Default, Serialize)]
-struct VerdictJson {
-    kind: &'static str,
-    impacts: Option<u64>,
-    platform_periods: Option<u64>,
-    multipliers: Option<[[f64; 2]; 2]>,
-    exponent: Option<f64>,
-    exponent_error: Option<f64>,
-    rounding_dependent: bool,
-    text: String,
+/// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing turns; the
+/// peak acceleration is in units of the preload. A platform that `bounces` falls away from a disk at rest on it.
+pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
+    Reply::short(&json!({
+        "axial_forcing": system.axial_forcing(),
+        "angular_forcing": system.angular_forcing(),
+        "period": TAU / system.platform().angular_frequency(),
+        "peak_acceleration": system.peak_acceleration(),
+        "stroke": system.stroke().stroke,
+        "rise_time": Some(system.rise_time()).filter(|time| time.is_finite() && *time > 0.0),
+        "bounces": system.dimensionless().vibration().separation_phase().is_some(),
+    }))
 }
 
-pub(crate) fn answer(axial_forcing: f64, restitution: f64, start: ImpactStart) -> Result<Reply, Refusal> {
+/// Impacts and platform periods of a round are null where nothing repeats; the two Floquet multipliers are pairs of real
+/// and imaginary parts. The exponent is the growth per impact with its standard error; that of a periodic orbit follows
+/// from its multipliers and has none. `rounding_dependent`: the cycle after a rest was chosen by rounding.
+pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) -> Result<Reply, Refusal> {
     let map = map(axial_forcing, restitution)?;
     let verdict = map.verdict(start.state()?, VerdictSettings::default())?;
-    Reply::short(&told(&verdict))
-}
-
-fn told(verdict: &Verdict) -> VerdictJson {
-    let text = verdict.to_string();
-    match verdict {
-        Verdict::Periodic { impacts, platform_periods, multipliers, .. } => VerdictJson {
-            kind: "periodic",
-            impacts: Some(*impacts),
-            platform_periods: Some(*platform_periods),
-            multipliers: Some(pairs(*multipliers)),
+    let (mut round, mut multipliers, mut exponent, mut exponent_error) = (None, None, None, None);
+    let mut rounding_dependent = false;
+    let kind = match &verdict {
+        Verdict::Periodic { impacts, platform_periods, multipliers: found, .. } => {
+            round = Some((*impacts, *platform_periods));
+            multipliers = Some(pairs(*found));
             // JSON has no infinity: that of a superstable orbit is left out.
-            exponent: Some(multipliers.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite()),
-            text,
-            ..VerdictJson::default()
-        },
-        Verdict::Chaotic { exponent, standard_error, .. } => VerdictJson {
-            kind: "chaotic",
-            exponent: Some(*exponent),
-            exponent_error: Some(*standard_error),
-            text,
-            ..VerdictJson::default()
-        },
-        Verdict::Chattering { cycle, .. } => VerdictJson {
-            kind: "chattering",
-            impacts: Some(cycle.impacts),
-            platform_periods: Some(cycle.platform_periods),
-            rounding_dependent: !cycle.is_exact(),
-            text,
-            ..VerdictJson::default()
-        },
-        Verdict::AtRest { .. } => VerdictJson { kind: "at-rest", text, ..VerdictJson::default() },
-        Verdict::Undecided { reason, .. } => {
-            let (exponent, exponent_error) = match *reason {
-                UndecidedReason::ExponentNearZero { exponent, standard_error }
-                | UndecidedReason::NoPeriodFound { exponent, standard_error }
-                | UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
-                    (Some(exponent), Some(standard_error))
-                }
-                _ => (None, None),
-            };
-            VerdictJson { kind: "undecided", exponent, exponent_error, text, ..VerdictJson::default() }
+            exponent = Some(found.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite());
+            "periodic"
         }
-        _ => VerdictJson { kind: "undecided", text, ..VerdictJson::default() },
-    }
+        Verdict::Chaotic { exponent: found, standard_error, .. } => {
+            (exponent, exponent_error) = (Some(*found), Some(*standard_error));
+            "chaotic"
+        }
+        Verdict::Chattering { cycle, .. } => {
+            round = Some((cycle.impacts, cycle.platform_periods));
+            rounding_dependent = !cycle.is_exact();
+            "chattering"
+        }
+        Verdict::AtRest { .. } => "at-rest",
+        Verdict::Undecided { reason, .. } => {
+            if let UndecidedReason::ExponentNearZero { exponent: found, standard_error }
+            | UndecidedReason::NoPeriodFound { exponent: found, standard_error }
+            | UndecidedReason::TransientMayLast { exponent: found, standard_error, .. } = *reason
+            {
+                (exponent, exponent_error) = (Some(found), Some(standard_error));
+            }
+            "undecided"
+        }
+        _ => "undecided",
+    };
+    Reply::short(&json!({
+        "kind": kind,
+        "impacts": round.map(|(impacts, _)| impacts),
+        "platform_periods": round.map(|(_, periods)| periods),
+        "multipliers": multipliers,
+        "exponent": exponent,
+        "exponent_error": exponent_error,
+        "rounding_dependent": rounding_dependent,
+        "text": verdict.to_string(),
+    }))
 }
 
 /// Real and imaginary part of each.

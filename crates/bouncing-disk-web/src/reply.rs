@@ -1,31 +1,26 @@
-//! Answers.
+//! Answers, and refusals of requests that cannot be met.
 
-use std::fmt;
-
+use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::{Error, FitError, MotorFileError};
 use serde::Serialize;
-
-use crate::refusal::Refusal;
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The answer to a request: JSON for what is short, flat arrays for what is long.
-#[derive(Clone, PartialEq)]
+#[cfg_attr(target_arch = "wasm32", wasm_bindgen(getter_with_clone))]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Reply {
-    json: String,
-    numbers: Vec<f64>,
-    bytes: Vec<u8>,
-    refused: bool,
-    digest: Digest,
-}
-
-impl fmt::Debug for Reply {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { json, numbers, bytes, refused, digest } = self;
-        let (numbers, bytes) = (numbers.len(), bytes.len());
-        write!(
-            f,
-            "Reply {{ refused: {refused}, numbers: {numbers}, bytes: {bytes}, digest: {digest}, {json} }}"
-        )
-    }
+    /// What is short, or the refusal, as JSON.
+    pub json: String,
+    /// Numbers, in rows.
+    pub numbers: Vec<f64>,
+    /// Labels, modes and kinds.
+    pub bytes: Vec<u8>,
+    /// Whether the request is refused.
+    pub refused: bool,
+    /// Sixteen hexadecimal digits of all of it, which are the same on every machine.
+    pub digest: String,
 }
 
 impl Reply {
@@ -34,11 +29,11 @@ impl Reply {
         let json = serde_json::to_string(json).map_err(|error| Refusal::of_request(&error))?;
         let mut digest = Digest::of(json.as_bytes());
         for number in &numbers {
-            // Which of its many bit patterns a number that is none has depends on the processor.
+            // Which of its many bit patterns NaN has depends on the processor.
             digest.number(if number.is_nan() { f64::NAN } else { *number });
         }
         digest.bytes(&bytes);
-        Ok(Self { json, numbers, bytes, refused: false, digest })
+        Ok(Self { json, numbers, bytes, refused: false, digest: digest.to_string() })
     }
 
     /// An answer that is JSON alone.
@@ -50,47 +45,76 @@ impl Reply {
     pub(crate) fn refusal(refusal: &Refusal) -> Self {
         // Texts and finite numbers can always be written.
         let json = serde_json::to_string(refusal).unwrap_or_default();
-        let digest = Digest::of(json.as_bytes());
+        let digest = Digest::of(json.as_bytes()).to_string();
         Self { json, numbers: Vec::new(), bytes: Vec::new(), refused: true, digest }
     }
+}
 
-    /// What is short, or the refusal, as JSON.
-    #[must_use]
-    pub fn json(&self) -> &str {
-        &self.json
+/// Why a request cannot be met, for a form that shows it where the value is typed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Refusal {
+    /// `out-of-range`, `computation`, `text` or `request`.
+    kind: &'static str,
+    quantity: Option<&'static str>,
+    value: Option<f64>,
+    range: Option<&'static str>,
+    message: String,
+}
+
+impl Refusal {
+    const fn new(kind: &'static str, message: String) -> Self {
+        Self { kind, quantity: None, value: None, range: None, message }
     }
 
-    /// Numbers, in rows; the columns are in `page/src/protocol.ts`.
-    #[must_use]
-    pub fn numbers(&self) -> &[f64] {
-        &self.numbers
+    /// A text that is not a request.
+    pub(crate) fn of_request(error: &serde_json::Error) -> Self {
+        Self::new("request", format!("the request cannot be read: {error}"))
     }
 
-    /// Labels, modes and kinds.
-    #[must_use]
-    pub fn bytes(&self) -> &[u8] {
-        &self.bytes
+    /// A number of a request that no value of the library would refuse.
+    pub(crate) fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> Self {
+        Error::OutOfRange { field, value, legal }.into()
     }
+}
 
-    /// Whether the request is refused.
-    #[must_use]
-    pub const fn refused(&self) -> bool {
-        self.refused
+impl From<Error> for Refusal {
+    fn from(error: Error) -> Self {
+        let message = error.to_string();
+        match error {
+            Error::OutOfRange { field, value, legal }
+            | Error::Core(CoreError::OutOfRange { field, value, legal }) => Self {
+                kind: "out-of-range",
+                quantity: Some(field),
+                // JSON has no infinity; the message has it.
+                value: Some(value).filter(|value| value.is_finite()),
+                range: Some(legal),
+                message,
+            },
+            _ => Self::new("computation", message),
+        }
     }
+}
 
-    /// The digest of all of it, which is the same on every machine.
-    #[must_use]
-    pub const fn digest(&self) -> Digest {
-        self.digest
+impl From<CoreError> for Refusal {
+    fn from(error: CoreError) -> Self {
+        Error::from(error).into()
     }
+}
 
-    /// The numbers, which are gone from here then.
-    pub fn take_numbers(&mut self) -> Vec<f64> {
-        std::mem::take(&mut self.numbers)
+impl From<FitError> for Refusal {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Model(error) => error.into(),
+            _ => Self::new("computation", error.to_string()),
+        }
     }
+}
 
-    /// The bytes, which are gone from here then.
-    pub fn take_bytes(&mut self) -> Vec<u8> {
-        std::mem::take(&mut self.bytes)
+impl From<MotorFileError> for Refusal {
+    fn from(error: MotorFileError) -> Self {
+        match error {
+            MotorFileError::Illegal(error) => error.into(),
+            _ => Self::new("text", error.to_string()),
+        }
     }
 }

@@ -1,10 +1,12 @@
-//! Requests, in the order and with the names of `page/src/protocol.ts`.
+//! Requests. Numbers are SI and angles are radians, unless a name says otherwise: phases of pictures are in periods of the
+//! platform, and the speeds of impacts are normalised by the amplitude of the platform's velocity, |w_A| Gamma/(A omega),
+//! as in Fig. 7 of the paper. A range goes from a low to a high number.
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::{DiskParameters, MotorParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
-use crate::refusal::Refusal;
+use crate::reply::Refusal;
 
 /// Platform and disk in SI units, in one flat table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -95,23 +97,68 @@ pub(crate) enum MotionStart {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "call", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum Request {
-    Check { system: SystemParameters },
-    Motion { system: SystemParameters, start: MotionStart, periods: u64, samples_per_period: u64 },
+    /// Are these parameters legal, and what follows from them?
+    Check {
+        system: SystemParameters,
+    },
+    /// The motion of the engine.
+    Motion {
+        system: SystemParameters,
+        start: MotionStart,
+        periods: u64,
+        samples_per_period: u64,
+    },
     Diagram(DiagramRequest),
-    Orbit { axial_forcing: f64, restitution: f64, start: ImpactStart },
-    Branches { restitution: f64, axial_forcing: [f64; 2] },
-    Attractors { axial_forcing: f64, restitution: f64 },
+    /// What the orbit from a start does for good.
+    Orbit {
+        axial_forcing: f64,
+        restitution: f64,
+        start: ImpactStart,
+    },
+    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they lie in a range.
+    Branches {
+        restitution: f64,
+        axial_forcing: [f64; 2],
+    },
+    /// All attractors of a map with the shares of the starts that end on them.
+    Attractors {
+        axial_forcing: f64,
+        restitution: f64,
+    },
     Basins(BasinsRequest),
-    MotorReport { sheet: MotorParameters },
-    MotorTransient { sheet: MotorParameters, members: usize, rise_times: f64, points: usize, seed: u64 },
+    /// What a data sheet says before anything turns.
+    MotorReport {
+        sheet: MotorParameters,
+    },
+    /// Run-ups of so many motors.
+    MotorTransient {
+        sheet: MotorParameters,
+        members: usize,
+        rise_times: f64,
+        points: usize,
+        seed: u64,
+    },
     MotorLoads(LoadsRequest),
-    MotorStall { sheet: MotorParameters, relative_error: f64, seed: u64 },
-    SheetWrite { sheet: MotorParameters },
-    SheetRead { text: String },
-    SheetOfSystem { system: SystemParameters, mass: f64 },
+    /// The load that stops the motor.
+    MotorStall {
+        sheet: MotorParameters,
+        relative_error: f64,
+        seed: u64,
+    },
+    SheetWrite {
+        sheet: MotorParameters,
+    },
+    SheetRead {
+        text: String,
+    },
+    SheetOfSystem {
+        system: SystemParameters,
+        mass: f64,
+    },
 }
 
-/// Columns of an orbit diagram.
+/// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular forcing, the
+/// phase lag and the load of the system, of which the amplitude alone is that of the column.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramRequest {
@@ -130,7 +177,7 @@ pub(crate) struct DiagramRequest {
     pub(crate) rotation: bool,
 }
 
-/// Rows of basins.
+/// The rows `[from, to)` of a grid of starts.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BasinsRequest {
@@ -143,14 +190,14 @@ pub(crate) struct BasinsRequest {
     pub(crate) rows: [usize; 2],
 }
 
-/// The steady operation of a motor under loads.
+/// The steady operation of a motor under loads (N m).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LoadsRequest {
     pub(crate) sheet: MotorParameters,
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
-    /// Most impacts that the answer may take.
+    /// Most impacts that the answer may take, up to 20 million; 5 million where nothing is said.
     #[serde(default)]
     pub(crate) most_impacts: Option<u64>,
     pub(crate) seed: u64,

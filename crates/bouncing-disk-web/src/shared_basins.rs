@@ -1,38 +1,17 @@
 //! The attractors of a map, and rows of their basins.
 
-use bouncing_disk::core::{
-    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Unobserved,
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::attractors::{
+    Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
 };
-use serde::Serialize;
+use serde_json::{Value, json};
 
-use crate::refusal::Refusal;
-use crate::reply::Reply;
+use crate::reply::{Refusal, Reply};
 use crate::request::{BasinsRequest, ImpactStart, map};
 
 /// The attractors of the map that was asked about last: the rows of its basins follow.
 #[derive(Debug, Default)]
 pub(crate) struct SharedAttractors(Option<Attractors>);
-
-#[derive(Debug, Serialize)]
-struct AttractorsJson {
-    attractors: Vec<AttractorJson>,
-    undecided: f64,
-    /// The sample of starts that the shares are of: how many, over all phases, and the largest normalised speed among them.
-    starts: u32,
-    fastest_start: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct AttractorJson {
-    label: Option<u8>,
-    kind: &'static str,
-    text: String,
-    share: f64,
-    interval: (f64, f64),
-    lasts: bool,
-    leads_to: Option<usize>,
-    impact: Option<ImpactStart>,
-}
 
 impl SharedAttractors {
     /// The attractors, searched for where they are not those of the last map.
@@ -45,18 +24,24 @@ impl SharedAttractors {
         Ok(self.0.insert(found))
     }
 
-    pub(crate) fn told(&mut self, axial_forcing: f64, restitution: f64) -> Result<Reply, Refusal> {
+    /// All attractors of a map with the shares of a sample of starts that end on them, and their 95 % intervals. A label
+    /// is what `rows` has in its cells, null beyond the 251 that a byte holds; an attractor that does not last may lead to
+    /// another one; a periodic one has one of its impacts. The sample has so many starts, evenly over all phases and the
+    /// speeds up to the bound that no attractor exceeds at that phase; `fastest_start` is the largest of that bound.
+    pub(crate) fn list(&mut self, axial_forcing: f64, restitution: f64) -> Result<Reply, Refusal> {
         let found = self.of(axial_forcing, restitution)?;
         let attractors = found.all().iter().enumerate();
-        let attractors = attractors.map(|(number, attractor)| told(found.label(number), attractor)).collect();
-        Reply::short(&AttractorsJson {
-            attractors,
-            undecided: found.undecided().value(),
-            starts: found.search().starts(),
-            fastest_start: found.map().impact_speed_bound() / std::f64::consts::PI,
-        })
+        let attractors: Vec<_> =
+            attractors.map(|(number, one)| described(found.label(number), one)).collect();
+        Reply::short(&json!({
+            "attractors": attractors,
+            "undecided": found.undecided().value(),
+            "starts": found.search().starts(),
+            "fastest_start": found.map().impact_speed_bound() / std::f64::consts::PI,
+        }))
     }
 
+    /// Bytes: the labels of rows of a grid of starts, with the phase along a row, from the lowest speed up.
     pub(crate) fn rows(&mut self, request: &BasinsRequest) -> Result<Reply, Refusal> {
         let ([low, high], [slow, fast]) = (request.phase_periods, request.normalised_speed);
         let grid = Grid::new(Axis::new(low, high, request.phases)?, Axis::new(slow, fast, request.speeds)?)?;
@@ -70,7 +55,7 @@ impl SharedAttractors {
     }
 }
 
-fn told(label: Option<u8>, attractor: &Attractor) -> AttractorJson {
+fn described(label: Option<u8>, attractor: &Attractor) -> Value {
     let (mut impact, mut leads_to) = (None, None);
     let kind = match &attractor.kind {
         AttractorKind::Rest(after) => {
@@ -88,14 +73,14 @@ fn told(label: Option<u8>, attractor: &Attractor) -> AttractorJson {
         AttractorKind::Chaotic { .. } => "chaotic",
         _ => "unclassified",
     };
-    AttractorJson {
-        label,
-        kind,
-        text: attractor.kind.to_string(),
-        share: attractor.starts.value(),
-        interval: attractor.starts.interval(),
-        lasts: attractor.kind.lasts(),
-        leads_to,
-        impact,
-    }
+    json!({
+        "label": label,
+        "kind": kind,
+        "text": attractor.kind.to_string(),
+        "share": attractor.starts.value(),
+        "interval": attractor.starts.interval(),
+        "lasts": attractor.kind.lasts(),
+        "leads_to": leads_to,
+        "impact": impact,
+    })
 }

@@ -1,6 +1,6 @@
 //! Answers to requests: what a page relies on, and every seam of what it may ask.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk_web::{Explorer, Reply};
 use serde_json::{Value, json};
 
@@ -33,15 +33,29 @@ fn ask(request: &Value) -> Reply {
 
 fn answered(request: &Value) -> (Value, Reply) {
     let reply = ask(request);
-    assert!(!reply.refused(), "{request}: {}", reply.json());
-    (serde_json::from_str(reply.json()).expect("JSON"), reply)
+    assert!(!reply.refused, "{request}: {}", reply.json);
+    (serde_json::from_str(&reply.json).expect("JSON"), reply)
 }
 
 fn refused(request: &Value) -> Value {
     let reply = ask(request);
-    assert!(reply.refused(), "{request}: {}", reply.json());
-    assert!(reply.numbers().is_empty() && reply.bytes().is_empty());
-    serde_json::from_str(reply.json()).expect("JSON")
+    assert!(reply.refused, "{request}: {}", reply.json);
+    assert!(reply.numbers.is_empty() && reply.bytes.is_empty());
+    serde_json::from_str(&reply.json).expect("JSON")
+}
+
+/// A number of an answer, by a JSON pointer; it must be there.
+fn number(json: &Value, name: &str) -> f64 {
+    let found = if name.starts_with('/') { json.pointer(name) } else { json.get(name) };
+    found.and_then(Value::as_f64).unwrap_or_else(|| panic!("{name} of {json}"))
+}
+
+fn list<'a>(json: &'a Value, name: &str) -> &'a [Value] {
+    json[name].as_array().unwrap_or_else(|| panic!("{name} of {json}"))
+}
+
+fn bits(numbers: &[f64]) -> Vec<u64> {
+    numbers.iter().map(|number| number.to_bits()).collect()
 }
 
 fn start() -> Value {
@@ -70,7 +84,7 @@ fn basins(rows: [usize; 2]) -> Value {
 fn a_system_is_checked_by_the_ranges_of_the_library() {
     let (summary, _) = answered(&json!({ "call": "check", "system": pizza() }));
     let forcing = 0.13 * 225.0 / (std::f64::consts::PI * 9.8);
-    assert!((summary["axial_forcing"].as_f64().expect("a number") - forcing).abs() < 1e-15);
+    assert!((number(&summary, "axial_forcing") - forcing).abs() < 1e-15);
     assert_eq!(summary["bounces"], true);
     for (name, value) in [("restitution", 1.5), ("amplitude", -1.0), ("angular_frequency", 0.0)] {
         let system = with(pizza(), json!({ name: value }));
@@ -92,7 +106,7 @@ fn what_is_no_request_is_told() {
     for text in ["", "null", "{}", "{\"call\": \"nothing\"}", "{\"call\": \"check\"}", "\u{0}", deep.as_str()]
     {
         let reply = explorer.respond(text);
-        assert!(reply.refused() && reply.json().contains("\"kind\":\"request\""), "{}", reply.json());
+        assert!(reply.refused && reply.json.contains("\"kind\":\"request\""), "{}", reply.json);
     }
     let unknown = with(pizza(), json!({ "colour": 1.0 }));
     assert_eq!(refused(&json!({ "call": "check", "system": unknown }))["kind"], "request");
@@ -110,21 +124,18 @@ fn a_longer_motion_begins_like_a_shorter_one() {
     ] {
         let (short, few) = answered(&motion(start.clone(), 3));
         let (long, many) = answered(&motion(start, 12));
-        let samples = |json: &Value| json["samples"].as_u64().expect("a count") as usize;
-        let events = |json: &Value| json["events"].as_u64().expect("a count") as usize;
-        assert_eq!((samples(&short), samples(&long)), (181, 721));
-        assert_eq!(few.numbers().len(), 9 * samples(&short) + 6 * events(&short));
-        assert_eq!(few.bytes().len(), samples(&short) + events(&short));
-        assert_eq!(few.numbers()[..9 * 181], many.numbers()[..9 * 181]);
-        assert_eq!(few.bytes()[..181], many.bytes()[..181]);
-        let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
-        let (own, others) = (&few.numbers()[9 * 181..], &many.numbers()[9 * 721..]);
+        let events = number(&short, "events") as usize;
+        assert_eq!((&short["samples"], &long["samples"]), (&json!(181), &json!(721)));
+        assert_eq!((few.numbers.len(), few.bytes.len()), (9 * 181 + 6 * events, 181 + events));
+        assert_eq!(few.numbers[..9 * 181], many.numbers[..9 * 181]);
+        assert_eq!(few.bytes[..181], many.bytes[..181]);
+        let (own, others) = (&few.numbers[9 * 181..], &many.numbers[9 * 721..]);
         assert_eq!(bits(own), bits(&others[..own.len()]));
         // Twelve periods take the time that they take, and the disk is never under the platform.
-        let last = many.numbers()[9 * 720];
+        let last = many.numbers[9 * 720];
         assert!((last - 12.0 * std::f64::consts::TAU / 15.0).abs() < 1e-12, "{last}");
         let above = |row: &[f64]| row[1] >= row[5] - 1e-12;
-        assert!(many.numbers()[..9 * 721].chunks(9).all(above));
+        assert!(many.numbers[..9 * 721].chunks(9).all(above));
     }
 }
 
@@ -143,9 +154,9 @@ fn energy_is_balanced_in_a_contact_that_does_not_end() {
         let mut request = motion(start.clone(), periods);
         request["system"] = with(rotor.clone(), json!({ "load_acceleration": load }));
         let (json, reply) = answered(&request);
-        let energy = |name: &str| json["energy"][name].as_f64().expect("a number");
+        let energy = |name: &str| number(&json["energy"], name);
         let samples = 60 * periods as usize;
-        let last = reply.numbers()[9 * samples + 4];
+        let last = reply.numbers[9 * samples + 4];
         let lost = 0.5 * 6.3e-3 * 6.3e-3 * (900.0 - last * last);
         let (friction, work) = (energy("friction_loss"), energy("load_work"));
         assert!((friction + work - lost).abs() < 1e-9 * lost, "{lost} of {json}");
@@ -164,15 +175,15 @@ fn energy_is_balanced_at_the_end_of_any_motion() {
             let mut request = motion(start, periods);
             request["system"] = with(pizza(), json!({ "amplitude": 0.06, "load_acceleration": 0.5 }));
             let (json, reply) = answered(&request);
-            let energy = |name: &str| json["energy"][name].as_f64().expect("a number");
+            let energy = |name: &str| number(&json["energy"], name);
             let gone =
                 energy("restitution_loss") + energy("friction_loss") + energy("load_work") + energy("stored");
             let size = energy("platform_work").abs() + energy("restitution_loss") + energy("friction_loss");
             assert!((energy("platform_work") - gone).abs() < 1e-12 * (1.0 + size), "{periods} {json}");
             // The impact at the start is before it.
             let held = |row: &[f64]| 0.5 * (row[3] * row[3] + 0.11 * 0.11 * row[4] * row[4]) + 9.8 * row[1];
-            let samples = json["samples"].as_u64().expect("a count") as usize;
-            let row = |index: usize| held(&reply.numbers()[9 * index..9 * (index + 1)]);
+            let samples = number(&json, "samples") as usize;
+            let row = |index: usize| held(&reply.numbers[9 * index..9 * (index + 1)]);
             assert!(
                 (row(samples - 1) - row(0) - energy("stored")).abs() < 1e-9 * (1.0 + size),
                 "{periods} {json}"
@@ -189,7 +200,7 @@ fn a_disk_that_is_never_thrown_lies_on_the_platform() {
     request["system"] = still;
     let (json, reply) = answered(&request);
     assert_eq!(json["samples"], 121);
-    assert!(reply.numbers()[..9 * 121].chunks(9).all(|row| row[1].to_bits() == row[5].to_bits()));
+    assert!(reply.numbers[..9 * 121].chunks(9).all(|row| row[1].to_bits() == row[5].to_bits()));
 }
 
 #[test]
@@ -211,29 +222,17 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     for rotation in [false, true] {
         let (_, all) = answered(&diagram([0, 40], rotation));
         let mut parts = Vec::new();
-        for from in [0, 7, 8, 39] {
-            let to = if from == 0 {
-                7
-            } else if from == 7 {
-                8
-            } else if from == 8 {
-                39
-            } else {
-                40
-            };
-            parts.extend_from_slice(answered(&diagram([from, to], rotation)).1.numbers());
+        for columns in [[0, 7], [7, 8], [8, 39], [39, 40]] {
+            parts.extend_from_slice(&answered(&diagram(columns, rotation)).1.numbers);
         }
-        let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<_>>();
-        assert_eq!(bits(all.numbers()), bits(&parts));
-        assert_eq!(all.numbers().chunks(4).all(|row| row[3].is_nan()), !rotation);
+        assert_eq!(bits(&all.numbers), bits(&parts));
+        assert_eq!(all.numbers.chunks(4).all(|row| row[3].is_nan()), !rotation);
     }
     // The rotation does not act back on the vertical motion: the same impacts, in the same order.
     let (_, without) = answered(&diagram([0, 40], false));
     let (_, rotating) = answered(&diagram([0, 40], true));
-    let vertical = |reply: &Reply| {
-        let rows = reply.numbers().chunks(4);
-        rows.flat_map(|row| row[..3].iter().map(|number| number.to_bits())).collect::<Vec<_>>()
-    };
+    let vertical =
+        |reply: &Reply| reply.numbers.chunks(4).flat_map(|row| bits(&row[..3])).collect::<Vec<_>>();
     assert_eq!(vertical(&without), vertical(&rotating));
     for columns in [[3, 2], [0, 41]] {
         assert_eq!(refused(&diagram(columns, false))["quantity"], "columns");
@@ -248,9 +247,8 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
 /// 300 bring them about.
 #[test]
 fn columns_are_followed_until_they_have_settled() {
-    let unit = answered(&json!({ "call": "check", "system": pizza() })).0["angular_forcing"].as_f64();
-    let system =
-        with(pizza(), json!({ "phase_lag": 0.0, "twist_amplitude": 100.0 / unit.expect("friction") }));
+    let unit = number(&answered(&json!({ "call": "check", "system": pizza() })).0, "angular_forcing");
+    let system = with(pizza(), json!({ "phase_lag": 0.0, "twist_amplitude": 100.0 / unit }));
     for (forcing, spins) in [(0.51, [0.9028, 0.9219]), (0.53, [0.9495, 0.9683])] {
         let request = with(
             diagram([0, 1], true),
@@ -260,8 +258,8 @@ fn columns_are_followed_until_they_have_settled() {
         assert_eq!((&json["unsettled"], &json["left_out"]), (&json!(1), &json!(300)));
         let (json, reply) = answered(&with(request, json!({ "patience": 3000 })));
         assert_eq!(json["unsettled"], 0, "{json}");
-        assert!(json["left_out"].as_u64().is_some_and(|left_out| (500..2000).contains(&left_out)), "{json}");
-        for row in reply.numbers().chunks(4) {
+        assert!((500.0..2000.0).contains(&number(&json, "left_out")), "{json}");
+        for row in reply.numbers.chunks(4) {
             assert!(spins.iter().any(|spin| (row[3] - spin).abs() < 1e-4), "{forcing}: {row:?}");
         }
     }
@@ -270,11 +268,11 @@ fn columns_are_followed_until_they_have_settled() {
     let (json, _) = answered(&with(diagram([0, 40], false), near));
     assert_eq!((&json["unsettled"], &json["left_out"]), (&json!(40), &json!(3000)));
     let (json, _) = answered(&with(diagram([0, 40], false), json!({ "patience": 3000, "recorded": 200 })));
-    assert!(json["unsettled"].as_u64().is_some_and(|unsettled| unsettled <= 1), "{json}");
+    assert!(number(&json, "unsettled") <= 1.0, "{json}");
     // Without friction or twist there is no spin, and no rounding of one.
     for idle in [json!({ "friction": 0.0 }), json!({ "twist_amplitude": 0.0 })] {
         let (_, reply) = answered(&with(diagram([0, 40], true), json!({ "system": with(pizza(), idle) })));
-        assert!(!reply.numbers().is_empty() && reply.numbers().chunks(4).all(|row| row[3].is_nan()));
+        assert!(!reply.numbers.is_empty() && reply.numbers.chunks(4).all(|row| row[3].is_nan()));
     }
     assert_eq!(
         refused(&with(diagram([0, 40], true), json!({ "patience": 1e7 as u64 })))["quantity"],
@@ -288,94 +286,79 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     let whole = ask(&basins([0, 20]));
     let mut labels = Vec::new();
     for rows in [[0, 1], [1, 13], [13, 20]] {
-        labels.extend_from_slice(explorer.respond(&basins(rows).to_string()).bytes());
+        labels.extend_from_slice(&explorer.respond(&basins(rows).to_string()).bytes);
         // Another map in between: its attractors are not taken for those of this one.
         explorer.respond(r#"{"call": "attractors", "axial_forcing": 0.35, "restitution": 0.5}"#);
     }
-    assert_eq!((whole.bytes().len(), whole.bytes()), (600, &labels[..]));
+    assert_eq!((whole.bytes.len(), &whole.bytes), (600, &labels));
     let (json, _) = answered(&json!({ "call": "attractors", "axial_forcing": 0.486, "restitution": 0.5 }));
-    let known: Vec<_> =
-        json["attractors"].as_array().expect("a list").iter().map(|one| one["label"].as_u64()).collect();
+    let known: Vec<_> = list(&json, "attractors").iter().map(|one| one["label"].as_u64()).collect();
     assert!(labels.iter().all(|label| *label == 0 || known.contains(&Some(u64::from(*label)))));
-    let shares =
-        json["attractors"].as_array().expect("a list").iter().filter_map(|one| one["share"].as_f64());
-    let sum: f64 = shares.sum::<f64>() + json["undecided"].as_f64().expect("a share");
+    let shares = list(&json, "attractors").iter().map(|one| number(one, "share"));
+    let sum = shares.sum::<f64>() + number(&json, "undecided");
     assert!((sum - 1.0).abs() < 1e-12, "{sum}");
     assert_eq!(refused(&basins([5, 4]))["quantity"], "rows");
     assert_eq!(refused(&basins([0, 21]))["quantity"], "rows");
 }
 
-#[test]
-fn branches_go_through_the_doublings_of_the_cascade() {
-    let (json, reply) =
-        answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.3, 0.62] }));
-    let found = json["bifurcations"].as_array().expect("a list");
-    let at = |kind: &str| {
-        let of_kind = found.iter().filter(|one| one["kind"] == kind);
-        of_kind.filter_map(|one| one["axial_forcing"].as_f64()).collect::<Vec<_>>()
-    };
-    // Birth at (1 - r)/(1 + r), and the first doubling in closed form.
-    assert!(at("fold").iter().any(|forcing| (forcing - 1.0 / 3.0).abs() < 1e-9), "{json}");
-    let first = bouncing_disk::core::ImpactMap::first_doubling_forcing(0.5);
-    assert!(at("doubling").iter().any(|forcing| (forcing - first).abs() < 1e-9), "{json}");
-    // Every impact is on an orbit of its map: the closed form of one impact a period.
-    let branches = json["branches"].as_array().expect("a list").len() as f64;
-    for row in reply.numbers().chunks(6) {
-        assert!(
-            (0.3..=0.62).contains(&row[0])
-                && row[3] < branches
-                && [0.0, 1.0].map(f64::to_bits).contains(&row[4].to_bits()),
-            "{row:?}"
-        );
-    }
-    refused(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.6, 0.3] }));
-    refused(&json!({ "call": "branches", "restitution": 1.5, "axial_forcing": [0.3, 0.6] }));
-    let (none, _) = answered(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.1, 0.2] }));
-    assert_eq!(none["branches"], json!([]));
-}
+/// The rows of each line of the branches.
+type Lines = Vec<Vec<[f64; 6]>>;
 
-/// A line of a branch: its rows.
-type Line = Vec<[f64; 6]>;
-
-/// The branches in a window: kinds and forcings of their bifurcations, and the lines.
-fn branches_in(restitution: f64, window: [f64; 2]) -> (Vec<(String, f64)>, Vec<Line>) {
+/// The branches in a window: how many, kinds and forcings of their bifurcations, and the rows of each line.
+fn branches_in(restitution: f64, window: [f64; 2]) -> (f64, Vec<(String, f64)>, Lines) {
     let request = json!({ "call": "branches", "restitution": restitution, "axial_forcing": window });
     let (json, reply) = answered(&request);
-    let bifurcations = json["bifurcations"].as_array().expect("a list").iter().map(|one| {
-        (one["kind"].as_str().expect("a word").to_owned(), one["axial_forcing"].as_f64().expect("a number"))
-    });
-    let mut lines: Vec<Line> = Vec::new();
-    for row in reply.numbers().chunks(6) {
+    let bifurcations = list(&json, "bifurcations").iter();
+    let bifurcations = bifurcations
+        .map(|one| (one["kind"].as_str().expect("a word").to_owned(), number(one, "axial_forcing")))
+        .collect();
+    let mut lines = Lines::new();
+    for row in reply.numbers.chunks(6) {
         if row[5] as usize == lines.len() {
             lines.push(Vec::new());
         }
-        let row = row.try_into().expect("six columns");
-        lines.get_mut(row_line(row)).expect("the lines follow each other").push(row);
+        let row: [f64; 6] = row.try_into().expect("six columns");
+        lines.get_mut(row[5] as usize).expect("the lines follow each other").push(row);
     }
-    (bifurcations.collect(), lines)
+    (number(&json, "branches"), bifurcations, lines)
 }
 
-fn row_line(row: [f64; 6]) -> usize {
-    row[5] as usize
+#[test]
+fn branches_go_through_the_doublings_of_the_cascade() {
+    let (branches, found, lines) = branches_in(0.5, [0.3, 0.62]);
+    let is_there = |kind: &str, wanted: f64| {
+        found.iter().any(|(known, forcing)| known == kind && (forcing - wanted).abs() < 1e-9)
+    };
+    // Birth at (1 - r)/(1 + r), and the first doubling in closed form.
+    assert!(is_there("fold", 1.0 / 3.0), "{found:?}");
+    let first = bouncing_disk::core::ImpactMap::first_doubling_forcing(0.5);
+    assert!(is_there("doubling", first), "{found:?}");
+    for row in lines.iter().flatten() {
+        let stable = [0.0, 1.0].map(f64::to_bits).contains(&row[4].to_bits());
+        assert!((0.3..=0.62).contains(&row[0]) && row[3] < branches && stable, "{row:?}");
+    }
+    refused(&json!({ "call": "branches", "restitution": 0.5, "axial_forcing": [0.6, 0.3] }));
+    refused(&json!({ "call": "branches", "restitution": 1.5, "axial_forcing": [0.3, 0.6] }));
+    assert!(branches_in(0.5, [0.1, 0.2]).0 < 0.5);
 }
 
 #[test]
 fn a_window_may_begin_at_any_forcing() {
     for restitution in [0.0, 0.1, 0.5, 0.9, 0.999999] {
         for window in [[60.0, 60.1], [1e-3, 1e-2], [99.0, 100.0], [0.45, 0.45 + 1e-12], [0.7, 0.7 + 1e-12]] {
-            for row in branches_in(restitution, window).1.iter().flatten() {
+            for row in branches_in(restitution, window).2.iter().flatten() {
                 assert!((window[0]..=window[1]).contains(&row[0]), "{restitution} {window:?}: {row:?}");
             }
         }
     }
-    assert_eq!(branches_in(0.5, [60.0, 60.1]).1.len(), 3);
+    assert_eq!(branches_in(0.5, [60.0, 60.1]).2.len(), 3);
 }
 
 #[test]
 fn the_same_branches_are_seen_whichever_window_looks_at_them() {
-    let (all, _) = branches_in(0.5, [0.3, 0.62]);
+    let (_, all, _) = branches_in(0.5, [0.3, 0.62]);
     for window in [[0.33, 0.34], [0.485, 0.4861], [0.49, 0.53], [0.54, 0.62], [0.5421, 0.5426]] {
-        let (here, lines) = branches_in(0.5, window);
+        let (_, here, lines) = branches_in(0.5, window);
         let wanted: Vec<_> =
             all.iter().filter(|(_, forcing)| (window[0]..=window[1]).contains(forcing)).collect();
         assert_eq!(here.len(), wanted.len(), "{window:?}: {here:?}");
@@ -391,17 +374,19 @@ fn the_same_branches_are_seen_whichever_window_looks_at_them() {
         }
     }
     // Two impacts that attract, one orbit of one impact that does not, and the saddle of the pair: right through.
-    let (_, lines) = branches_in(0.5, [0.49, 0.53]);
+    let (_, _, lines) = branches_in(0.5, [0.49, 0.53]);
     let through = |line: &&Vec<[f64; 6]>| {
         let (first, last) = (line.first().expect("a row"), line.last().expect("a row"));
         (first[0] - last[0]).abs() > 0.04 - 1e-12
     };
-    let stable = lines.iter().filter(through).filter(|line| line.iter().all(|row| row[4] > 0.5)).count();
-    let unstable = lines.iter().filter(through).filter(|line| line.iter().all(|row| row[4] < 0.5)).count();
-    assert_eq!((stable, unstable, lines.len()), (2, 2, 4));
+    let all = |stable: bool| {
+        let through = lines.iter().filter(through);
+        through.filter(|line| line.iter().all(|row| (row[4] > 0.5) == stable)).count()
+    };
+    assert_eq!((all(true), all(false), lines.len()), (2, 2, 4));
     // Right at a doubling, and between two points of a branch.
     for (window, count) in [([0.48600, 0.48601], 4), ([0.45, 0.45 + 1e-12], 2)] {
-        let (_, lines) = branches_in(0.5, window);
+        let (_, _, lines) = branches_in(0.5, window);
         assert_eq!(lines.len(), count, "{window:?}");
     }
 }
@@ -416,9 +401,9 @@ fn an_orbit_is_judged_as_by_the_library() {
     assert_eq!((&judged(0.45)["kind"], &judged(0.45)["impacts"]), (&json!("periodic"), &json!(1)));
     // Two impacts: each has half of the logarithm.
     let two = judged(0.5);
-    let multiplier = |part: usize| two["multipliers"][0][part].as_f64().expect("a number");
-    let logarithm = 0.5 * ln(multiplier(0) * multiplier(0) + multiplier(1) * multiplier(1));
-    let exponent = two["exponent"].as_f64().expect("an exponent");
+    let [real, imaginary] = ["/multipliers/0/0", "/multipliers/0/1"].map(|part| number(&two, part));
+    let logarithm = 0.5 * ln(real * real + imaginary * imaginary);
+    let exponent = number(&two, "exponent");
     assert!((exponent - logarithm / 2.0).abs() < 1e-12 && exponent < 0.0, "{two}");
     assert_eq!((&two["impacts"], &two["exponent_error"]), (&json!(2), &Value::Null));
     assert_eq!(judged(0.553)["kind"], "chaotic");
@@ -430,28 +415,23 @@ fn an_orbit_is_judged_as_by_the_library() {
 fn a_motor_is_that_of_its_sheet() {
     let (report, _) = answered(&json!({ "call": "motor_report", "sheet": sheet() }));
     assert_eq!((&report["mass"], &report["system"]["friction"]), (&json!(1e-3), &json!(0.1)));
-    let largest = report["largest_torque"].as_f64().expect("a torque");
+    let largest = number(&report, "largest_torque");
     let request = json!({
         "call": "motor_loads", "sheet": sheet(), "load_torques": [0.0, 0.3 * largest, 2.0 * largest], "relative_error": 0.2,
         "seed": 1
     });
     let (json, reply) = answered(&request);
-    let statuses: Vec<_> = reply.numbers().chunks(10).map(|row| row[9]).collect();
+    let statuses: Vec<_> = reply.numbers.chunks(10).map(|row| row[9]).collect();
     assert_eq!((statuses.len(), statuses[2]), (3, 2.0));
-    assert!(json["shortfalls"][2].is_string() && reply.numbers()[1] > reply.numbers()[11]);
+    assert!(json["shortfalls"][2].is_string() && reply.numbers[1] > reply.numbers[11]);
     let run = json!({ "call": "motor_transient", "sheet": sheet(), "members": 4, "rise_times": 3.0, "points": 20, "seed": 1 });
-    assert_eq!(answered(&run).1.numbers().len(), 60);
+    assert_eq!(answered(&run).1.numbers.len(), 60);
     refused(&with(request, json!({ "most_impacts": 30_000_000 })));
     for (name, value) in [("members", json!(0)), ("points", json!(1)), ("rise_times", json!(-1.0))] {
         refused(&with(run.clone(), json!({ name: value })));
     }
     let both = with(sheet(), json!({ "twist_amplitude": 1e-4 }));
     refused(&json!({ "call": "motor_report", "sheet": both }));
-}
-
-/// A number of an answer, which must have it.
-fn number(json: &Value, name: &str) -> f64 {
-    json[name].as_f64().unwrap_or_else(|| panic!("{name} of {json}"))
 }
 
 #[test]
@@ -502,7 +482,7 @@ fn a_trap_is_told_if_a_preload_can_meet_it() {
     // All traps of this motor are narrower than any amplitude is known.
     assert_eq!(trap(json!({ "amplitude": 1e-9 })), Value::Null);
     let near = trap(json!({ "preload_acceleration": 9.7973 }));
-    let [from, to] = [0, 1].map(|end| near["forcing_from_to"][end].as_f64().expect("a forcing"));
+    let [from, to] = ["/forcing_from_to/0", "/forcing_from_to/1"].map(|end| number(&near, end));
     assert!(to - from > 5e-4 * to && near["caught"] == false, "{near}");
     // A little beyond the near edge.
     let inside = trap(json!({ "preload_acceleration": 1.0002 * number(&near, "preload_acceleration") }));

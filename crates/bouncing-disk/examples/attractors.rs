@@ -5,9 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{
-    AttractorKind, AttractorSearch, Axis, BasinSettings, Grid, ImpactMap, Unobserved, Vibration,
-};
+use bouncing_disk::core::attractors::{AttractorKind, AttractorSearch, Axis, BasinSettings, Grid};
+use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Fig. 7(b) of the paper, which has two attractors there.

@@ -4,9 +4,8 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{
-    ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, ImpactMap, KnownOrbit, Unobserved, Vibration,
-};
+use bouncing_disk::core::attractors::{ATTACHED, Axis, BasinSettings, FIRST_ORBIT, Grid, KnownOrbit};
+use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
 
 fn main() -> Result<(), Error> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;

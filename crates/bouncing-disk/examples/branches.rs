@@ -5,7 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{Branch, Continuation, ContinuationParameter, ImpactMap, Unobserved, Vibration};
+use bouncing_disk::core::orbits::{Branch, Continuation, ContinuationParameter};
+use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
 
 fn print(name: &str, branch: &Branch) {
     println!("{name}: {} points, then {:?}", branch.points.len(), branch.end);

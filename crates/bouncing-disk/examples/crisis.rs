@@ -5,7 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{CrisisSearch, Unobserved};
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::chaos::CrisisSearch;
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Where do orbits on the attractor that the period-1 orbit leads to begin to come to rest?

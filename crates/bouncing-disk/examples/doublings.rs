@@ -5,7 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{Unobserved, doubling_cascade, feigenbaum_estimates};
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::orbits::{doubling_cascade, feigenbaum_estimates};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let cascade = doubling_cascade(0.5, 10, &Unobserved)?;

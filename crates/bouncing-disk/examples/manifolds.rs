@@ -5,10 +5,9 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{
-    AttractorSearch, BasinSettings, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings, Unobserved,
-    Vibration,
-};
+use bouncing_disk::core::attractors::{AttractorSearch, BasinSettings};
+use bouncing_disk::core::chaos::{ManifoldKind, ManifoldSettings};
+use bouncing_disk::core::{ImpactMap, ImpactState, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.34)?, 0.5)?;

@@ -6,7 +6,8 @@
 use std::collections::BTreeSet;
 
 use bouncing_disk::Error;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration, orbit_diagram};
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 
 fn main() -> Result<(), Error> {
     let restitution = 0.5;

@@ -5,7 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{ImpactMap, OrbitSearch, Unobserved, Vibration};
+use bouncing_disk::core::orbits::OrbitSearch;
+use bouncing_disk::core::{ImpactMap, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // Past the second period doubling.

@@ -8,10 +8,8 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use bouncing_disk::Progress;
-use bouncing_disk::core::{
-    AttractorSearch, Axis, BasinRun, BasinSettings, Basins, Error as CoreError, Grid, ImpactMap, Unobserved,
-    Vibration,
-};
+use bouncing_disk::core::attractors::{AttractorSearch, Axis, BasinRun, BasinSettings, Basins, Grid};
+use bouncing_disk::core::{Error as CoreError, ImpactMap, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;

@@ -5,7 +5,8 @@
 
 use std::error::Error;
 
-use bouncing_disk::core::{ImpactMap, ImpactState, Unobserved, VerdictSettings, Vibration, verdicts};
+use bouncing_disk::core::attractors::{VerdictSettings, verdicts};
+use bouncing_disk::core::{ImpactMap, ImpactState, Unobserved, Vibration};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let forcings = [0.30, 0.40, 0.50, 0.535, 0.555, 0.70, 1.50, 2.73];

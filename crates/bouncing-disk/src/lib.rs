@@ -43,7 +43,6 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
-//! | `extended` | no | in the core: the cascade to 25 digits, cycles in as many digits as they take |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!

@@ -111,14 +111,14 @@ pub(crate) fn drawn_index(random: &mut SplitMix64, count: usize) -> usize {
 /// A number of mean 0 and deviation 1 (Box and Muller).
 #[cfg(any(test, feature = "fit"))]
 pub(crate) fn normal(random: &mut SplitMix64) -> f64 {
-    use bouncing_disk_core::elementary::{cos, ln};
+    use bouncing_disk_core::numerics::elementary::{cos, ln};
     let radius = (-2.0 * ln(1.0 - random.unit())).sqrt();
     radius * cos(std::f64::consts::TAU * random.unit())
 }
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::elementary::{ln, pow};
+    use bouncing_disk_core::numerics::elementary::{ln, pow};
 
     use super::*;
     use crate::testing::Noise;
@@ -126,8 +126,8 @@ mod tests {
     /// The share of Student's distribution between -t and t, by Simpson's rule over the angle atan(x/sqrt(degrees)), in which
     /// its density is a power of the cosine.
     fn share_within(t: f64, degrees: f64) -> f64 {
-        let end = bouncing_disk_core::elementary::atan(t / degrees.sqrt());
-        let density = |angle: f64| pow(bouncing_disk_core::elementary::cos(angle), degrees - 1.0);
+        let end = bouncing_disk_core::numerics::elementary::atan(t / degrees.sqrt());
+        let density = |angle: f64| pow(bouncing_disk_core::numerics::elementary::cos(angle), degrees - 1.0);
         let integral = |to: f64| {
             let (n, h) = (4_000, to / 4_000.0);
             (0..=n).fold(0.0, |sum, i| {

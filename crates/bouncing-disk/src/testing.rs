@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk_core::elementary::exp;
+use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
@@ -50,7 +50,10 @@ pub(crate) fn golden_spread(k: u64) -> f64 {
 
 /// A number whose logarithm is uniform between those of `low` and `high`.
 pub(crate) fn log_uniform(low: f64, high: f64) -> impl Strategy<Value = f64> {
-    let (low, high) = (bouncing_disk_core::elementary::ln(low), bouncing_disk_core::elementary::ln(high));
+    let (low, high) = (
+        bouncing_disk_core::numerics::elementary::ln(low),
+        bouncing_disk_core::numerics::elementary::ln(high),
+    );
     (low..high).prop_map(exp)
 }
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bouncing_disk::core::elementary::{asin, cos, sin, tan};
+use bouncing_disk::core::numerics::elementary::{asin, cos, sin, tan};
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{
     DiskParameters, Engine, Event, EventRecord, InitialCondition, Mode, Platform, PlatformParameters, Stroke,

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
-use super::regression::StraightLine;
+use super::numbers::StraightLine;
 use crate::experiment::ExperimentError;
 
 /// Intervals over which the speed of a transient is averaged.
@@ -156,7 +156,7 @@ mod tests {
             turn(&SpeedCurve { times, speeds, impacts: 0, separations: 0 }).expect("rises")
         };
         assert!((curve(|time| -7.0 * (0.5 * time).min(1.0)) - TURN_OF_RAMP).abs() < 1e-9);
-        let exponential = curve(|time| 3.0 * (1.0 - bouncing_disk::core::elementary::exp(-time)));
+        let exponential = curve(|time| 3.0 * (1.0 - bouncing_disk::core::numerics::elementary::exp(-time)));
         assert!((exponential - TURN_OF_EXPONENTIAL).abs() < 0.01, "{exponential}");
     }
 

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::elementary::{atan, cos};
+use bouncing_disk::core::numerics::elementary::{atan, cos};
 
 use super::toss_case::TossCase;
+use crate::claims::paper::{SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
-use crate::paper::{SectionThree, TableOne};
-use crate::printed::PrintedNumber;
 
 /// Intervals beyond which a grid holds any three angles of three digits.
 pub(crate) const MOST_INTERVALS: u32 = 50;

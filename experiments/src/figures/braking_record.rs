@@ -4,7 +4,7 @@ use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
-use crate::figures::regression::StraightLine;
+use crate::figures::numbers::StraightLine;
 use crate::measured::{Column, Layout, Range, Series};
 
 /// Speeds of the rotor after the motor is switched off.
@@ -64,10 +64,6 @@ pub enum BrakingError {
 }
 
 /// Fits every trial; `moment_of_inertia` is m a_g² (kg m²) and `contact_radius` a_e (m) of Eq. (17).
-///
-/// # Errors
-///
-/// The first trial that does not brake.
 pub fn decelerations(
     series: &Series,
     moment_of_inertia: f64,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::elementary::{acos, atan2, sin_cos};
+use bouncing_disk::core::numerics::elementary::{acos, atan2, sin_cos};
 use bouncing_disk_plot::{Camera, Colour, Dash, Drawing, Path, Stroke};
 use glam::DVec3;
 

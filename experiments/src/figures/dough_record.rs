@@ -4,7 +4,7 @@ use bouncing_disk_plot::{Colour, Dash, Layer, Line, Marker, Scatter};
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
-use crate::figures::regression::StraightLine;
+use crate::figures::numbers::StraightLine;
 use crate::measured::{Column, Layout, Range, SMALLEST, Series};
 
 /// Diameters against time.
@@ -37,10 +37,6 @@ pub struct GrowthError {
 
 impl Growth {
     /// Fits the line to all points of a file.
-    ///
-    /// # Errors
-    ///
-    /// When the line gives no first diameter to divide by.
     pub fn of(series: &Series) -> Result<Self, ExperimentError> {
         let points: Vec<(f64, f64)> = series.rows::<2>().map(|[time, diameter]| (time, diameter)).collect();
         let first = points.first().map_or(f64::NAN, |point| point.0);

@@ -2,17 +2,17 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    self, Attractor, AttractorKind, AttractorSearch, BasinSettings, ChatterPolicy, ImpactMap, Unobserved,
-    Vibration, basin_fractions_over,
+use bouncing_disk::core::attractors::{
+    Attractor, AttractorKind, AttractorSearch, BasinSettings, basin_fractions_over,
 };
+use bouncing_disk::core::{self, ChatterPolicy, ImpactMap, Unobserved, Vibration};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Figure, Legend, Marker, Panel, Raster, Rect, Scatter, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::{Progress, advancing, sharing};
 
 /// Γ of the two sweeps, and the restitution of the second.
@@ -121,7 +121,10 @@ impl Experiment for ExtraAttractors {
         let map = ImpactMap::new(Vibration::from_axial_forcing(BASINS.0)?, RESTITUTION)?;
         let attractors = map.attractors(&search, &Unobserved)?;
         let top = map.impact_speed_bound() / PI;
-        let grid = core::Grid::new(core::Axis::new(0.0, 1.0, cells)?, core::Axis::new(0.0, top, cells)?)?;
+        let grid = core::attractors::Grid::new(
+            core::attractors::Axis::new(0.0, 1.0, cells)?,
+            core::attractors::Axis::new(0.0, top, cells)?,
+        )?;
         let settings = BasinSettings { max_impacts: BASINS.1, ..BasinSettings::default() };
         let basins = attractors.basins(grid, settings, &sharing(progress, cells as u64))?;
         let letter = |label: &u8| char::from(b'a' + (*label).min(25));

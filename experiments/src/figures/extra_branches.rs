@@ -1,18 +1,19 @@
 //! Beyond the paper: the branches of periodic orbits over the orbit diagram.
 
 use bouncing_disk::PAPER_CHATTER;
-use bouncing_disk::core::{
-    BifurcationKind, Branch, ChatterPolicy, Continuation, ContinuationParameter, Error, ImpactMap, Launch,
-    Orbit, Unobserved, Vibration, follow_attractor, orbit_diagram,
+use bouncing_disk::core::orbits::{
+    BifurcationKind, Branch, Continuation, ContinuationParameter, follow_attractor,
 };
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Orbit, Unobserved, Vibration};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
     Marker, Panel, Scatter, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// Γ of the picture, and the pairs of one impact every k periods in it.

@@ -1,15 +1,16 @@
 //! Beyond the paper: the doubling cascade to many digits, and Feigenbaum's constants from it.
 
-use bouncing_disk::core::extended::{self, DoubleDouble};
-use bouncing_disk::core::{FeigenbaumEstimate, Unobserved, doubling_cascade, feigenbaum_estimates};
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::numerics::double_double::DoubleDouble;
+use bouncing_disk::core::orbits::{FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Ticks,
 };
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// Feigenbaum's constants δ and α (K. Briggs, Math. Comp. 57, 435 (1991)).
@@ -101,7 +102,7 @@ impl Experiment for ExtraCascade {
 
 fn cascade(restitution: &str, count: usize) -> Result<Cascade, bouncing_disk::core::Error> {
     let exact: DoubleDouble = restitution.parse()?;
-    let found = extended::doubling_cascade(exact, count, &Unobserved)?;
+    let found = doubling_cascade(exact, count, &Unobserved)?;
     let in_doubles = doubling_cascade(exact.high(), count, &Unobserved)?;
     let separation = |index: usize| (found[index].axial_forcing - found[index - 1].axial_forcing).high();
     let mut to_limit = separation(count - 1) / (PUBLISHED[0] - 1.0);
@@ -132,7 +133,7 @@ fn cascade(restitution: &str, count: usize) -> Result<Cascade, bouncing_disk::co
         };
         (extended.number, [delta, alpha])
     };
-    let estimates = extended::feigenbaum_estimates(&found).into_iter().zip(feigenbaum_estimates(&in_doubles));
+    let estimates = feigenbaum_estimates(&found).into_iter().zip(feigenbaum_estimates(&in_doubles));
     Ok(Cascade { restitution: restitution.to_owned(), doublings, estimates: estimates.map(both).collect() })
 }
 

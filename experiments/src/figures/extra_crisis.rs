@@ -1,18 +1,18 @@
 //! Beyond the paper: what the attractor of Fig. 6 touches where it is lost, and how long orbits live beyond.
 
-use bouncing_disk::core::elementary::pow;
-use bouncing_disk::core::{
-    ChatterPolicy, Crisis, CrisisLives, CrisisSearch, ImpactMap, ImpactState, ManifoldKind, ManifoldSettings,
-    PeriodicOrbit, Unobserved, Vibration, orbit_diagram,
-};
+use bouncing_disk::core::chaos::{Crisis, CrisisLives, CrisisSearch, ManifoldKind, ManifoldSettings};
+use bouncing_disk::core::numerics::elementary::pow;
+use bouncing_disk::core::orbits::PeriodicOrbit;
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, DensePoints, Figure, Line, Marker, Panel, Rect, Scatter, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
 use super::manifold_lines::lines;
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// Γ between which the crisis is sought.

@@ -10,7 +10,6 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use crate::colour_scale::colour;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -137,7 +136,7 @@ fn at(motor: &Motor, (phase_lag, share): (f64, f64)) -> Result<Motor, bouncing_d
 
 /// A grey for what is driven back, and the colours of the levels, one for each per cent.
 fn palette(levels: usize) -> Vec<Colour> {
-    let steps = (0..levels).map(|level| colour((level as f64 + 0.5) / levels as f64));
+    let steps = (0..levels).map(|level| Colour::scale((level as f64 + 0.5) / levels as f64));
     std::iter::once(Colour::PALE_GREY).chain(steps).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Beyond the paper: fits of synthetic transients with their intervals, and durations at which they are refused.
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::core::elementary::exp;
+use bouncing_disk::core::numerics::elementary::exp;
 use bouncing_disk::{FitError, FitSettings, TransientFit};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
@@ -10,7 +10,7 @@ use bouncing_disk_plot::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::synthetic::Noise;
+use super::numbers::Noise;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 

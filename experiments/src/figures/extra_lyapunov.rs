@@ -1,10 +1,9 @@
 //! Beyond the paper: the Lyapunov exponent over the forcing, under the orbit diagram.
 
-use bouncing_disk::core::elementary::ln;
-use bouncing_disk::core::{
-    ChatterPolicy, CycleTrust, ImpactMap, ImpactState, Orbit, UndecidedReason, Unobserved, Verdict,
-    VerdictSettings, Vibration, orbit_diagram, verdicts,
-};
+use bouncing_disk::core::attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, verdicts};
+use bouncing_disk::core::numerics::elementary::ln;
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Unobserved, Vibration};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel, Rule,
     Stroke, Ticks,

@@ -2,18 +2,18 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    self, ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, ImpactState, KnownOrbit, Label,
-    ManifoldKind, ManifoldSettings, OrbitSearch, PeriodicOrbit, Stability, Unobserved, Vibration,
-};
+use bouncing_disk::core::attractors::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, Label};
+use bouncing_disk::core::chaos::{ManifoldKind, ManifoldSettings};
+use bouncing_disk::core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
+use bouncing_disk::core::{self, ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Figure, Grid, Line, Margins, Marker, Panel, Raster, Rect, Scatter, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
 use super::manifold_lines::lines;
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::{Progress, advancing};
 
 /// Top of the window of speeds, that of Fig. 7.
@@ -86,7 +86,10 @@ fn basins(
         known.push(KnownOrbit::new(orbit.clone(), orbit.trapping_radius(&map, 64, &Unobserved)?)?);
     }
     let settings = BasinSettings { max_impacts: IMPACTS, ..BasinSettings::default() };
-    let grid = core::Grid::new(core::Axis::new(0.0, 1.0, cells)?, core::Axis::new(0.0, WINDOW_TOP, cells)?)?;
+    let grid = core::attractors::Grid::new(
+        core::attractors::Axis::new(0.0, 1.0, cells)?,
+        core::attractors::Axis::new(0.0, WINDOW_TOP, cells)?,
+    )?;
     let basins = map.basins(grid, &known, settings, &advancing(progress))?;
     let mut saddles: Vec<PeriodicOrbit> = Vec::new();
     if let Some(pair) = map.period_one_pair(1) {

@@ -2,9 +2,8 @@
 
 use std::f64::consts::{FRAC_1_PI, TAU};
 
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Phase, Verdict, VerdictSettings, Vibration, verdicts,
-};
+use bouncing_disk::core::attractors::{Verdict, VerdictSettings, verdicts};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Line, Panel, Raster, Rect, Rule, Stroke, Ticks,
 };

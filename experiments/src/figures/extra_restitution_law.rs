@@ -3,19 +3,17 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::PAPER_CHATTER;
-use bouncing_disk::core::elementary::acos;
-use bouncing_disk::core::{
-    ChatterPolicy, Constant, ImpactMap, ImpactState, KuwabaraKono, OrbitEvent, Phase, RestitutionLaw,
-    Vibration,
-};
+use bouncing_disk::core::map::{Constant, KuwabaraKono, RestitutionLaw};
+use bouncing_disk::core::numerics::elementary::acos;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Vibration};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
     Panel, Rect, Rule, Scatter, Stroke, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::paper;
 use crate::progress::Progress;
 
 /// The last Γ of the diagram: both attractors are lost before it.

@@ -1,15 +1,25 @@
 //! Fig. 5: hand motions and the dough's motion in single tosses.
 
-mod claims;
-mod compute;
-mod data;
-mod draw;
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, PI};
 
-use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk_plot::Figure;
+use bouncing_disk::{
+    EventKind, InitialSpin, Mode, System,
+    core::{ChatterPolicy, Phase},
+    toss_trajectory,
+};
+use bouncing_disk_plot::{
+    Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel,
+    Rule, Stroke, Text, Ticks,
+};
+use serde::{Deserialize, Serialize};
 
-pub use self::data::Fig05Data;
-use crate::claim::Claim;
+use super::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
+use super::toss_case::TossCase;
+use crate::claims::{
+    self as claim, Claim,
+    paper::{self, SectionThree, TableOne},
+    printed::PrintedNumber,
+};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 use crate::table::{Cell, Table};
@@ -40,22 +50,22 @@ impl Experiment for Fig05 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
-        compute::compute(quality, progress)
+        compute(quality, progress)
     }
 
     fn draw(data: &Fig05Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        Ok(draw(data))
     }
 
     fn claims(data: &Fig05Data) -> Vec<Claim> {
-        claims::claims(data)
+        claims(data)
     }
 
     fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
         let table = &data.table_i;
         let angles: Vec<_> = data.columns.iter().map(|column| column.printed.as_str()).collect();
         let lags = data.columns.first().map_or(String::new(), |column| {
-            column.tosses.iter().map(|toss| claims::pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+            column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
         });
         [
             ("amplitude angle φ_L", angles.join(", ")),
@@ -103,4 +113,574 @@ impl Experiment for Fig05 {
         }
         Some(table)
     }
+}
+
+/// The data of Fig. 5.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig05Data {
+    table_i: TableOne,
+    printed: SectionThree,
+    initial_state: InitialSpin,
+    columns: Vec<Column>,
+    /// The toss at the printed optimal φ_L with phase lags about 0.
+    lags: Vec<Dependence>,
+    firm_grip: Vec<Grip>,
+    grid_point: GridPoint,
+}
+
+/// The φ_L of panel (c) as a point of the even grid on which the three printed angles lie.
+#[derive(Debug, Serialize, Deserialize)]
+struct GridPoint {
+    /// ω of Eq. (14), not rounded.
+    angular_frequency_rad_per_s: f64,
+    largest_amplitude_angle_rad: f64,
+    intervals: u32,
+    index: u32,
+    amplitude_angle_rad: f64,
+}
+
+/// One amplitude ratio.
+#[derive(Debug, Serialize, Deserialize)]
+struct Column {
+    /// φ_L as printed.
+    printed: String,
+    amplitude_angle_rad: f64,
+    amplitude_m: f64,
+    /// ωΦ.
+    largest_hand_speed_rad_per_s: f64,
+    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m
+    /// g).
+    peak_acceleration: f64,
+    /// One per phase lag of the caption.
+    tosses: Vec<Toss>,
+}
+
+/// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from
+/// the hand's mean height.
+#[derive(Debug, Serialize, Deserialize)]
+struct Toss {
+    phase_lag_rad: f64,
+    time_s: Vec<f64>,
+    hand_height_m: Vec<f64>,
+    dough_height_m: Vec<f64>,
+    hand_angle_rad: Vec<f64>,
+    dough_angle_rad: Vec<f64>,
+    hand_speed_rad_per_s: Vec<f64>,
+    dough_speed_rad_per_s: Vec<f64>,
+    separation_time_s: f64,
+    separation_phase_rad: f64,
+    landing_time_s: f64,
+    /// The highest point of the flight.
+    apex_height_m: f64,
+    airborne_speed_rad_per_s: f64,
+    hand_speed_at_separation_rad_per_s: f64,
+    largest_hand_speed_rad_per_s: f64,
+    /// Hand minus dough at the separation.
+    slip_at_separation_rad_per_s: f64,
+    sliding_at_separation: bool,
+    /// Share of the time in contact during which the dough slides.
+    sliding_share_of_contact: f64,
+    /// The dough's lowest speed in contact.
+    lowest_speed_rad_per_s: f64,
+    /// What the speed gains in the second half of the time in contact.
+    late_gain_rad_per_s: f64,
+}
+
+/// What a phase lag does to the toss.
+#[derive(Debug, Serialize, Deserialize)]
+struct Dependence {
+    phase_lag_rad: f64,
+    airborne_speed_rad_per_s: f64,
+    lowest_speed_rad_per_s: f64,
+    late_gain_rad_per_s: f64,
+}
+
+/// The tosses of the three columns at θ_1 with more friction.
+#[derive(Debug, Serialize, Deserialize)]
+struct Grip {
+    friction: f64,
+    /// 1 minus airborne speed over hand speed at the separation, by column.
+    missing_share: Vec<f64>,
+}
+
+/// θ_1 of the caption.
+const FIRST_PHASE_LAG: f64 = 0.0;
+
+/// Phase lags about the optimum for the remarks on torque.
+const PHASE_LAGS_NEAR_ZERO: [f64; 5] = [-FRAC_PI_4, -FRAC_PI_8, 0.0, FRAC_PI_8, FRAC_PI_4];
+
+/// Multiples of Table I's friction for the limit of sufficient friction.
+const FRICTION_FACTORS: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+
+fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
+    let points = quality.choose(60, 240);
+    let table_i = paper::table_one()?;
+    let printed = paper::section_three()?;
+    let table = TossCase::from(&table_i);
+    let angles = [
+        &printed.amplitude_angle_of_largest_speed_ratio_rad,
+        &printed.optimal_amplitude_angle_rad,
+        &printed.amplitude_angle_of_fig5c_rad,
+    ];
+    let phase_lags = [FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
+    progress.start(angles.len() as u64 + 1, "columns");
+    let mut columns = Vec::new();
+    let mut optimum = table;
+    for (index, text) in angles.into_iter().enumerate() {
+        let Some(angle) = PrintedNumber::read(text) else { continue };
+        let case = table.at_angle(angle.value);
+        if index == 1 {
+            optimum = case;
+        }
+        columns.push(Column::new(text, &case, phase_lags, points)?);
+        progress.advance(1);
+    }
+    let lags = PHASE_LAGS_NEAR_ZERO
+        .into_iter()
+        .map(|lag| Toss::new(&optimum.at_lag(lag), points).map(|toss| Dependence::new(&toss)))
+        .collect::<Result<Vec<_>, _>>()?;
+    let firm_grip = FRICTION_FACTORS
+        .into_iter()
+        .map(|factor| Grip::new(&table, factor, &columns))
+        .collect::<Result<Vec<_>, _>>()?;
+    let grid_point = GridPoint::new(&table_i, &printed)?;
+    progress.advance(1);
+    Ok(Fig05Data {
+        table_i,
+        printed,
+        initial_state: InitialSpin::AbsoluteRest,
+        columns,
+        lags,
+        firm_grip,
+        grid_point,
+    })
+}
+
+impl GridPoint {
+    fn new(table: &TableOne, section: &SectionThree) -> Result<Self, ExperimentError> {
+        let case = launch_case(table, section);
+        let grid = AngleGrid::with(case.largest_angle(), &printed_angles(section)?).ok_or_else(unreadable)?;
+        let index = grid.indices.last().copied().ok_or_else(unreadable)?;
+        Ok(Self {
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            largest_amplitude_angle_rad: grid.largest,
+            intervals: grid.intervals,
+            index,
+            amplitude_angle_rad: grid.angle(index),
+        })
+    }
+}
+
+impl Column {
+    fn new(
+        printed: &str,
+        case: &TossCase,
+        phase_lags: [f64; 2],
+        points: u32,
+    ) -> Result<Self, ExperimentError> {
+        let system = case.system()?;
+        let tosses = phase_lags.into_iter().map(|lag| Toss::new(&case.at_lag(lag), points));
+        Ok(Self {
+            printed: printed.to_owned(),
+            amplitude_angle_rad: case.amplitude_angle_rad,
+            amplitude_m: system.platform().amplitude(),
+            largest_hand_speed_rad_per_s: system.platform().peak_angular_speed(),
+            peak_acceleration: system.peak_acceleration(),
+            tosses: tosses.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Toss {
+    fn new(case: &TossCase, points: u32) -> Result<Self, ExperimentError> {
+        let system = case.system()?;
+        let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
+        let scales = system.scales();
+        let mut toss = Self::empty(case.phase_lag_rad);
+        toss.largest_hand_speed_rad_per_s = system.platform().peak_angular_speed();
+        let mut sliding_time = 0.0;
+        let mut contact_speeds = Vec::new();
+        for record in trajectory.records() {
+            let flies = record.before.mode == Mode::Flight;
+            for step in 0..=points {
+                let snapshot = record.evaluate(system.dimensionless(), f64::from(step) / f64::from(points));
+                let time = scales.span_seconds(snapshot.time.since(&trajectory.start()));
+                let state = scales.state(&snapshot.disk);
+                toss.push(&system, snapshot.time.phase, time);
+                toss.dough_height_m.push(state.height);
+                toss.dough_angle_rad.push(state.angle);
+                toss.dough_speed_rad_per_s.push(state.angular_speed);
+                if !flies {
+                    contact_speeds.push((time, state.angular_speed));
+                }
+            }
+            let time = scales.span_seconds(record.time.since(&trajectory.start()));
+            if matches!(record.before.mode, Mode::Sliding(_)) {
+                sliding_time += scales.span_seconds(record.span);
+            }
+            match record.event.kind() {
+                EventKind::Separation => {
+                    let state = scales.state(&record.after);
+                    toss.separation_time_s = time;
+                    toss.separation_phase_rad = record.time.phase.angle();
+                    toss.airborne_speed_rad_per_s = state.angular_speed;
+                    toss.hand_speed_at_separation_rad_per_s =
+                        system.platform().angular_speed(record.time.phase);
+                    toss.slip_at_separation_rad_per_s =
+                        toss.hand_speed_at_separation_rad_per_s - state.angular_speed;
+                    toss.sliding_at_separation = matches!(record.before.mode, Mode::Sliding(_));
+                    let rise = state.axial_velocity * state.axial_velocity
+                        / (2.0 * case.preload_acceleration_m_per_s2);
+                    toss.apex_height_m = state.height + rise;
+                }
+                EventKind::Impact => toss.landing_time_s = time,
+                _ => {}
+            }
+        }
+        toss.sliding_share_of_contact = sliding_time / toss.separation_time_s;
+        toss.lowest_speed_rad_per_s =
+            contact_speeds.iter().map(|(_, speed)| *speed).fold(f64::INFINITY, f64::min);
+        let middle = trajectory.start().after(bouncing_disk::PhaseSpan::from_radians(
+            0.5 * toss.separation_time_s * case.angular_frequency_rad_per_s,
+        ));
+        let speed_at_middle =
+            trajectory.at(middle).map(|snapshot| scales.state(&snapshot.disk).angular_speed);
+        toss.late_gain_rad_per_s = toss.airborne_speed_rad_per_s - speed_at_middle.unwrap_or_default();
+        Ok(toss)
+    }
+
+    fn empty(phase_lag_rad: f64) -> Self {
+        Self {
+            phase_lag_rad,
+            time_s: Vec::new(),
+            hand_height_m: Vec::new(),
+            dough_height_m: Vec::new(),
+            hand_angle_rad: Vec::new(),
+            dough_angle_rad: Vec::new(),
+            hand_speed_rad_per_s: Vec::new(),
+            dough_speed_rad_per_s: Vec::new(),
+            separation_time_s: 0.0,
+            separation_phase_rad: 0.0,
+            landing_time_s: 0.0,
+            apex_height_m: 0.0,
+            airborne_speed_rad_per_s: 0.0,
+            hand_speed_at_separation_rad_per_s: 0.0,
+            largest_hand_speed_rad_per_s: 0.0,
+            slip_at_separation_rad_per_s: 0.0,
+            sliding_at_separation: false,
+            sliding_share_of_contact: 0.0,
+            lowest_speed_rad_per_s: 0.0,
+            late_gain_rad_per_s: 0.0,
+        }
+    }
+
+    fn push(&mut self, system: &System, phase: Phase, time: f64) {
+        let hand = system.platform();
+        self.time_s.push(time);
+        self.hand_height_m.push(hand.height(phase));
+        self.hand_angle_rad.push(hand.angle(phase));
+        self.hand_speed_rad_per_s.push(hand.angular_speed(phase));
+    }
+}
+
+impl Dependence {
+    fn new(toss: &Toss) -> Self {
+        Self {
+            phase_lag_rad: toss.phase_lag_rad,
+            airborne_speed_rad_per_s: toss.airborne_speed_rad_per_s,
+            lowest_speed_rad_per_s: toss.lowest_speed_rad_per_s,
+            late_gain_rad_per_s: toss.late_gain_rad_per_s,
+        }
+    }
+}
+
+impl Grip {
+    fn new(table: &TossCase, factor: f64, columns: &[Column]) -> Result<Self, ExperimentError> {
+        let friction = factor * table.friction;
+        let missing = columns.iter().map(|column| {
+            let case =
+                TossCase { friction, ..table.at_angle(column.amplitude_angle_rad).at_lag(FIRST_PHASE_LAG) };
+            let toss = Toss::new(&case, 1)?;
+            Ok::<_, ExperimentError>(
+                toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s,
+            )
+        });
+        Ok(Self { friction, missing_share: missing.collect::<Result<_, _>>()? })
+    }
+}
+
+const HEIGHT: f64 = 400.0;
+/// The end of the time axes (s): a whole toss for the heights, the contact and what follows for the angles.
+const LAST_TIME: [f64; 3] = [0.9, 0.32, 0.32];
+const COLOURS: [Colour; 2] = [Colour::BLUE, Colour::VERMILION];
+const LAGS: [&str; 2] = [r"$\theta_1 = 0$", r"$\theta_2 = \pi/2$"];
+
+/// One row: what is drawn, and on which axis.
+struct Row {
+    hand: fn(&Toss) -> &[f64],
+    dough: fn(&Toss) -> &[f64],
+    axis: Axis,
+    low: f64,
+    high: f64,
+}
+
+impl Row {
+    /// With an axis over (`low`, `high`) that has a number every `step`.
+    fn new([hand, dough]: [fn(&Toss) -> &[f64]; 2], (low, high): (f64, f64), step: f64, label: &str) -> Self {
+        let axis = Axis::linear(low, high).label(label).ticks(Ticks::every(step)).label_distance(25.0);
+        Self { hand, dough, axis, low, high }
+    }
+}
+
+fn rows() -> [Row; 3] {
+    [
+        Row::new(
+            [|toss| &toss.hand_height_m, |toss| &toss.dough_height_m],
+            (-0.35, 0.95),
+            0.25,
+            "height (m)",
+        ),
+        Row::new(
+            [|toss| &toss.hand_angle_rad, |toss| &toss.dough_angle_rad],
+            (-2.4, 4.8),
+            1.0,
+            "angle (rad)",
+        ),
+        Row::new(
+            [|toss| &toss.hand_speed_rad_per_s, |toss| &toss.dough_speed_rad_per_s],
+            (-30.0, 38.0),
+            10.0,
+            "angular speed (rad/s)",
+        ),
+    ]
+}
+
+fn curve(toss: &Toss, values: &[f64]) -> Line {
+    Line::new(toss.time_s.iter().copied().zip(values.iter().copied()).collect::<Vec<_>>()).width(1.2)
+}
+
+fn panel(mut panel: Panel, column: &Column, row: &Row, index: usize, letter: usize) -> Panel {
+    let last = LAST_TIME[index];
+    let step = if last > 0.5 { 0.2 } else { 0.1 };
+    let y = if letter == 0 { row.axis.clone() } else { row.axis.clone().label("").without_numbers() };
+    panel = panel.x(Axis::linear(0.0, last).label("$t$ (s)").ticks(Ticks::every(step))).y(y);
+    let Some(first) = column.tosses.first() else { return panel };
+    let contact = [(0.0, row.low, row.high), (first.separation_time_s, row.low, row.high)];
+    panel = panel
+        .layer(Band::new(contact).colour(Colour::PALE_GREY).opacity(0.7))
+        .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::LIGHT_GREY, 0.5)))
+        .layer(
+            Rule::vertical(first.separation_time_s)
+                .stroke(Stroke::new(Colour::GREY, 0.7).dashed(Dash::Dotted)),
+        );
+    // Both phase lags have the same heights.
+    let shown = if index == 0 { 1 } else { column.tosses.len() };
+    for (toss, (colour, lag)) in column.tosses.iter().zip(COLOURS.into_iter().zip(LAGS)).take(shown) {
+        let colour = if index == 0 { Colour::BLACK } else { colour };
+        let (hand, dough) = (curve(toss, (row.hand)(toss)), curve(toss, (row.dough)(toss)));
+        let hand = hand.colour(colour).dash(Dash::Dashed);
+        let dough = dough.colour(colour);
+        panel = match index {
+            0 => panel.layer(hand.name("hand")).layer(dough.name("dough")),
+            _ => panel.layer(hand).layer(dough.name(lag)),
+        };
+    }
+    match (index, letter) {
+        (0, 2) | (1, 0) => panel = panel.legend(Legend::at(Corner::TopRight).without_frame().inset(2.0)),
+        _ => {}
+    }
+    if index == 0 {
+        let name = format!(r"$\phi_L = {}$", column.printed.replace('π', r"\pi"));
+        let sep = Text::at_data(
+            first.separation_time_s + 0.012 * last,
+            row.low + 0.12 * (row.high - row.low),
+            r"$t_{sep}$",
+        );
+        panel = panel
+            .title(format!("({}) {name}", ["a", "b", "c"][letter]))
+            .layer(sep.anchor(Anchor::LeftCentre).size(8.0));
+    }
+    panel
+}
+
+fn draw(data: &Fig05Data) -> Figure {
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
+        .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
+        .gaps(10.0, 36.0);
+    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+    for (index, row) in rows().iter().enumerate() {
+        for (letter, column) in data.columns.iter().enumerate() {
+            figure = figure.panel(panel(Panel::new(grid.cell(index, letter)), column, row, index, letter));
+        }
+    }
+    figure
+}
+
+/// The share of the hand's speed that a dough in a firm grip may lack.
+const NEARLY_NOTHING: f64 = 0.01;
+/// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
+const ROUNDING: f64 = 100.0 * f64::EPSILON;
+fn pi(angle: f64) -> String {
+    format!("{:.3}π", angle / PI)
+}
+
+/// The toss at θ_1 of a column.
+fn first(column: &Column) -> Option<&Toss> {
+    column.tosses.first()
+}
+
+/// A quantity of the tosses at θ_1, by column, as text.
+fn listed(data: &Fig05Data, value: impl Fn(&Column, &Toss) -> String) -> String {
+    let parts = data.columns.iter().filter_map(|column| {
+        first(column).map(|toss| format!("φ_L = {}: {}", column.printed, value(column, toss)))
+    });
+    parts.collect::<Vec<_>>().join("; ")
+}
+
+fn values(data: &Fig05Data, value: impl Fn(&Column, &Toss) -> f64) -> Vec<f64> {
+    data.columns.iter().filter_map(|column| first(column).map(|toss| value(column, toss))).collect()
+}
+
+fn rises(values: &[f64]) -> Option<bool> {
+    claim::all(values.windows(2), |pair| pair[0] < pair[1])
+}
+
+fn falls(values: &[f64]) -> Option<bool> {
+    claim::all(values.windows(2), |pair| pair[0] > pair[1])
+}
+
+/// Whether all of several statements hold; `None` where one of them has no data.
+fn both<const N: usize>(statements: [Option<bool>; N]) -> Option<bool> {
+    statements.into_iter().try_fold(true, |so_far, holds| Some(so_far && holds?))
+}
+
+fn claims(data: &Fig05Data) -> Vec<Claim> {
+    let mut claims = amplitude_ratio(data);
+    claims.extend(limits(data));
+    claims.extend(phase_lag(data));
+    claims
+}
+
+/// What φ_L does.
+fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
+    let slip_share =
+        |_: &Column, toss: &Toss| toss.slip_at_separation_rad_per_s / toss.hand_speed_at_separation_rad_per_s;
+    let slips = values(data, slip_share);
+    let point = &data.grid_point;
+    let height = values(data, |_, toss| toss.apex_height_m);
+    let speed = values(data, |_, toss| toss.airborne_speed_rad_per_s);
+    vec![
+        Claim::printed_statement(
+            "section3.slip_at_high_angle",
+            both([
+                data.columns.last().and_then(first).map(|toss| toss.sliding_at_separation),
+                rises(&slips),
+            ]),
+            listed(data, |column, toss| {
+                format!(
+                    "{} at the separation, {:.2} rad/s or {:.1} % behind the hand, sliding for {:.0} % of the contact",
+                    if toss.sliding_at_separation { "slides" } else { "sticks" },
+                    toss.slip_at_separation_rad_per_s,
+                    100.0 * slip_share(column, toss),
+                    100.0 * toss.sliding_share_of_contact
+                )
+            }),
+        )
+        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand; φ_L = π/2 itself \
+               is out of reach, since the dough does not leave beyond arccos(g/cω²)"),
+        Claim::printed_statement(
+            "section3.middle_column_is_fastest",
+            match speed[..] {
+                [low, middle, high] => Some(middle > low && middle > high),
+                _ => None,
+            },
+            listed(data, |_, toss| format!("airborne speed {:.2} rad/s", toss.airborne_speed_rad_per_s)),
+        )
+        .note("θ = 0; the fastest toss with Table I's parameters has another φ_L, see fig04"),
+        Claim::printed_statement(
+            "section3.height_falls_with_angle",
+            falls(&height),
+            listed(data, |_, toss| format!("apex {:.3} m above the hand's mean height", toss.apex_height_m)),
+        ),
+        Claim::printed("section3.amplitude_angle_of_fig5c", point.amplitude_angle_rad)
+            .fitted("the number of equal intervals of φ_L, the smallest with which all three printed angles are points of the grid")
+            .note(format!(
+                "computed {:.4}π: point {} of {} equal intervals from 0 to arccos(g/cω²) = {:.4}π with ω = {:.3} rad/s of Eq. (14), see fig04",
+                point.amplitude_angle_rad / PI,
+                point.index,
+                point.intervals,
+                point.largest_amplitude_angle_rad / PI,
+                point.angular_frequency_rad_per_s
+            )),
+    ]
+}
+
+/// Enough force and friction.
+fn limits(data: &Fig05Data) -> Vec<Claim> {
+    let shares =
+        |missing: &[f64]| missing.iter().map(|share| format!("{share:.1e}")).collect::<Vec<_>>().join(", ");
+    let grips: Vec<_> = data
+        .firm_grip
+        .iter()
+        .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
+        .collect();
+    let converges = claim::all(0..data.columns.len(), |column| {
+        let missing: Vec<f64> = data
+            .firm_grip
+            .iter()
+            .filter_map(|grip| grip.missing_share.get(column))
+            .map(|share| share.abs())
+            .collect();
+        // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
+        falls(missing.get(1..).unwrap_or_default()) == Some(true)
+            && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
+    });
+    vec![Claim::printed_statement(
+        "section3.no_slip_at_separation",
+        converges,
+        format!(
+            "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
+             θ = 0: {}; it vanishes as μ grows. Just before τ_sep it always slides, since N falls to zero",
+            grips.join("; ")
+        ),
+    )]
+}
+
+/// What θ does.
+fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
+    let lags = &data.lags;
+    let late = |wanted: fn(f64) -> bool| {
+        lags.iter().filter(move |lag| wanted(lag.phase_lag_rad)).map(|lag| lag.late_gain_rad_per_s)
+    };
+    let at_zero = late(|lag| lag == FIRST_PHASE_LAG).next();
+    let reduced = at_zero.and_then(|zero| claim::all(late(|lag| lag > 0.0), |gain| gain < zero));
+    let at_rest =
+        ROUNDING * data.columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
+    let reversed =
+        claim::all(lags, |lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
+    let described = |value: fn(&Dependence) -> f64| {
+        // No minus sign before a zero.
+        let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };
+        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), shown(value(lag))));
+        parts.collect::<Vec<_>>().join("; ")
+    };
+    let angle = &data.printed.optimal_amplitude_angle_rad;
+    vec![
+        Claim::printed_statement(
+            "section3.positive_lag_torque",
+            reduced,
+            format!(
+                "speed gained in the second half of the contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.late_gain_rad_per_s)
+            ),
+        ),
+        Claim::printed_statement(
+            "section3.negative_lag_torque",
+            reversed,
+            format!(
+                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
+                described(|lag| lag.lowest_speed_rad_per_s)
+            ),
+        ),
+    ]
 }

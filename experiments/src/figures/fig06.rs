@@ -24,7 +24,7 @@ use bouncing_disk_plot::Figure;
 
 pub(super) use self::compute::FORCING_RANGE;
 pub use self::data::Fig06Data;
-use crate::claim::Claim;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -109,7 +109,7 @@ fn lag(data: &Fig06Data) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::claim::{Class, Computed};
+    use crate::claims::{Class, Computed};
     use crate::progress::Silent;
 
     /// What is judged over a list of data is not judged where the list is empty.
@@ -131,9 +131,9 @@ mod tests {
         // The multiplier of one orbit is one number, not a list.
         let single = ["the period-1 orbit exists and attracts at Γ = 0.335, where following starts"];
         for claim in Fig06::claims(&data) {
-            let holds = matches!(claim.computed(), Computed::Boolean(true));
-            let judged = matches!(claim.class(), Class::Paper | Class::Identity);
-            assert!(!(holds && judged) || single.contains(&claim.quantity()), "{}", claim.quantity());
+            let holds = matches!(claim.computed, Computed::Boolean(true));
+            let judged = matches!(claim.class, Class::Paper | Class::Identity);
+            assert!(!(holds && judged) || single.contains(&claim.quantity.as_str()), "{}", claim.quantity);
         }
     }
 }

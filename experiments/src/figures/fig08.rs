@@ -1,13 +1,16 @@
 //! Fig. 8: the geometry of the ultrasonic motor.
 
-mod compute;
-mod data;
-mod draw;
-mod stator;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_plot::Figure;
+use bouncing_disk::core::numerics::elementary::{asin, sin_cos};
+use bouncing_disk_plot::{
+    Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
+};
+use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
-pub use self::data::Fig08Data;
+use super::cylinder::{Cylinder, Look, arc, polar};
+use crate::claims::paper::{self, STEEL_DENSITY, TableThree};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -37,11 +40,11 @@ impl Experiment for Fig08 {
     }
 
     fn compute(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
-        compute::compute(progress)
+        compute(progress)
     }
 
     fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        Ok(draw(data))
     }
 
     fn parameters(data: &Fig08Data) -> Vec<(String, String)> {
@@ -55,4 +58,338 @@ impl Experiment for Fig08 {
         .map(|(name, value)| (name.to_owned(), value))
         .to_vec()
     }
+}
+
+/// The data of Fig. 8.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig08Data {
+    table_iii: TableThree,
+    ball_diameter_mm: f64,
+    steel_density_kg_per_m3: f64,
+    steel_densities_kg_per_m3: [f64; 2],
+    gravity_m_per_s2: f64,
+    ball_mass_kg: f64,
+    ball_weight_n: f64,
+    /// For the two ends of the range of densities.
+    ball_weights_n: [f64; 2],
+    /// sqrt(2/5) of the radius: a homogeneous sphere.
+    gyration_radius_mm: f64,
+    /// Between the axis and the normal of the ball where it touches the stator.
+    contact_angle_rad: f64,
+    /// How far the ball reaches into the circle of contact.
+    contact_depth_mm: f64,
+    preloads_n: [f64; 2],
+    /// Preload over mass.
+    preload_accelerations_m_per_s2: [f64; 2],
+    preload_acceleration_range_m_per_s2: [f64; 2],
+}
+
+/// Carbon and stainless steels lie between these densities (kg/m³; handbook values, not in the paper).
+const STEEL_DENSITIES: [f64; 2] = [7700.0, 8000.0];
+
+fn compute(progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
+    progress.start(1, "checks");
+    let table_iii = paper::table_three()?;
+    let section = paper::section_five()?;
+    let preloads = paper::preloads()?;
+    let gravity = section.gravity_m_per_s2;
+    let mass = section.rotor_mass_kg();
+    let radius_mm = 500.0 * section.rotor_diameter_m;
+    let volume_m3 = mass / STEEL_DENSITY;
+    let contact = table_iii.contact_radius_mm;
+    progress.advance(1);
+    Ok(Fig08Data {
+        ball_diameter_mm: 2.0 * radius_mm,
+        steel_density_kg_per_m3: STEEL_DENSITY,
+        steel_densities_kg_per_m3: STEEL_DENSITIES,
+        gravity_m_per_s2: gravity,
+        ball_mass_kg: mass,
+        ball_weight_n: gravity * mass,
+        ball_weights_n: STEEL_DENSITIES.map(|density| gravity * density * volume_m3),
+        gyration_radius_mm: 0.4_f64.sqrt() * radius_mm,
+        contact_angle_rad: asin(contact / radius_mm),
+        contact_depth_mm: radius_mm - (radius_mm * radius_mm - contact * contact).sqrt(),
+        preloads_n: preloads.measured_range_n,
+        preload_accelerations_m_per_s2: preloads.measured_range_n.map(|preload| preload / mass),
+        preload_acceleration_range_m_per_s2: preloads.preload_accelerations_m_per_s2,
+        table_iii,
+    })
+}
+
+/// A beam of rectangular cross-section whose section turns uniformly with height.
+#[derive(Clone, Copy, Debug)]
+struct Beam {
+    half_width: f64,
+    half_thickness: f64,
+    bottom: f64,
+    top: f64,
+    /// Turn of the section at the bottom, and from there to the top (rad).
+    turned: f64,
+    twist: f64,
+}
+
+const SLICES: u32 = 40;
+
+impl Beam {
+    fn corner(&self, index: usize, share: f64) -> DVec3 {
+        let (across, along) = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)][index % 4];
+        let (across, along) = (across * self.half_width, along * self.half_thickness);
+        let (sine, cosine) = sin_cos(self.turned + share * self.twist);
+        let height = self.bottom + share * (self.top - self.bottom);
+        DVec3::new(cosine * across - sine * along, sine * across + cosine * along, height)
+    }
+
+    /// The faces turned to the eye, slice by slice from below, then their edges and the upper face.
+    fn drawn(&self, mut drawing: Drawing, camera: &Camera, colour: Colour, edge: Stroke) -> Drawing {
+        let share = |slice: u32| f64::from(slice) / f64::from(SLICES);
+        let towards = camera.eye().normalize_or_zero();
+        for slice in 0..SLICES {
+            for side in 0..4 {
+                let (low, high) = (share(slice), share(slice + 1));
+                let corners = [(side, low), (side + 1, low), (side + 1, high), (side, high)]
+                    .map(|(n, s)| self.corner(n, s));
+                let normal = (corners[1] - corners[0]).cross(corners[3] - corners[0]).normalize_or_zero();
+                if !camera.faces(corners[0], normal) {
+                    continue;
+                }
+                let shade = colour.mixed(Colour::WHITE, 0.25 + 0.55 * normal.dot(towards).max(0.0));
+                let face = Path::through(corners.map(|corner| camera.project(corner))).close();
+                // The hairline closes the seam between slices.
+                drawing = drawing.fill(face.clone(), shade, 1.0).stroke(face, Stroke::new(shade, 0.3));
+            }
+        }
+        for index in 0..4 {
+            for slice in 0..SLICES {
+                let (low, high) = (share(slice), share(slice + 1));
+                let seen = [index, index + 3].into_iter().any(|side| {
+                    let normal = (self.corner(side + 1, low) - self.corner(side, low))
+                        .cross(self.corner(side, high) - self.corner(side, low));
+                    camera.faces(self.corner(index, low), normal)
+                });
+                if seen {
+                    let ends = [low, high].map(|share| camera.project(self.corner(index, share)));
+                    drawing = drawing.stroke(Path::through(ends), edge);
+                }
+            }
+        }
+        for side in 0..4 {
+            let (from, to) = (self.corner(side, 0.0), self.corner(side + 1, 0.0));
+            let normal = (to - from).cross(self.corner(side, share(1)) - from);
+            if camera.faces(from, normal) {
+                drawing = drawing.stroke(Path::through([from, to].map(|point| camera.project(point))), edge);
+            }
+        }
+        let top = Path::through((0..4).map(|index| camera.project(self.corner(index, 1.0)))).close();
+        drawing.fill(top.clone(), colour.mixed(Colour::WHITE, 0.7), 1.0).stroke(top, edge)
+    }
+}
+
+const HEIGHT: f64 = 262.0;
+/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up, in mm.
+const AZIMUTH: f64 = 0.5;
+const ELEVATION: f64 = 0.25;
+const DISTANCE: f64 = 260.0;
+const BEAM_LENGTH: f64 = 26.0;
+const TRANSDUCER: (f64, f64) = (9.0, 10.0);
+const MAGNET: (f64, f64) = (5.0, 7.0);
+const MAGNET_GAP: f64 = 5.0;
+/// Where the enlarged contact is drawn.
+const CONTACT: Rect = Rect::new(SINGLE_COLUMN - 92.0, 86.0, 88.0, 74.0);
+
+fn black() -> Stroke {
+    Stroke::new(Colour::BLACK, 0.7)
+}
+
+fn small(anchor: Anchor) -> TextStyle {
+    TextStyle::new(anchor).size(8.0)
+}
+
+fn leader(drawing: Drawing, from: (f64, f64), to: (f64, f64), lines: &[&str]) -> Drawing {
+    let drawing = drawing.stroke(Path::through([from, to]), Stroke::new(Colour::GREY, 0.5));
+    lines.iter().enumerate().fold(drawing, |drawing, (index, line)| {
+        let at = (to.0 + 1.0, to.1 - 3.4 * index as f64);
+        drawing.text(at, small(Anchor::LeftCentre), *line)
+    })
+}
+
+fn look(colour: Colour) -> Look {
+    Look {
+        side: colour.mixed(Colour::WHITE, 0.45),
+        face: colour.mixed(Colour::WHITE, 0.75),
+        opacity: 1.0,
+        edge: black(),
+        through: false,
+    }
+}
+
+fn motor(data: &Fig08Data, area: Rect) -> Drawing {
+    let camera = Camera::around(DVec3::ZERO, AZIMUTH, ELEVATION, DISTANCE);
+    let radius = 0.5 * data.ball_diameter_mm;
+    // The ball's centre is the origin; the circle of contact lies below it.
+    let tip = data.contact_depth_mm - radius;
+    let foot = tip - BEAM_LENGTH;
+    let mut drawing = Drawing::with_equal_scales(area, (-16.5, 33.0), (-51.0, 27.0));
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
+    let transducer = Cylinder { radius: TRANSDUCER.0, bottom: foot - TRANSDUCER.1, top: foot };
+    drawing = transducer.drawn(drawing, &camera, &look(Colour::ORANGE));
+    let beam = Beam {
+        half_width: 4.2,
+        half_thickness: 1.6,
+        bottom: foot,
+        top: tip,
+        turned: AZIMUTH - 0.2,
+        twist: FRAC_PI_2,
+    };
+    drawing = beam.drawn(drawing, &camera, Colour::GREY, Stroke::new(Colour::DARK_GREY, 0.6));
+    let ball = Style::from(black()).fill(Colour::SKY.mixed(Colour::WHITE, 0.55));
+    let (x, y) = at(0.0);
+    drawing = drawing.ellipse((x, y), (radius, radius), ball).ellipse(
+        (x - 0.35 * radius, y + 0.4 * radius),
+        (0.22 * radius, 0.16 * radius),
+        Fill::new(Colour::WHITE, 0.8),
+    );
+    let magnet_foot = radius + MAGNET_GAP;
+    let magnet = Cylinder { radius: MAGNET.0, bottom: magnet_foot, top: magnet_foot + MAGNET.1 };
+    drawing = drawing.stroke(Path::through([at(magnet.top), at(magnet.top + 5.0)]), chain);
+    drawing = magnet.drawn(drawing, &camera, &look(Colour::VERMILION));
+    drawing = drawing.stroke(Path::through([at(radius), at(magnet.bottom - 1.2)]), chain);
+    // The rotation of the ball.
+    let turn = arc(&camera, 0.62 * radius, (AZIMUTH - 1.1, AZIMUTH + 1.1), 0.0);
+    drawing = drawing.arrow(turn, Stroke::new(Colour::BLACK, 0.9));
+    drawing = drawing.text((x, y - 0.47 * radius), Anchor::Centre, r"$\alpha$");
+    // The preload.
+    drawing =
+        drawing.arrow([(x, y + 0.75 * radius), (x, y + 0.04 * radius)], Stroke::new(Colour::VERMILION, 1.4));
+    drawing = sizes(drawing, data, &camera, tip);
+    // Poling and voltage.
+    let middle = 0.5 * (transducer.top + transducer.bottom);
+    let front = |height: f64| camera.project(polar(TRANSDUCER.0, AZIMUTH, height));
+    drawing = drawing
+        .arrow([front(middle - 3.0), front(middle + 2.2)], Stroke::new(Colour::BLACK, 1.1))
+        .text((front(middle).0 + 1.2, front(middle).1), small(Anchor::LeftCentre), "poling");
+    drawing = source(drawing, &camera, &transducer);
+    let edge = drawing.local((CONTACT.left + 2.0, CONTACT.top + 0.5 * CONTACT.height));
+    drawing = drawing
+        .ellipse((x, at(tip).1), (2.2, 1.6), Stroke::new(Colour::GREY, 0.5))
+        .stroke(Path::through([(x + 2.2, at(tip).1), edge]), Stroke::new(Colour::GREY, 0.5));
+    names(drawing, data, &camera, (foot, magnet.top))
+}
+
+/// The diameter of the ball, and how the tip of the beam moves.
+fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
+    // Diameter.
+    let side = x - radius - 3.2;
+    for height in [y - radius, y + radius] {
+        drawing = drawing
+            .stroke(Path::through([(x, height), (side - 1.0, height)]), Stroke::new(Colour::GREY, 0.5));
+    }
+    drawing = drawing.double_arrow((side, y - radius), (side, y + radius), black()).text(
+        (side - 2.0, y),
+        TextStyle::new(Anchor::Middle).size(8.5).rotated(90.0),
+        format!("{} mm", data.ball_diameter_mm).as_str(),
+    );
+    // The motion of the tip.
+    let swing = arc(camera, 6.6, (AZIMUTH - 0.75, AZIMUTH + 0.75), tip - 4.0);
+    let middle = swing.get(swing.len() / 2).copied().unwrap_or((x, y));
+    let mut back = swing.clone();
+    back.reverse();
+    drawing = drawing.arrow(swing, black()).arrow(back, black());
+    drawing = drawing.text((middle.0, middle.1 - 2.3), Anchor::Centre, r"$\beta$");
+    let lift = x - 9.0;
+    let level = at(tip).1;
+    drawing.double_arrow((lift, level - 9.0), (lift, level - 3.0), black()).text(
+        (lift - 1.0, level - 6.0),
+        Anchor::RightCentre,
+        "$s$",
+    )
+}
+
+/// What the parts are called.
+fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));
+    let (x, y) = at(0.0);
+    let right = 16.0;
+    drawing = leader(
+        drawing,
+        (x + 4.0, at(magnet_top - 3.0).1),
+        (right, at(magnet_top - 1.0).1),
+        &["magnet", "(reduces the preload)"],
+    );
+    drawing = leader(drawing, (x + 0.7, y + 0.45 * radius), (right, y + 10.5), &["preload $mg$"]);
+    drawing =
+        leader(drawing, (x + 0.80 * radius, y + 0.35 * radius), (right, y + 6.0), &["steel ball (rotor)"]);
+    drawing = leader(
+        drawing,
+        (x + 3.0, at(foot + 8.0).1),
+        (right, at(foot + 6.0).1),
+        &["pretwisted beam", "(stator)"],
+    );
+    leader(
+        drawing,
+        (x + 7.5, at(foot - 5.0).1),
+        (right, at(foot - 5.0).1),
+        &["piezoelectric", "transducer,", "axially poled"],
+    )
+}
+
+/// A sinusoidal voltage between the faces of the transducer.
+fn source(drawing: Drawing, camera: &Camera, transducer: &Cylinder) -> Drawing {
+    let side = |height: f64| camera.project(polar(transducer.radius, AZIMUTH - FRAC_PI_2, height));
+    let (top, bottom) = (side(transducer.top - 0.6), side(transducer.bottom + 0.6));
+    let (x, middle) = (top.0 - 4.0, 0.5 * (top.1 + bottom.1));
+    let size = 2.1;
+    let wave = (0..=24).map(|step| {
+        let share = f64::from(step) / 24.0;
+        (x + size * 0.7 * (2.0 * share - 1.0), middle + 0.45 * size * sin_cos(TAU * share).0)
+    });
+    drawing
+        .stroke(Path::through([top, (x, top.1), (x, middle + size)]), black())
+        .stroke(Path::through([bottom, (x, bottom.1), (x, middle - size)]), black())
+        .ellipse((x, middle), (size, size), Style::from(black()).fill(Colour::WHITE))
+        .stroke(Path::through(wave), black())
+}
+
+/// The circle of contact, enlarged: a cut through the axis with the ball above the tip of the stator.
+fn contact(data: &Fig08Data, area: Rect) -> Drawing {
+    let radius = 0.5 * data.ball_diameter_mm;
+    let touch = data.table_iii.contact_radius_mm;
+    let depth = data.contact_depth_mm;
+    let mut drawing = Drawing::with_equal_scales(area, (-2.9, 2.9), (-2.6, 2.3));
+    let rim = (0.0, -0.05);
+    let frame = 2.75;
+    let lens = Style::from(Stroke::new(Colour::GREY, 0.5)).fill(Colour::WHITE);
+    drawing = drawing.ellipse(rim, (frame, 2.3), lens);
+    // The ball's outline near the axis; heights from the circle of contact.
+    let below = |across: f64| radius - (radius * radius - across * across).sqrt() - depth;
+    let outline: Vec<(f64, f64)> =
+        (-40..=40).map(|step| 2.3 * f64::from(step) / 40.0).map(|across| (across, below(across))).collect();
+    let mut cap = outline.clone();
+    cap.extend([(2.3, 1.0), (-2.3, 1.0)]);
+    drawing = drawing
+        .fill(Path::through(cap).close(), Colour::SKY.mixed(Colour::WHITE, 0.55), 1.0)
+        .stroke(Path::through(outline), black());
+    // The rim of the stator's tip, cut on both sides of the axis.
+    for side in [-1.0, 1.0] {
+        let wall = [(touch, 0.0), (touch + 0.55, -0.25), (touch + 0.55, -0.9), (touch, -0.9)];
+        let wall = Path::through(wall.map(|(across, up)| (side * across, up))).close();
+        drawing = drawing.fill(wall.clone(), Colour::LIGHT_GREY, 1.0).stroke(wall, black());
+    }
+    let chain = Stroke::new(Colour::DARK_GREY, 0.6).dashed(Dash::DashDotted);
+    drawing = drawing.stroke(Path::through([(0.0, 1.15), (0.0, -1.3)]), chain);
+    let label = format!("$a_e = {}$ mm", data.table_iii.contact_radius_mm);
+    drawing
+        .stroke(Path::through([(touch, -0.95), (touch, -1.3)]), Stroke::new(Colour::GREY, 0.5))
+        .double_arrow((0.0, -1.17), (touch, -1.17), black())
+        .text((0.0, -1.65), small(Anchor::Centre), label.as_str())
+        .text((0.0, 1.55), small(Anchor::Centre), "contact")
+}
+
+fn draw(data: &Fig08Data) -> Figure {
+    let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
+    Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT))
 }

@@ -1,15 +1,22 @@
 //! Fig. 9: the coefficient of friction from the deceleration of the rotor.
 
-mod compute;
-mod data;
-mod draw;
+use bouncing_disk::{
+    BrakingRotor, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System,
+    Trajectory,
+    core::{ChatterPolicy, Phase},
+};
+use bouncing_disk_plot::{
+    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
+    Rule, Scatter, Ticks,
+};
+use serde::{Deserialize, Serialize};
 
-use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk_plot::Figure;
-
-use self::compute::SEED;
-pub use self::data::Fig09Data;
-use super::braking_record::{DECELERATIONS, Deceleration, FRICTIONS, decelerations, friction_words};
+use super::braking_record::{
+    DECELERATIONS, Deceleration, FRICTIONS, decelerations, friction_layers, friction_words,
+};
+use super::motor_case::MotorCase;
+use super::numbers::{Noise, StraightLine};
+use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
@@ -50,7 +57,7 @@ impl Experiment for Fig09 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-        compute::compute(progress)
+        compute(progress)
     }
 
     fn overlay(data: &mut Fig09Data, series: &Series) -> Result<(), ExperimentError> {
@@ -67,7 +74,7 @@ impl Experiment for Fig09 {
     }
 
     fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        Ok(draw(data))
     }
 
     fn parameters(data: &Fig09Data) -> Vec<(String, String)> {
@@ -88,4 +95,197 @@ impl Experiment for Fig09 {
             ),
         ]
     }
+}
+
+/// Braking curves of the model, a synthetic record, and a user's own measurements.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fig09Data {
+    case: MotorCase,
+    rotor_mass_kg: f64,
+    /// The rotor's speed as the motor is switched off (rad/s): ωΦ, the most it can have.
+    first_speed_rad_per_s: f64,
+    curves: Vec<Curve>,
+    printed_mean: f64,
+    printed_deviation: f64,
+    /// Synthetic, not measured: preload (N) and μ.
+    synthetic: Vec<(f64, f64)>,
+    synthetic_spread: Spread,
+    /// Slope of the synthetic μ against preload (1/N) and its standard error.
+    synthetic_slope_per_n: f64,
+    synthetic_slope_error_per_n: f64,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measured_decelerations: Vec<Deceleration>,
+    /// Preload (N) and μ.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measured_frictions: Vec<(f64, f64)>,
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    measured_words: String,
+}
+
+/// A braking curve and its straight line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Curve {
+    preload_n: f64,
+    time_s: Vec<f64>,
+    angular_speed_rad_per_s: Vec<f64>,
+    /// Slope of the line (rad/s²) and the time (s) at which it reaches 0.
+    brake_rad_per_s2: f64,
+    stop_s: f64,
+    /// μ by Eq. (17).
+    friction: f64,
+}
+
+/// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
+const PRELOADS: u32 = 9;
+const SYNTHETIC: u32 = 25;
+const SEED: u64 = 9;
+
+/// Speeds of a curve that the line is fitted to.
+const SAMPLES: usize = 60;
+
+fn compute(progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
+    progress.start(u64::from(PRELOADS), "preloads");
+    let section = paper::section_five()?;
+    let case = MotorCase::default_of(&paper::table_three()?, &section);
+    let [lowest, highest] = paper::preloads()?.measured_range_n;
+    let rotor_mass_kg = section.rotor_mass_kg();
+    let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
+    let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
+    let curves = (0..PRELOADS)
+        .map(|k| {
+            let preload = lowest + share(k, PRELOADS) * (highest - lowest);
+            progress.advance(1);
+            curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
+        })
+        .collect::<Result<Vec<_>, _>>()?;
+    let printed_mean = paper::value("section5.mean_friction")?;
+    let printed_deviation = paper::value("section5.friction_deviation")?;
+    let mut noise = Noise::new(SEED);
+    let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
+        .map(|k| {
+            let friction = noise.log_normal(printed_mean, printed_deviation);
+            (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
+        })
+        .collect();
+    let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
+    let line = StraightLine::through(&synthetic);
+    Ok(Fig09Data {
+        case,
+        rotor_mass_kg,
+        first_speed_rad_per_s,
+        curves,
+        printed_mean,
+        printed_deviation,
+        synthetic_spread: Spread::of(&frictions)?,
+        synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
+        synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
+        synthetic,
+        measured_decelerations: Vec::new(),
+        measured_frictions: Vec::new(),
+        measured_words: String::new(),
+    })
+}
+
+fn still_system(case: &MotorCase, preload_acceleration: f64) -> Result<System, ExperimentError> {
+    let platform = PlatformParameters {
+        amplitude: 0.0,
+        twist_amplitude: 0.0,
+        angular_frequency: std::f64::consts::TAU * case.frequency_hz,
+        phase_lag: 0.0,
+    };
+    let disk = DiskParameters {
+        contact_radius: case.contact_radius_m,
+        gyration_radius: case.gyration_radius_m,
+        friction: case.friction,
+        restitution: case.restitution,
+        preload_acceleration,
+        load_acceleration: 0.0,
+    };
+    let platform = platform.build()?;
+    Ok(System::new(platform, disk.build()?)?)
+}
+
+/// The rotor on the still stator from `first_speed` to rest.
+fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Result<Curve, ExperimentError> {
+    let system = still_system(case, preload_n / mass)?;
+    let scales = system.scales();
+    let phase = Phase::new(0.0)?;
+    let start = InitialCondition::Contact { phase, angular_speed: first_speed / scales.angular_speed };
+    let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
+    let braked = Trajectory::record(&mut engine, |record| record.event == Event::SlipToStick)?;
+    let points: Vec<(f64, f64)> = braked
+        .uniform(SAMPLES)
+        .map(|snapshot| (scales.time_seconds(snapshot.time), scales.state(&snapshot.disk).angular_speed))
+        .collect();
+    let line = StraightLine::through(&points);
+    let (slope, intercept) = line.map_or((f64::NAN, f64::NAN), |line| (line.slope, line.intercept));
+    let rotor = BrakingRotor {
+        normal_force: preload_n,
+        mass,
+        contact_radius: case.contact_radius_m,
+        gyration_radius: case.gyration_radius_m,
+    };
+    let friction = rotor.friction(slope)?;
+    Ok(Curve {
+        preload_n,
+        time_s: points.iter().map(|point| point.0).collect(),
+        angular_speed_rad_per_s: points.iter().map(|point| point.1).collect(),
+        brake_rad_per_s2: slope,
+        stop_s: -intercept / slope,
+        friction,
+    })
+}
+
+fn draw(data: &Fig09Data) -> Figure {
+    const HEIGHT: f64 = 200.0;
+    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
+    Figure::new(DOUBLE_COLUMN, HEIGHT)
+        .panel(speeds(grid.cell(0, 0), data))
+        .panel(frictions(grid.cell(0, 1), data))
+}
+
+fn speeds(area: Rect, data: &Fig09Data) -> Panel {
+    let last = data.curves.iter().map(|curve| curve.stop_s).fold(0.0, f64::max);
+    let top = 1.1 * data.first_speed_rad_per_s;
+    let mut panel = Panel::new(area)
+        .letter_in("a", Corner::BottomLeft)
+        .x(Axis::linear(0.0, 1.05 * last).label(r"$t$ (s)"))
+        .y(Axis::linear(0.0, top).label(r"$\dot{\alpha}$ (rad/s)").ticks(Ticks::every(10.0)));
+    let shown = [0, data.curves.len() / 2, data.curves.len().saturating_sub(1)];
+    let colours = [Colour::SKY, Colour::GREEN, Colour::VERMILION];
+    let mut lines = Vec::new();
+    for (index, colour) in shown.into_iter().zip(colours) {
+        let Some(curve) = data.curves.get(index) else { continue };
+        let points = curve.time_s.iter().copied().zip(curve.angular_speed_rad_per_s.iter().copied());
+        let fitted = [(0.0, -curve.brake_rad_per_s2 * curve.stop_s), (curve.stop_s, 0.0)];
+        let name = format!("{:.0} mN", 1e3 * curve.preload_n);
+        panel = panel.layer(Line::new(points).colour(colour).width(2.4).name(name));
+        lines.push(Line::new(fitted).dash(Dash::Dashed));
+    }
+    if let Some(line) = lines.pop() {
+        panel = panel.layers(lines).layer(line.name("straight line"));
+    }
+    for measured in &data.measured_decelerations {
+        panel = panel.layers(measured.layers());
+    }
+    panel.legend(Legend::at(Corner::TopRight))
+}
+
+fn frictions(area: Rect, data: &Fig09Data) -> Panel {
+    let milli = |points: &[(f64, f64)]| points.iter().map(|(n, mu)| (1e3 * n, *mu)).collect::<Vec<_>>();
+    let recovered: Vec<_> = data.curves.iter().map(|curve| (1e3 * curve.preload_n, curve.friction)).collect();
+    let panel = Panel::new(area)
+        .letter_in("b", Corner::TopRight)
+        .x(Axis::linear(60.0, 300.0).label("preload (mN)").ticks(Ticks::every(40.0)))
+        .y(Axis::linear(0.0, 0.36).label(r"$\mu$").ticks(Ticks::every(0.1)))
+        .layer(Rule::horizontal(data.printed_mean).name("printed mean"))
+        .layer(Scatter::new(milli(&data.synthetic)).size(2.6).colour(Colour::GREY).name("synthetic"))
+        .layer(Scatter::new(recovered).marker(Marker::Circle).colour(Colour::BLUE).name("model, Eq. (17)"));
+    let panel = if data.measured_frictions.is_empty() {
+        panel
+    } else {
+        panel.layers(friction_layers(&milli(&data.measured_frictions)))
+    };
+    panel.legend(Legend::at(Corner::TopLeft))
 }

@@ -2,20 +2,21 @@
 
 mod claims;
 mod compute;
-mod data;
 mod draw;
-mod measured;
 
-use bouncing_disk::TransientSettings;
-use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::{ExponentialFit, Spread, TransientSettings, Unobserved, core::ChatterPolicy};
 use bouncing_disk_plot::Figure;
+use serde::{Deserialize, Serialize};
 
 use self::compute::MEMBER_INTERVALS;
-pub use self::data::Fig10Data;
-use crate::claim::Claim;
+use super::alike::AlikeMotor;
+use super::motor_case::{Cycle, MotorCase, PerturbationEffect, RobustCycle};
+use crate::claims::{
+    Claim,
+    paper::{SectionFive, TableThree},
+};
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::figures::motor_case::MotorCase;
-use crate::measured::{Layout, Series};
+use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
 /// Fig. 10.
@@ -35,7 +36,7 @@ impl Experiment for Fig10 {
         vec![("motors that print alike", compute::SEED), ("ensembles", TransientSettings::default().seed)]
     }
 
-    const MEASUREMENTS: &'static [Layout] = &[measured::LAYOUT];
+    const MEASUREMENTS: &'static [Layout] = &[LAYOUT];
 
     fn caption(data: &Fig10Data) -> String {
         let exception = &data.exception;
@@ -54,7 +55,7 @@ impl Experiment for Fig10 {
             ensembles(data),
             exception.preload_acceleration_m_per_s2,
             exception.highest_preload_acceleration_m_per_s2 - exception.lowest_preload_acceleration_m_per_s2,
-            measured::caption(&data.measured),
+            caption(&data.measured),
         )
     }
 
@@ -63,7 +64,7 @@ impl Experiment for Fig10 {
     }
 
     fn overlay(data: &mut Fig10Data, series: &Series) -> Result<(), ExperimentError> {
-        data.measured = measured::trials(series)?;
+        data.measured = trials(series)?;
         Ok(())
     }
 
@@ -104,4 +105,227 @@ fn ensembles(data: &Fig10Data) -> String {
         )
     });
     words.collect::<Vec<_>>().join("; ")
+}
+
+/// The data of Fig. 10.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig10Data {
+    table_iii: TableThree,
+    section: SectionFive,
+    members: usize,
+    relaunch_perturbation: f64,
+    /// With standard gravity, and as printed.
+    readings: Vec<Reading>,
+    /// The motor of the smallest amplitude at exactly the printed 9.8 m/s².
+    exception: Exception,
+    /// Many motors that print alike, for the verdicts.
+    alike: Alike,
+    perturbations: Vec<PerturbationEffect>,
+    own_motor_axial_forcing: f64,
+    tsujino_axial_forcing: f64,
+    tsujino_peak_acceleration: f64,
+    /// A user's own trials.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    measured: Vec<Trial>,
+}
+
+/// One reading of Table III.
+#[derive(Debug, Serialize, Deserialize)]
+struct Reading {
+    preload_acceleration_m_per_s2: f64,
+    frequency_hz: f64,
+    duration_s: f64,
+    /// mu a_e g/a_g^2: the acceleration if friction pushed one way all the time.
+    largest_acceleration_rad_per_s2: f64,
+    panels: Vec<Transient>,
+}
+
+/// One amplitude: a member with its fit, and the ensemble.
+#[derive(Debug, Serialize, Deserialize)]
+struct Transient {
+    amplitude_m: f64,
+    axial_forcing: f64,
+    member_time_s: Vec<f64>,
+    member_speed_rad_per_s: Vec<f64>,
+    member_fit: ExponentialFit,
+    band_time_s: Vec<f64>,
+    band_low_rad_per_s: Vec<f64>,
+    band_high_rad_per_s: Vec<f64>,
+    steady_speed_rad_per_s: Spread,
+    time_constant_s: Spread,
+    stall_acceleration_rad_per_s2: Spread,
+    stall_torque_n_m: Spread,
+    /// Root mean square of member minus exponential fit, over the steady speed; mean over the ensemble.
+    relative_oscillation: f64,
+    /// The same for the fit of a linear rise to a constant speed.
+    relative_ramp_residual: f64,
+    /// What the unperturbed motor repeats.
+    cycle: Cycle,
+    impacts_per_s: f64,
+}
+
+/// The robust low-period cycle at A = 1 nm and exactly g = 9.8 m/s², and how narrow it is.
+#[derive(Debug, Serialize, Deserialize)]
+struct Exception {
+    amplitude_m: f64,
+    preload_acceleration_m_per_s2: f64,
+    /// Aω²/g over 2π².
+    peak_acceleration_over_two_pi_squared: f64,
+    robust_cycle: RobustCycle,
+    /// The preload accelerations, next to the printed one, between which the motor repeats this cycle.
+    lowest_preload_acceleration_m_per_s2: f64,
+    highest_preload_acceleration_m_per_s2: f64,
+    /// The width of this range, over the printed g.
+    relative_width: f64,
+    /// The transient there.
+    time_s: Vec<f64>,
+    speed_rad_per_s: Vec<f64>,
+    exponential_residual_rad_per_s: f64,
+    ramp_residual_rad_per_s: f64,
+}
+
+/// Motors whose inputs all print like the paper's: the same draws at the three amplitudes.
+#[derive(Debug, Serialize, Deserialize)]
+struct Alike {
+    /// The ranges drawn from.
+    inputs: String,
+    /// By amplitude, then by draw.
+    motors: [Vec<AlikeMotor>; 3],
+}
+
+impl Alike {
+    /// The three motors of each draw.
+    fn draws(&self) -> impl Iterator<Item = [&AlikeMotor; 3]> {
+        let [small, middle, large] = &self.motors;
+        small.iter().zip(middle).zip(large).map(|((small, middle), large)| [small, middle, large])
+    }
+}
+
+/// One measured trial with its fit.
+#[derive(Debug, Serialize, Deserialize)]
+struct Trial {
+    trial: u32,
+    time_s: Vec<f64>,
+    angular_speed_rad_per_s: Vec<f64>,
+    fit: ExponentialFit,
+}
+
+/// Panels in a row, and so the most trials.
+const TRIALS: u32 = 3;
+
+/// The file.
+const LAYOUT: Layout = Layout {
+    file: "fig10.csv",
+    columns: &[
+        Column::trial(TRIALS),
+        Column::time(),
+        Column::value("angular_speed_rad_per_s", Range::Signed),
+    ],
+    least_rows: 3,
+};
+
+/// A fit that the record does not determine.
+#[derive(Debug, thiserror::Error)]
+#[error(
+    "the time constant of the fit, {time_constant_s:e} s, is outside the record; legal is {first_s} to {last_s} s"
+)]
+struct Undetermined {
+    time_constant_s: f64,
+    first_s: f64,
+    last_s: f64,
+}
+
+/// Fits every trial of a file.
+fn trials(series: &Series) -> Result<Vec<Trial>, ExperimentError> {
+    let fitted = series.trials::<3>().into_iter().map(|(trial, rows)| {
+        let (time_s, angular_speed_rad_per_s): (Vec<f64>, Vec<f64>) =
+            rows.into_iter().map(|[_, time, speed]| (time, speed)).unzip();
+        let fit = ExponentialFit::new(&time_s, &angular_speed_rad_per_s, &Unobserved)
+            .map_err(|error| series.unusable(Some(trial), error))?;
+        let first_s = time_s.iter().copied().find(|time| *time > 0.0).unwrap_or_default();
+        let last_s = time_s.last().copied().unwrap_or_default();
+        if !(first_s..=last_s).contains(&fit.time_constant) {
+            let time_constant_s = fit.time_constant;
+            return Err(series
+                .unusable(Some(trial), Undetermined { time_constant_s, first_s, last_s })
+                .into());
+        }
+        Ok(Trial { trial, time_s, angular_speed_rad_per_s, fit })
+    });
+    fitted.collect()
+}
+
+/// What the caption says about the trials; nothing when there are none.
+fn caption(trials: &[Trial]) -> String {
+    if trials.is_empty() {
+        return String::new();
+    }
+    let fits: Vec<String> = trials
+        .iter()
+        .map(|trial| {
+            let fit = &trial.fit;
+            format!(
+                "trial {}: α̇_ss = {:.2} rad/s, t_c = {:.4} s, α̇_ss/t_c = {:.2} rad/s², root mean square deviation {:.2} \
+                 rad/s, {} points",
+                trial.trial,
+                fit.steady_speed,
+                fit.time_constant,
+                fit.stall_acceleration(),
+                fit.residual,
+                trial.time_s.len(),
+            )
+        })
+        .collect();
+    format!(
+        " Bottom row: measurements read from {} with their fits (dashed) and the mean fit of (b) (dotted): {}.",
+        LAYOUT.file,
+        fits.join("; ")
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fmt::Write as _;
+
+    /// Synthetic speeds 20 (1 - exp(-t/0.5)) at 0 to 3 s.
+    fn synthetic(trial: u32, scale: f64) -> String {
+        let fit = ExponentialFit { steady_speed: 20.0, time_constant: 0.5, residual: 0.0 };
+        (0..=60).fold(String::new(), |mut text, index| {
+            let time = f64::from(index) / 20.0;
+            let _ = writeln!(text, "{trial},{time},{}", fit.speed(time * scale));
+            text
+        })
+    }
+
+    fn read(body: &str) -> Result<Vec<Trial>, ExperimentError> {
+        let text = format!("{}\n{body}", LAYOUT.header());
+        trials(&Series::read(&LAYOUT, text.as_bytes()).expect("well formed"))
+    }
+
+    #[test]
+    fn the_constants_of_each_trial_come_back() {
+        let trials = read(&(synthetic(1, 1.0) + &synthetic(3, 2.0))).expect("fits");
+        let fits: Vec<_> = trials.iter().map(|trial| (trial.trial, trial.fit)).collect();
+        for ((trial, fit), (number, constant)) in fits.into_iter().zip([(1, 0.5), (3, 0.25)]) {
+            assert_eq!(trial, number);
+            assert!((fit.steady_speed - 20.0).abs() < 1e-5, "{fit:?}");
+            assert!((fit.time_constant - constant).abs() < 1e-6, "{fit:?}");
+        }
+        assert!(caption(&trials).contains("trial 3: α̇_ss = 20.00 rad/s, t_c = 0.2500 s"));
+        assert!(caption(&[]).is_empty());
+    }
+
+    #[test]
+    fn a_record_without_a_transient_is_refused() {
+        for body in [synthetic(2, 0.01), "2,0,0\n2,1,0\n2,2,0\n".to_owned()] {
+            let error = crate::experiment::chain(&read(&body).expect_err("no transient"));
+            assert!(
+                error.starts_with("fig10.csv: trial 2 cannot be evaluated: the time constant"),
+                "{error}"
+            );
+        }
+        let error = crate::experiment::chain(&read("1,0,0\n1,1,1\n2,1,1\n").expect_err("two points"));
+        assert!(error.contains("number of points"), "{error}");
+    }
 }

@@ -1,15 +1,15 @@
 //! Fig. 14: growth of the dough over multiple tosses.
 
-mod compute;
-mod data;
-mod draw;
+use bouncing_disk_plot::{
+    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
+    Scatter, Text, Ticks,
+};
+use serde::{Deserialize, Serialize};
 
-use bouncing_disk_plot::Figure;
-
-use self::compute::{FRAMES_PER_S, SCATTER, SEED};
-pub use self::data::Fig14Data;
 use super::dough_record::{DIAMETERS, Growth};
-use crate::claim::Claim;
+use super::numbers::{Noise, StraightLine};
+use super::toss_case::TossCase;
+use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
@@ -51,7 +51,7 @@ impl Experiment for Fig14 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-        compute::compute(progress)
+        compute(progress)
     }
 
     fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
@@ -60,7 +60,7 @@ impl Experiment for Fig14 {
     }
 
     fn draw(data: &Fig14Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        Ok(draw(data))
     }
 
     fn claims(data: &Fig14Data) -> Vec<Claim> {
@@ -79,4 +79,138 @@ impl Experiment for Fig14 {
             ("synthetic scatter of d".to_owned(), format!("{SCATTER}, {FRAMES_PER_S} frames a second")),
         ]
     }
+}
+
+/// The printed line, what follows from it, and the estimator on synthetic diameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fig14Data {
+    /// Time of the start of the line (s), the end of the second toss.
+    pub start_s: f64,
+    /// Slope of d/d_0 (1/s).
+    pub slope_per_s: f64,
+    /// Growth between the first and the last toss, as a share.
+    pub growth: f64,
+    /// Duration of that growth on the printed line (s).
+    pub duration_s: f64,
+    /// The growth taken from the start of the first toss to the start of the last: number of tosses.
+    pub tosses_between: u32,
+    /// The growth taken from the start of the first toss to the end of the last: number of tosses.
+    pub tosses_inclusive: u32,
+    /// Growth per toss by the first of both readings, in per cent.
+    pub growth_per_toss_percent: f64,
+    /// By the second.
+    pub growth_per_toss_inclusive_percent: f64,
+    /// Number and start (s) of each toss, evenly spaced, by the first of both readings.
+    pub toss_start_s: Vec<(u32, f64)>,
+    /// Synthetic diameters, not measured: times (s) and d/d_0.
+    pub synthetic: Vec<(f64, f64)>,
+    /// Slope (1/s) of the least-squares line through them over its value at the start, and its standard
+    /// error.
+    pub synthetic_slope_per_s: f64,
+    /// Standard error of that slope (1/s).
+    pub synthetic_slope_error_per_s: f64,
+    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth
+    /// of one toss (rad/s).
+    pub airborne_speed_change_rad_per_s: f64,
+    /// Share of its rotation, in per cent, that a dough loses which grows so much while it flies: its angular
+    /// momentum does not change.
+    pub flight_spin_loss_percent: f64,
+    /// A user's own diameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub measured: Option<Growth>,
+}
+
+impl Fig14Data {
+    fn on_line(&self, time: f64) -> f64 {
+        1.0 + self.slope_per_s * (time - self.start_s)
+    }
+}
+
+/// Frames per second of the synthetic record, and the standard deviation of its relative diameters: made up.
+const FRAMES_PER_S: f64 = 25.0;
+const SCATTER: f64 = 0.012;
+const SEED: u64 = 14;
+
+fn compute(progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
+    progress.start(1, "records");
+    let printed = paper::dough_growth()?;
+    let duration_s = printed.growth / printed.fit_slope_per_s;
+    let [first, last] = printed.tosses.map(|toss| toss as u32);
+    let tosses_between = last - first;
+    let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
+    let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
+    progress.advance(1);
+    let toss = TossCase::from(&paper::table_one()?);
+    let larger = 1.0 + printed.growth / f64::from(tosses_between);
+    Ok(Fig14Data {
+        start_s: printed.fit_start_s,
+        slope_per_s: printed.fit_slope_per_s,
+        growth: printed.growth,
+        duration_s,
+        tosses_between,
+        tosses_inclusive: tosses_between + 1,
+        growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
+        growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
+        toss_start_s: (0..=tosses_between)
+            .map(|k| {
+                let share = f64::from(k) / f64::from(tosses_between);
+                (first + k, printed.fit_start_s + share * duration_s)
+            })
+            .collect(),
+        synthetic,
+        synthetic_slope_per_s: slope,
+        synthetic_slope_error_per_s: error,
+        airborne_speed_change_rad_per_s: TossCase {
+            gyration_radius_m: larger * toss.gyration_radius_m,
+            ..toss
+        }
+        .airborne_speed()?
+            - toss.airborne_speed()?,
+        flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
+        measured: None,
+    })
+}
+
+/// A synthetic record, and the slope of the line through it over its value at the start, with its standard
+/// error.
+type Record = (Vec<(f64, f64)>, f64, f64);
+
+/// A record on the line `1 + slope (t − start)` for `duration`.
+fn record((start, slope, duration): (f64, f64, f64), seed: u64) -> Option<Record> {
+    let mut noise = Noise::new(seed);
+    let frames = (duration * FRAMES_PER_S) as u32;
+    let points: Vec<_> = (0..=frames)
+        .map(|frame| f64::from(frame) / FRAMES_PER_S)
+        .map(|after| (start + after, (1.0 + slope * after) * (1.0 + SCATTER * noise.bell())))
+        .collect();
+    let line = StraightLine::through(&points)?;
+    let (slope, error) = line.slope_over_value_at(start);
+    Some((points, slope, error))
+}
+
+fn draw(data: &Fig14Data) -> Figure {
+    const HEIGHT: f64 = 190.0;
+    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+    let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
+    let end = data.start_s + data.duration_s;
+    let ends = (data.start_s - 0.4, end + 0.4);
+    let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
+    let scale = data.synthetic_slope_per_s;
+    let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
+    let mut panel = Panel::new(grid.cell(0, 0))
+        .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
+        .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
+        .layer(Scatter::new(data.synthetic.iter().copied()).size(1.6).colour(Colour::GREY).name("synthetic"))
+        .layer(Line::new(straight).name("printed line"))
+        .layer(Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"));
+    for (toss, start) in &data.toss_start_s {
+        let at = data.on_line(*start);
+        panel = panel
+            .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
+            .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
+    }
+    if let Some(growth) = &data.measured {
+        panel = panel.layers(growth.layers());
+    }
+    Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft)))
 }

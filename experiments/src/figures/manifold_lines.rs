@@ -1,6 +1,7 @@
 //! Manifolds as lines of a picture.
 
-use bouncing_disk::core::{ImpactState, Manifold};
+use bouncing_disk::core::ImpactState;
+use bouncing_disk::core::chaos::Manifold;
 
 /// The pieces of a manifold with their impacts at these places, cut where the first coordinate, a phase in periods of
 /// the platform, jumps by more than half a period; without pieces of a single impact.

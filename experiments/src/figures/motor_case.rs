@@ -10,9 +10,9 @@ use bouncing_disk::{
 pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
 use serde::{Deserialize, Serialize};
 
-use crate::claim::Claim;
+use crate::claims::Claim;
+use crate::claims::paper::{SectionFive, TableThree};
 use crate::experiment::ExperimentError;
-use crate::paper::{SectionFive, TableThree};
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
@@ -345,7 +345,7 @@ mod tests {
     /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
     #[test]
     fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
-        use crate::paper;
+        use crate::claims::paper;
         let motor = MotorCase::default_of(
             &paper::table_three().expect("reads"),
             &paper::section_five().expect("reads"),

@@ -6,11 +6,11 @@
 //! (`docs/judging.md`). This is the only place where they are drawn.
 
 use super::motor_case::MotorCase;
-use super::synthetic::Noise;
-use crate::catalogue::{self, CatalogueError};
-use crate::claim::Cases;
+use super::numbers::Noise;
+use crate::claims::Cases;
+use crate::claims::catalogue::{self, CatalogueError};
+use crate::claims::paper;
 use crate::experiment::ExperimentError;
-use crate::paper;
 
 /// How many are drawn for a verdict.
 pub(crate) const DRAWN: usize = 200;

@@ -159,8 +159,8 @@ mod tests {
     use bouncing_disk::{Engine, Event, InitialCondition, System};
 
     use super::*;
-    use crate::figures::synthetic::Noise;
-    use crate::paper;
+    use crate::claims::paper;
+    use crate::figures::numbers::Noise;
 
     const PERTURBATION: f64 = 1e-3;
 

@@ -1,12 +1,12 @@
 //! A single toss given by the quantities of Table I, and the search for the best of a family of tosses.
 
-use bouncing_disk::core::elementary::acos;
-use bouncing_disk::core::numerics::minimum::golden_section;
+use bouncing_disk::core::numerics::elementary::acos;
+use bouncing_disk::core::numerics::roots::golden_section;
 use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
 use serde::{Deserialize, Serialize};
 
+use crate::claims::paper::TableOne;
 use crate::experiment::ExperimentError;
-use crate::paper::TableOne;
 
 /// The parameters of a single toss, in the paper's order.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -156,7 +156,7 @@ mod tests {
 
     #[test]
     fn the_dough_still_leaves_at_the_last_angle() {
-        let case = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let case = TossCase::from(&crate::claims::paper::table_one().expect("reads"));
         let last = case.at_angle(case.last_angle()).toss(InitialSpin::AbsoluteRest).expect("leaves");
         let early = std::f64::consts::FRAC_PI_2 - last.separation_phase;
         assert!((0.0..1e-5).contains(&early), "{early}");

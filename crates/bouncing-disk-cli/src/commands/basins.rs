@@ -1,38 +1,20 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
-use bouncing_disk::core::{
+use bouncing_disk::core::attractors::{
     ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
-    PeriodicOrbit, UNDECIDED,
+    UNDECIDED,
 };
+use bouncing_disk::core::orbits::PeriodicOrbit;
 use bouncing_disk::{Observer, Progress};
-use clap::Args;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, VERTICAL, map, single};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, stored};
-use crate::output::table::{Column, Csv, Table};
-use crate::pictures;
-use crate::range::{Interval, Range};
-
-/// What stands at the end of the help.
-const AFTER: &str = "\
-The attractors are found first, without being told. Then each cell of the window says where an impact in its middle leads, \
-as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
-
-Examples:
-  bouncing-disk basins --out basins.png
-  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
-  bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json";
+use super::map::{MapArgs, VERTICAL, map};
+use super::prelude::*;
 
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
 const FORCING: f64 = 0.486;
@@ -42,7 +24,15 @@ const TOGETHER: usize = 100_000;
 
 /// Attractors and their basins, in the plane of impact phase and speed
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
+as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
+
+Examples:
+  bouncing-disk basins --out basins.png
+  bouncing-disk basins --axial-forcing 0.34 --cells 1000 --speed 0:5 --out basins.json
+  bouncing-disk basins --cells 10000 --chunk 3/50 --out part-3.json")]
 pub(crate) struct BasinsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), a number. That of FILE, --preset or --set unless
     /// given; without these 0.486, that of the paper's Fig. 7(b)
@@ -72,24 +62,22 @@ pub(crate) struct BasinsArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template(&args.output, context)? {
-        return Ok(());
-    }
-    let values = args.map.values(args.axial_forcing, Range::single(FORCING))?;
+pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
+    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let (axial_forcing, restitution) = args.map.single_values(&system, args.axial_forcing, FORCING)?;
     let job = BasinsJob {
-        axial_forcing: single(values.axial_forcings, "--axial-forcing")?,
-        restitution: single(values.restitutions, "--restitution")?,
+        axial_forcing,
+        restitution,
         cells: args.cells,
         phase_periods: args.phase.0,
         normalised_speed: args.speed.0,
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
     };
-    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// What basins depend on.
+/// The inputs of basins.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BasinsJob {
@@ -175,31 +163,30 @@ impl GridJob for BasinsJob {
         }
         let mut counts = [0_u64; 256];
         labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
+        let counted = |(label, words): &(Label, String)| (*label, words.clone(), counts[usize::from(*label)]);
         let legend = legend(&attractors);
-        let mut shown = Table::new(&[("label", "1"), ("attractor", "1"), ("cells", "1"), ("share", "%")]);
-        let mut listed = Vec::new();
-        for (label, words) in &legend {
-            let count = counts[usize::from(*label)];
-            let share = 100.0 * count as f64 / labels.len() as f64;
-            // Undecided cells are told of only if there are any.
-            if *label != UNDECIDED || count > 0 {
-                shown.push([u64::from(*label).into(), words.as_str().into(), count.into(), share.into()]);
-            }
-            listed.push(json!({ "label": label, "attractor": words, "cells": count }));
-        }
+        let all: Vec<(Label, String, u64)> = legend.iter().map(counted).collect();
+        let cells = labels.len() as f64;
+        let columns = Columns::<(Label, String, u64)>::new()
+            .column("label", "1", |row| u64::from(row.0))
+            .column("attractor", "1", |row| row.1.clone())
+            .column("cells", "1", |row| row.2)
+            .column("share", "%", move |row| 100.0 * row.2 as f64 / cells);
+        // Undecided cells are listed only if there are any.
+        let shown = columns.to_text(all.iter().filter(|(label, _, count)| *label != UNDECIDED || *count > 0));
+        let text = format!(
+            "axial forcing {}, restitution {}, {} by {2} cells\n{shown}",
+            self.axial_forcing, self.restitution, self.cells
+        );
+        let listed = all
+            .iter()
+            .map(|(label, words, count)| json!({ "label": label, "attractor": words, "cells": count }));
         let data = vec![
-            ("labels", Value::from(listed).into()),
+            ("labels", Value::from_iter(listed).into()),
             ("attractors", stored(&attractors)?),
             ("hexadecimal_labels_by_speed", stored(&rows)?),
         ];
         drop(rows);
-        let text = format!(
-            "axial forcing {}, restitution {}, {} by {2} cells\n{}",
-            self.axial_forcing,
-            self.restitution,
-            self.cells,
-            shown.to_text()
-        );
         let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
         let labels: Rc<[Label]> = labels.into();
         let picture = pictures::basins::Picture {
@@ -212,32 +199,26 @@ impl GridJob for BasinsJob {
             legend,
             impacts: impacts(&attractors),
         };
-        let table = Box::new(move |to: &mut dyn Write| write_csv(to, &window, &labels));
+        let table = Box::new(move |to: &mut dyn Write| {
+            let columns = Columns::<(f64, f64, Label)>::new()
+                .column("impact_phase", "periods", |row| row.0)
+                .column("normalised_impact_speed", "1", |row| row.1)
+                .column("label", "1", |row| u64::from(row.2));
+            let (phases, speeds) = (window.phase(), window.speed());
+            let cell = |(index, label): (usize, &Label)| {
+                (phases.centre(index % phases.cells()), speeds.centre(index / phases.cells()), *label)
+            };
+            columns.write_csv(to, labels.iter().enumerate().map(cell))
+        });
         Ok(Report { provenance, text, table, data, figure: Some(Box::new(move || picture.draw())) })
     }
-}
-
-fn write_csv(to: &mut dyn Write, window: &Grid, labels: &[Label]) -> io::Result<()> {
-    let columns = [
-        Column::new("impact_phase", "periods"),
-        Column::new("normalised_impact_speed", "1"),
-        Column::new("label", "1"),
-    ];
-    let mut csv = Csv::begin(to, &columns)?;
-    for (row, labels) in labels.chunks(window.phase().cells()).enumerate() {
-        for (column, label) in labels.iter().enumerate() {
-            let (phase, speed) = (window.phase().centre(column), window.speed().centre(row));
-            csv.row(&[phase.into(), speed.into(), u64::from(*label).into()])?;
-        }
-    }
-    Ok(())
 }
 
 fn hexadecimal(labels: &[Label]) -> String {
     labels.iter().map(|label| format!("{label:02x}")).collect()
 }
 
-/// The labels of a row; what is none counts as none, which the number of labels tells.
+/// The labels of a row, without pairs of letters that are none: their number shows a fault.
 fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
     let pairs = row.as_bytes().chunks(2);
     pairs.filter_map(|pair| Label::from_str_radix(std::str::from_utf8(pair).ok()?, 16).ok())

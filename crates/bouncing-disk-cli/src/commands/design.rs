@@ -3,57 +3,33 @@
 use std::rc::Rc;
 
 use bouncing_disk::{
-    OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
+    InitialSpin, OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
 };
-use clap::{Args, ValueEnum};
-use serde::Serialize;
 
-use crate::arguments::{OWN, OutputArgs};
-use crate::commands::map::wrote_template;
-use crate::commands::toss::{
-    MOST_INSTANTS, Sample, Spin, instants, motion, quantities, samples, write_table,
-};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::report::{Report, provenance, stored};
-use crate::output::table::Quantities;
-use crate::parameters::system::SystemArgs;
-use crate::pictures;
-use crate::range::Interval;
+use super::prelude::*;
+use super::toss::{MOST_INSTANTS, SPINS, Sample, instants, motion, quantities, samples, write_table};
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The quantities that a toss can maximise.
+const OBJECTIVES: Words<TossObjective> = &[
+    ("airborne-speed", "The airborne rotary speed (rad/s)", TossObjective::AirborneSpeed),
+    ("efficiency", "The efficiency of Sec. III A", TossObjective::Efficiency),
+    ("turns", "Turns until the dough is back at the height at which it left", TossObjective::TurnsPerToss),
+];
+
+/// How the objective is taken over a range of friction.
+const OVER: Words<OverFriction> =
+    &[("worst", "Its least value", OverFriction::Worst), ("mean", "Its mean", OverFriction::Mean)];
+
+/// The hand motion that tosses best, under constraints
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
 whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
 the range of friction. See docs/numerics/design.md and `TossConstraints` of the library.
 
 Examples:
   bouncing-disk design
-  bouncing-disk design --friction 0.5:0.7 --angular-frequency 10:16 --objective turns --highest-flight 0.5";
-
-/// What a toss is to be best at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Objective {
-    /// The airborne rotary speed (rad/s)
-    AirborneSpeed,
-    /// The efficiency of Sec. III A
-    Efficiency,
-    /// Turns until the dough is back at the height at which it left
-    Turns,
-}
-
-/// How the objective is taken over a range of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Over {
-    /// Its least value
-    Worst,
-    /// Its mean
-    Mean,
-}
-
-/// The hand motion that tosses best, under constraints
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk design --friction 0.5:0.7 --angular-frequency 10:16 --objective turns --highest-flight 0.5")]
 pub(crate) struct DesignArgs {
     #[command(flatten)]
     system: SystemArgs,
@@ -72,15 +48,15 @@ pub(crate) struct DesignArgs {
     /// The highest that the dough may fly above the place where it leaves the hand (m)
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES")]
     highest_flight: Option<f64>,
-    /// What the toss is to be best at
-    #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed")]
-    objective: Objective,
+    /// The quantity that the toss maximises
+    #[arg(help_heading = OWN, long, value_name = "WHAT", default_value = "airborne-speed", value_parser = one_of(OBJECTIVES))]
+    objective: TossObjective,
     /// How that is taken over the range of friction
-    #[arg(help_heading = OWN, long, value_name = "HOW", default_value = "worst")]
-    over_friction: Over,
+    #[arg(help_heading = OWN, long, value_name = "HOW", default_value = "worst", value_parser = one_of(OVER))]
+    over_friction: OverFriction,
     /// How the dough turns at the start
-    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
-    spin: Spin,
+    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
+    spin: InitialSpin,
     /// Instants of the motion in a file, at most a million; 40 in each period of the platform unless given,
     /// and 400 at least
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=MOST_INSTANTS))]
@@ -89,45 +65,30 @@ pub(crate) struct DesignArgs {
     output: OutputArgs,
 }
 
-#[derive(Serialize)]
-struct Job<'a> {
-    constraints: &'a TossConstraints,
-}
-
 impl DesignArgs {
-    fn constraints(&self) -> Result<TossConstraints, Failure> {
+    fn constraints(&self, system: &System) -> TossConstraints {
         let paper = TossConstraints::pizza_toss();
-        let dough = self.system.system()?.disk().parameters();
+        let dough = system.disk().parameters();
         let ends =
             |given: Option<Interval>, otherwise: [f64; 2]| given.map_or(otherwise, |interval| interval.0);
-        Ok(TossConstraints {
+        TossConstraints {
             dough,
-            initial: self.spin.into(),
+            initial: self.spin,
             stroke: self.stroke,
             friction: ends(self.friction, [dough.friction; 2]),
             angular_frequency: ends(self.angular_frequency, paper.angular_frequency),
             phase_lag: ends(self.phase_lag, paper.phase_lag),
             highest_flight: self.highest_flight,
-            objective: match self.objective {
-                Objective::AirborneSpeed => TossObjective::AirborneSpeed,
-                Objective::Efficiency => TossObjective::Efficiency,
-                Objective::Turns => TossObjective::TurnsPerToss,
-            },
-            over_friction: match self.over_friction {
-                Over::Worst => OverFriction::Worst,
-                Over::Mean => OverFriction::Mean,
-            },
-        })
+            objective: self.objective,
+            over_friction: self.over_friction,
+        }
     }
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.system, &args.output, context)? {
-        return Ok(());
-    }
-    args.output.check(true, &args.system.inputs(), None)?;
-    let constraints = args.constraints()?;
+    let Some(system) = args.system.begin(&args.output, true, context)? else { return Ok(()) };
+    let constraints = args.constraints(&system);
     let design = best_toss(&constraints, &context.watch("design"))?;
     let system = design.system()?;
     let trajectory = toss_trajectory(&system, constraints.initial)?;
@@ -136,7 +97,7 @@ pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
         samples(&system, trajectory.uniform(instants(args.samples, periods) as usize)).into()
     };
     let report = Report {
-        provenance: provenance("bouncing-disk design", &Job { constraints: &constraints })?,
+        provenance: provenance("bouncing-disk design", &json!({ "constraints": constraints }))?,
         text: list(&design, &system).to_text(),
         table: write_table(&samples),
         data: vec![("design", stored(&design)?), ("motion", motion(&samples))],

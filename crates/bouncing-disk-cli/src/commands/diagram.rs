@@ -1,31 +1,32 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
-use std::io::{self, Write};
+use std::io::Write;
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, MAX_RECORDED, Orbit, orbit_diagram};
-use clap::Args;
+use bouncing_disk::core::{
+    ChatterPolicy, ImpactState, Orbit,
+    sweep::{MAX_RECORDED, orbit_diagram},
+};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 
-use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, VERTICAL, map, single};
-use crate::commands::start::{STARTS, Start};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
-use crate::output::json::{Data, Elements};
-use crate::output::report::{Report, provenance};
-use crate::output::table::{self, Csv, Table};
-use crate::pictures;
-use crate::range::Range;
+use super::map::{MapArgs, VERTICAL, map, single};
+use super::prelude::*;
+use super::start::{STARTS, Start};
+use crate::output::json::Data;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Forcings of the paper's Fig. 6.
+const FORCINGS: &str = "0.30:0.62:641";
+
+/// Orbits that are followed together.
+const TOGETHER: usize = 256;
+
+/// An orbit diagram: the impacts for good, over the axial forcing
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in \
 periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
 phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
@@ -33,17 +34,7 @@ phases that differ by a millionth of a period. See docs/studying-the-dynamics.md
 Examples:
   bouncing-disk diagram --out diagram.png
   bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
-  bouncing-disk diagram --chunk 1/10 --out part-1.json";
-
-/// Forcings of the paper's Fig. 6.
-const FORCINGS: (f64, f64, usize) = (0.30, 0.62, 641);
-
-/// Orbits that are followed together.
-const TOGETHER: usize = 256;
-
-/// An orbit diagram: the impacts for good, over the axial forcing
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk diagram --chunk 1/10 --out part-1.json")]
 pub(crate) struct DiagramArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
     /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:641, those of the
@@ -67,22 +58,19 @@ pub(crate) struct DiagramArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template(&args.output, context)? {
-        return Ok(());
-    }
-    let (first, last, count) = FORCINGS;
-    let values =
-        args.map.values(args.axial_forcing, Range::new(first, last, count).map_err(Failure::usage)?)?;
+pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
+    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let otherwise = FORCINGS.parse().map_err(Failure::usage)?;
+    let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let starts = if args.start.is_empty() { vec![Start::Rest, Start::PeriodOne] } else { args.start.clone() };
     let job = DiagramJob {
-        axial_forcings: values.axial_forcings,
-        restitution: single(values.restitutions, "--restitution")?,
+        axial_forcings,
+        restitution: single(restitutions, "--restitution")?,
         starts,
         transient: args.transient,
         recorded: args.recorded,
     };
-    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
 /// Phases nearer than this count as one (periods).
@@ -91,7 +79,7 @@ const SAME_PHASE: f64 = 1e-6;
 /// What an impact takes (bytes): a phase and a speed.
 const IMPACT: u64 = 16;
 
-/// What a diagram depends on.
+/// The inputs of a diagram.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramJob {
@@ -128,13 +116,13 @@ impl Impacts {
 type Column = Vec<Option<Impacts>>;
 
 /// The columns of the diagram, each with its forcing, and the names of the starts.
-struct Columns {
+struct Diagram {
     axial_forcings: Range,
     starts: Vec<String>,
     rows: Vec<Column>,
 }
 
-impl Columns {
+impl Diagram {
     /// Forcing, place of the start and impacts of all orbits that there are.
     fn orbits(&self) -> impl Iterator<Item = (f64, usize, &Impacts)> {
         self.axial_forcings.values().zip(&self.rows).flat_map(|(forcing, row)| {
@@ -143,38 +131,35 @@ impl Columns {
         })
     }
 
-    /// Each impact a row.
-    fn write_csv(&self, to: &mut dyn Write) -> io::Result<()> {
-        let columns = [
-            ("axial_forcing", "1"),
-            ("start", "1"),
-            ("impact_phase", "periods"),
-            ("normalised_impact_speed", "1"),
-        ];
-        let mut csv = Csv::begin(to, &columns.map(|(name, unit)| table::Column::new(name, unit)))?;
-        for (forcing, start, impacts) in self.orbits() {
-            let start = &self.starts[start];
-            for (phase, speed) in impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed) {
-                csv.row(&[forcing.into(), start.as_str().into(), (*phase).into(), (*speed).into()])?;
-            }
-        }
-        Ok(())
+    /// Forcing, place of the start, phase and speed of all impacts.
+    fn impacts(&self) -> impl Iterator<Item = (f64, usize, f64, f64)> {
+        self.orbits().flat_map(|(forcing, start, impacts)| {
+            let both = impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed);
+            both.map(move |(phase, speed)| (forcing, start, *phase, *speed))
+        })
     }
 
-    /// Each orbit a line.
-    fn write_json(&self, each: &mut Elements<'_>) -> io::Result<()> {
-        self.orbits().try_for_each(|(forcing, start, impacts)| {
-            each(&json!({ "axial_forcing": forcing, "start": self.starts[start], "impacts": impacts }))
-        })
+    /// Each orbit a row.
+    fn text(&self) -> String {
+        type Row<'r> = (f64, &'r str, &'r Impacts);
+        let columns = Columns::<Row<'_>>::new()
+            .column("axial_forcing", "1", |row| row.0)
+            .column("start", "1", |row| row.1.to_owned())
+            .column("impacts", "1", |row| row.2.impact_phase_periods.len())
+            .column("distinct_phases", "1", |row| row.2.distinct())
+            .column("least_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.0))
+            .column("largest_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.1))
+            .column("largest_speed", "1", |row| ends(&row.2.normalised_impact_speed).map(|ends| ends.1));
+        let rows =
+            self.orbits().map(|(forcing, start, impacts)| (forcing, self.starts[start].as_str(), impacts));
+        columns.to_text(&rows.collect::<Vec<_>>())
     }
 
     /// The points of a picture: forcing, phase and speed, in a layer for each start.
     fn layers(&self) -> Vec<Vec<(f64, f64, f64)>> {
         let mut layers = vec![Vec::new(); self.starts.len()];
-        for (forcing, start, impacts) in self.orbits() {
-            let speeds = &impacts.normalised_impact_speed;
-            let points = impacts.impact_phase_periods.iter().zip(speeds);
-            layers[start].extend(points.map(|(phase, speed)| (forcing, *phase, *speed)));
+        for (forcing, start, phase, speed) in self.impacts() {
+            layers[start].push((forcing, phase, speed));
         }
         layers
     }
@@ -236,41 +221,33 @@ impl GridJob for DiagramJob {
     }
 
     fn report(self, (): (), rows: Vec<Self::Row>) -> Result<Report, Failure> {
-        let mut shown = Table::new(&[
-            ("axial_forcing", "1"),
-            ("start", "1"),
-            ("impacts", "1"),
-            ("distinct_phases", "1"),
-            ("least_phase", "periods"),
-            ("largest_phase", "periods"),
-            ("largest_speed", "1"),
-        ]);
-        let starts = self.starts.iter().map(Start::to_string).collect();
-        let columns = Columns { axial_forcings: self.axial_forcings, starts, rows };
-        for (forcing, start, impacts) in columns.orbits() {
-            let (least, largest) = ends(&impacts.impact_phase_periods);
-            shown.push([
-                forcing.into(),
-                columns.starts[start].as_str().into(),
-                impacts.impact_phase_periods.len().into(),
-                impacts.distinct().into(),
-                least.into(),
-                largest.into(),
-                ends(&impacts.normalised_impact_speed).1.into(),
-            ]);
-        }
-        let ends = self.axial_forcings.cell_ends(0.01);
         let provenance =
             provenance("bouncing-disk diagram", &self)?.with_chatter_policy(ChatterPolicy::Complete);
+        let ends = self.axial_forcings.cell_ends(0.01);
         let from: Vec<String> = self.starts.iter().map(Start::in_words).collect();
         let restitution = self.restitution;
-        let columns = Rc::new(columns);
-        let (listed, drawn) = (Rc::clone(&columns), Rc::clone(&columns));
+        let starts = self.starts.iter().map(Start::to_string).collect();
+        let diagram = Rc::new(Diagram { axial_forcings: self.axial_forcings, starts, rows });
+        let (tabled, listed, drawn) = (Rc::clone(&diagram), Rc::clone(&diagram), Rc::clone(&diagram));
+        let table = move |to: &mut dyn Write| {
+            let own = Rc::clone(&tabled);
+            let columns = Columns::<(f64, usize, f64, f64)>::new()
+                .column("axial_forcing", "1", |row| row.0)
+                .column("start", "1", move |row| own.starts[row.1].clone())
+                .column("impact_phase", "periods", |row| row.2)
+                .column("normalised_impact_speed", "1", |row| row.3);
+            columns.write_csv(to, tabled.impacts())
+        };
+        let list = Data::List(Box::new(move |each| {
+            listed.orbits().try_for_each(|(forcing, start, impacts)| {
+                each(&json!({ "axial_forcing": forcing, "start": listed.starts[start], "impacts": impacts }))
+            })
+        }));
         Ok(Report {
             provenance,
-            text: shown.to_text(),
-            table: Box::new(move |to| columns.write_csv(to)),
-            data: vec![("columns", Data::List(Box::new(move |each| listed.write_json(each))))],
+            text: diagram.text(),
+            table: Box::new(table),
+            data: vec![("columns", list)],
             figure: Some(Box::new(move || {
                 pictures::diagram::draw(ends, restitution, &from, &drawn.layers())
             })),
@@ -279,7 +256,6 @@ impl GridJob for DiagramJob {
 }
 
 /// The least and the largest value, if there are any.
-fn ends(values: &[f64]) -> (Option<f64>, Option<f64>) {
-    let (least, largest) = extent(values.iter().copied());
-    if values.is_empty() { (None, None) } else { (Some(least), Some(largest)) }
+fn ends(values: &[f64]) -> Option<(f64, f64)> {
+    (!values.is_empty()).then(|| extent(values.iter().copied()))
 }

@@ -1,31 +1,23 @@
 //! `bouncing-disk doublings`: the period-doubling cascade.
 
-use bouncing_disk::core::{CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates};
-use clap::Args;
-use serde::Serialize;
+use bouncing_disk::core::orbits::{
+    CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates,
+};
 
-use crate::arguments::{OWN, OutputArgs};
-use crate::commands::map::MapArgs;
-use crate::context::Context;
-use crate::failure::Failure;
+use super::map::MapArgs;
+use super::prelude::*;
 use crate::output::numbers::rounded;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::Table;
-use crate::pictures;
-
-/// What stands at the end of the help.
-const AFTER: &str = "\
-The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
-the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
-forcing by. The forcings are what is found, so that there is no --axial-forcing; of a system its restitution alone matters. See docs/numerics/dynamics.md.
-
-Examples:
-  bouncing-disk doublings
-  bouncing-disk doublings --restitution 0.3 --count 12 --out cascade.csv";
 
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+The cascade starts from the orbit with one impact in each period of the platform, at the paper's Gamma_1, Gamma_2, ... From \
+the seventh doubling on there are estimates of Feigenbaum's constants. The error is what rounding may have moved a \
+forcing by. The command finds the forcings, so that there is no --axial-forcing; of a system it takes the restitution alone. See docs/numerics/dynamics.md.
+
+Examples:
+  bouncing-disk doublings
+  bouncing-disk doublings --restitution 0.3 --count 12 --out cascade.csv")]
 pub(crate) struct DoublingsArgs {
     #[command(flatten)]
     map: MapArgs,
@@ -36,45 +28,33 @@ pub(crate) struct DoublingsArgs {
     output: OutputArgs,
 }
 
-#[derive(Serialize)]
-struct Job {
-    restitution: f64,
-    count: usize,
-}
-
 /// Runs the command.
-pub(crate) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template(&args.output, context)? {
-        return Ok(());
-    }
-    args.output.check(true, &args.map.inputs(), None)?;
-    let job = Job { restitution: args.map.single_restitution()?, count: args.count };
-    let found = doubling_cascade(job.restitution, job.count, &context.watch("doublings"))?;
+pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure> {
+    let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
+    let (_, restitution) = args.map.single_values(&system, None, 0.0)?;
+    let found = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
     let estimates = feigenbaum_estimates(&found);
+    let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
+    let rows = found.iter().map(|doubling| (*doubling, of(doubling))).collect();
+    let job = json!({ "restitution": restitution, "count": args.count });
     let report = Report {
         provenance: provenance("bouncing-disk doublings", &job)?,
         text: text(&found, &estimates),
-        table: ready(table(&found, &estimates)),
+        table: columns().csv_of(rows),
         data: vec![("doublings", stored(&found)?), ("feigenbaum_estimates", stored(&estimates)?)],
-        figure: Some(Box::new(move || pictures::doublings::draw(job.restitution, &found))),
+        figure: Some(Box::new(move || pictures::doublings::draw(restitution, &found))),
     };
     report.deliver(&args.output, context.quiet)
 }
 
 fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> String {
-    let columns =
-        [("number", "1"), ("period", "impacts"), ("axial_forcing", "1"), ("error", "1"), ("width", "rad")];
-    let mut table = Table::new(&columns);
-    for doubling in found {
-        table.push([
-            doubling.number.into(),
-            doubling.period.into(),
-            rounded(doubling.axial_forcing, 13).into(),
-            rounded(doubling.forcing_error, 1).into(),
-            doubling.width.into(),
-        ]);
-    }
-    let mut text = table.to_text();
+    let columns = Columns::<CascadeDoubling>::new()
+        .column("number", "1", |own| own.number)
+        .column("period", "impacts", |own| own.period)
+        .column("axial_forcing", "1", |own| rounded(own.axial_forcing, 13))
+        .column("error", "1", |own| rounded(own.forcing_error, 1))
+        .column("width", "rad", |own| own.width);
+    let mut text = columns.to_text(found);
     if let Some(last) = estimates.last() {
         text += &format!(
             "delta = {:.6} +- {}, alpha = {:.6} +- {}, from the doublings up to {}\n",
@@ -88,33 +68,17 @@ fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> String {
     text
 }
 
-fn table(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> Table {
-    let mut table = Table::new(&[
-        ("number", "1"),
-        ("period", "1"),
-        ("axial_forcing", "1"),
-        ("forcing_error", "1"),
-        ("width", "rad"),
-        ("multiplier", "1"),
-        ("delta", "1"),
-        ("delta_error", "1"),
-        ("alpha", "1"),
-        ("alpha_error", "1"),
-    ]);
-    for doubling in found {
-        let estimate = estimates.iter().find(|estimate| estimate.number == doubling.number);
-        table.push([
-            doubling.number.into(),
-            doubling.period.into(),
-            doubling.axial_forcing.into(),
-            doubling.forcing_error.into(),
-            doubling.width.into(),
-            doubling.multiplier.into(),
-            estimate.map(|estimate| estimate.delta).into(),
-            estimate.map(|estimate| estimate.delta_error).into(),
-            estimate.map(|estimate| estimate.alpha).into(),
-            estimate.map(|estimate| estimate.alpha_error).into(),
-        ]);
-    }
-    table
+/// The columns of a file: a doubling, with the estimates up to it.
+fn columns() -> Columns<(CascadeDoubling, Option<FeigenbaumEstimate>)> {
+    Columns::new()
+        .column("number", "1", |row: &(CascadeDoubling, Option<FeigenbaumEstimate>)| row.0.number)
+        .column("period", "1", |row| row.0.period)
+        .column("axial_forcing", "1", |row| row.0.axial_forcing)
+        .column("forcing_error", "1", |row| row.0.forcing_error)
+        .column("width", "rad", |row| row.0.width)
+        .column("multiplier", "1", |row| row.0.multiplier)
+        .column("delta", "1", |row| row.1.map(|own| own.delta))
+        .column("delta_error", "1", |row| row.1.map(|own| own.delta_error))
+        .column("alpha", "1", |row| row.1.map(|own| own.alpha))
+        .column("alpha_error", "1", |row| row.1.map(|own| own.alpha_error))
 }

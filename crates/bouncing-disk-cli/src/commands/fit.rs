@@ -1,28 +1,19 @@
-//! `bouncing-disk fit`: what measured run-ups say.
+//! `bouncing-disk fit`: steady speed and time constant, or parameters of a motor, from measured run-ups.
 
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use bouncing_disk::{
     CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
-    ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
+    ParameterEstimate, ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
-use clap::Args;
-use serde::Serialize;
 
-use crate::arguments::{OWN, OutputArgs};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::lines::complain;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::{Quantities, Table};
-use crate::parameters::motor::{MotorArgs, MotorPreset};
-use crate::parameters::setting::Setting;
-use crate::pictures;
-use crate::range::Interval;
+use super::prelude::*;
+use crate::parameters::source::{Described as _, Setting};
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Fits measured run-ups: steady speed and time constant, or parameters of a motor
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The file has the columns time_s, speed_rad_s and, for repeated runs, member, or times and speeds in units that it names, \
 such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
 fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
@@ -34,11 +25,7 @@ docs/designing-a-motor.md.
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
   bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
-  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4";
-
-/// Fits measured run-ups: steady speed and time constant, or parameters of a motor
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4")]
 pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,
@@ -64,8 +51,8 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, value_name = "FILE", requires = "parameter")]
     motor: Option<PathBuf>,
     /// With --parameter: a motor of the paper in place of a data sheet
-    #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor")]
-    preset: Option<MotorPreset>,
+    #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor", value_parser = one_of(Motor::PRESETS))]
+    preset: Option<fn() -> Motor>,
     /// With --parameter: gives a field of the data sheet another value
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter")]
     set: Vec<Setting>,
@@ -109,22 +96,8 @@ impl FromStr for Fitted {
     }
 }
 
-#[derive(Serialize)]
-struct Job<'a> {
-    speeds: &'a MeasuredSpeeds,
-    settings: FitSettings,
-}
-
-#[derive(Serialize)]
-struct ParameterJob<'a> {
-    speeds: &'a MeasuredSpeeds,
-    motor: &'a Motor,
-    ranges: &'a [FitRange],
-    settings: ParameterFitSettings,
-}
-
 /// Runs the command.
-pub(crate) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
     let inputs: Vec<&Path> =
         [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     // A fit of parameters is one of a certain motor. Data of another fit the paper's badly, and nobody sees why.
@@ -167,42 +140,31 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     list.push("file_units", format!("{time_unit}, {speed_unit}"), "1");
     if let Some(start_speed) = fit.exponential.start_speed {
         list.push("start_time", fit.start_time, "s");
-        list.push_interval(["start_speed", "start_speed_low", "start_speed_high"], start_speed, "rad/s");
+        list.push_interval("start_speed", start_speed, "rad/s");
         list.push("zero_time", fit.zero_time(), "s");
     }
     estimates(&fit, &mut list);
+    let job = json!({ "speeds": speeds, "settings": settings });
     Ok(Report {
-        provenance: provenance("bouncing-disk fit", &Job { speeds: &speeds, settings })?.with_seed(args.seed),
+        provenance: provenance("bouncing-disk fit", &job)?.with_seed(args.seed),
         text: list.to_text(),
-        table: ready(list.to_table()),
+        table: list.into_csv(),
         data: vec![("fit", stored(&fit)?)],
         figure: Some(Box::new(move || pictures::transient::measured(&speeds, &fit))),
     })
 }
 
-/// What a fit of a run-up says.
-pub(crate) fn estimates(fit: &TransientFit, list: &mut Quantities) {
-    list.push_interval(
-        ["steady_speed", "steady_speed_low", "steady_speed_high"],
-        fit.steady_speed(),
-        "rad/s",
-    );
-    list.push_interval(
-        ["time_constant", "time_constant_low", "time_constant_high"],
-        fit.time_constant(),
-        "s",
-    );
-    list.push_interval(
-        ["stall_acceleration", "stall_acceleration_low", "stall_acceleration_high"],
-        fit.stall_acceleration(),
-        "rad/s^2",
-    );
+/// The results of a fit of a run-up.
+pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
+    list.push_interval("steady_speed", fit.steady_speed(), "rad/s");
+    list.push_interval("time_constant", fit.time_constant(), "s");
+    list.push_interval("stall_acceleration", fit.stall_acceleration(), "rad/s^2");
     list.push("residual", fit.exponential.residual, "rad/s");
     list.push("better_form", format!("{:?}", fit.form).to_lowercase(), "1");
 }
 
 /// The words of a fit that is refused; another error is a failure.
-pub(crate) fn refusal(error: &FitError) -> Result<String, Failure> {
+pub(super) fn refusal(error: &FitError) -> Result<String, Failure> {
     match error {
         FitError::Refused(_) => Ok(error.to_string()),
         other => Err((*other).into()),
@@ -212,10 +174,9 @@ pub(crate) fn refusal(error: &FitError) -> Result<String, Failure> {
 fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
     let sheet =
         MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false };
-    let motor = sheet.motor(context.quiet)?;
-    if !context.quiet {
-        motor.warnings_on(&speeds).iter().for_each(|warning| complain!("warning: {warning}"));
-    }
+    let motor = sheet.get()?;
+    let warnings = motor.warnings().into_iter().chain(motor.warnings_on(&speeds));
+    warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
     let ranges: Vec<FitRange> = args.parameter.iter().map(|fitted| fitted.0).collect();
     let settings = ParameterFitSettings {
         seed: args.seed,
@@ -232,38 +193,26 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
         &settings,
         &context.watch("fit"),
     )?;
-    let mut table = Table::new(&[
-        ("parameter", "1"),
-        ("unit", "1"),
-        ("nominal", "1"),
-        ("value", "1"),
-        ("low", "1"),
-        ("high", "1"),
-        ("determined", "1"),
-    ]);
-    for own in &fit.parameters {
-        table.push([
-            own.parameter.name().into(),
-            own.parameter.unit().into(),
-            own.nominal.into(),
-            own.estimate.map(|estimate| estimate.value).into(),
-            own.estimate.map(|estimate| estimate.low).into(),
-            own.estimate.map(|estimate| estimate.high).into(),
-            if own.estimate.is_some() { "yes" } else { "no" }.into(),
-        ]);
-    }
-    let mut text = table.to_text();
+    let columns = Columns::<ParameterEstimate>::new()
+        .column("parameter", "1", |own| own.parameter.name())
+        .column("unit", "1", |own| own.parameter.unit())
+        .column("nominal", "1", |own| own.nominal)
+        .column("value", "1", |own| own.estimate.map(|estimate| estimate.value))
+        .column("low", "1", |own| own.estimate.map(|estimate| estimate.low))
+        .column("high", "1", |own| own.estimate.map(|estimate| estimate.high))
+        .column("determined", "1", |own| own.estimate.is_some());
+    let mut text = columns.to_text(&fit.parameters);
     for direction in &fit.undetermined {
         let parts: Vec<String> =
             direction.direction.iter().map(|(parameter, part)| format!("{part:.2} {parameter}")).collect();
         text += &format!("not determined: {}\n", parts.join(", "));
     }
     text += &format!("misfit {:.3} for {} degrees of freedom\n", fit.misfit, fit.degrees_of_freedom);
-    let job = ParameterJob { speeds: &transient.runs, motor: &motor, ranges: &ranges, settings };
+    let job = json!({ "speeds": transient.runs, "motor": motor, "ranges": ranges, "settings": settings });
     Ok(Report {
         provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
         text,
-        table: ready(table),
+        table: columns.csv_of(fit.parameters.clone()),
         data: vec![("fit", stored(&fit)?)],
         figure: None,
     })

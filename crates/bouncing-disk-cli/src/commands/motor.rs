@@ -5,16 +5,14 @@ mod lag;
 mod report;
 mod settings;
 mod stall;
-pub(crate) mod sweep;
-pub(crate) mod transient;
+pub(super) mod sweep;
+pub(super) mod transient;
 mod traps;
 
 use clap::{Args, Subcommand};
 
-use crate::arguments::OutputArgs;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::parameters::motor::{MotorArgs, template};
 
 /// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
 #[derive(Debug, Args)]
@@ -36,7 +34,7 @@ enum Motors {
 }
 
 /// Runs the command.
-pub(crate) fn run(command: MotorCommand, context: Context) -> Result<(), Failure> {
+pub(super) fn run(command: MotorCommand, context: Context) -> Result<(), Failure> {
     match command.command {
         Motors::Report(args) => report::run(&args, context),
         Motors::Transient(args) => transient::run(&args, context),
@@ -46,12 +44,4 @@ pub(crate) fn run(command: MotorCommand, context: Context) -> Result<(), Failure
         Motors::Traps(args) => traps::run(&args, context),
         Motors::Sweep(args) => sweep::run(&args, context),
     }
-}
-
-/// Writes the template if that is asked for, and says whether it was.
-fn wrote_template(args: &MotorArgs, output: &OutputArgs, context: Context) -> Result<bool, Failure> {
-    if args.template {
-        output.write_template(&template(&args.motor(true)?), context)?;
-    }
-    Ok(args.template)
 }

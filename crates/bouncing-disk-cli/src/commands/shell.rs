@@ -1,28 +1,17 @@
-//! What a shell is told of the program: completions and manual pages, made from the command line's own
-//! description.
+//! Completions and manual pages for a shell, made from the command line's own description.
 
 use std::io::{self, Write as _};
 
-use clap::{Args, CommandFactory as _};
+use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::arguments::CommandLine;
 use crate::failure::Failure;
-
-/// What stands at the end of the help of completions.
-const AFTER_COMPLETIONS: &str = "\
-Example:
-  bouncing-disk completions bash > ~/.local/share/bash-completion/completions/bouncing-disk";
-
-/// What stands at the end of the help of the manual.
-const AFTER_MAN: &str = "\
-Examples:
-  bouncing-disk man > bouncing-disk.1
-  bouncing-disk man motor sweep | man -l -";
 
 /// Completions for a shell, on standard output
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_COMPLETIONS)]
+#[command(after_help = "\
+Example:
+  bouncing-disk completions bash > ~/.local/share/bash-completion/completions/bouncing-disk")]
 pub(crate) struct CompletionsArgs {
     /// The shell
     shell: Shell,
@@ -30,15 +19,17 @@ pub(crate) struct CompletionsArgs {
 
 /// A manual page in roff, on standard output
 #[derive(Debug, Args)]
-#[command(after_help = AFTER_MAN)]
+#[command(after_help = "\
+Examples:
+  bouncing-disk man > bouncing-disk.1
+  bouncing-disk man motor sweep | man -l -")]
 pub(crate) struct ManArgs {
     /// The command whose page it is; that of the program unless given
     command: Vec<String>,
 }
 
 /// Writes completions.
-pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+pub(crate) fn completions(args: &CompletionsArgs, mut command: Command) -> Result<(), Failure> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "bouncing-disk", &mut text);
     // For bash clap_complete writes the hyphen of the program's name in two ways, and finds no subcommand.
@@ -47,8 +38,7 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<(), Failure> {
 }
 
 /// Writes a manual page.
-pub(crate) fn man(args: &ManArgs) -> Result<(), Failure> {
-    let mut command = CommandLine::command();
+pub(crate) fn man(args: &ManArgs, mut command: Command) -> Result<(), Failure> {
     command.build();
     let mut name = "bouncing-disk".to_owned();
     for word in &args.command {

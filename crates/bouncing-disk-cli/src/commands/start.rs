@@ -27,16 +27,13 @@ pub(crate) enum Start {
     At(f64, f64),
 }
 
-/// What is possible, for the help.
+/// The possible starts, for the help.
 pub(crate) const STARTS: &str = "`rest` on the platform; `rise`, an impact as the platform rises fastest, with the speed of the \
     period-1 orbit; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
     in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
 
 impl Start {
     /// The impact in a map; `None` where the map has no such start.
-    ///
-    /// # Errors
-    /// Those of [`ImpactState::new`].
     pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
         match self {
             Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),

@@ -8,55 +8,24 @@ use bouncing_disk::{
     Engine, InitialCondition, InitialSpin, MultiTossSettings, OrbitClass, PhaseSpan, Snapshot, System,
     TOSS_START, TossOrbit, TossPerformance, multi_toss, single_toss, toss_trajectory,
 };
-use clap::{Args, ValueEnum};
 use serde::Serialize;
 
-use crate::arguments::{OWN, OutputArgs};
-use crate::commands::map::wrote_template;
-use crate::context::Context;
-use crate::failure::Failure;
+use super::prelude::*;
 use crate::output::json::Data;
-use crate::output::report::{Report, WriteTable, provenance, stored};
-use crate::output::table::{Column, Csv, Quantities};
-use crate::parameters::system::SystemArgs;
-use crate::pictures;
-
-/// What stands at the end of the help.
-const AFTER: &str = "\
-The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
-after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
-than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
-are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
-
-Examples:
-  bouncing-disk toss
-  bouncing-disk toss --set disk.friction=0.05 --out toss.png
-  bouncing-disk toss --many --set platform.angular_frequency=12";
+use crate::output::table::WriteTable;
 
 /// How the disk turns at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Spin {
-    /// It does not turn
-    AbsoluteRest,
-    /// It turns with the platform
-    RestRelativeToHand,
-}
-
-impl From<Spin> for InitialSpin {
-    fn from(spin: Spin) -> Self {
-        match spin {
-            Spin::AbsoluteRest => Self::AbsoluteRest,
-            Spin::RestRelativeToHand => Self::RestRelativeToHand,
-        }
-    }
-}
+pub(super) const SPINS: Words<InitialSpin> = &[
+    ("absolute-rest", "It does not turn", InitialSpin::AbsoluteRest),
+    ("rest-relative-to-hand", "It turns with the platform", InitialSpin::RestRelativeToHand),
+];
 
 /// Most instants of a motion in a file.
-pub(crate) const MOST_INSTANTS: i64 = 1_000_000;
+pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 
 /// Instants of a motion over so many periods of the platform, unless they are given: fewer would show another
 /// motion of the platform than it has.
-pub(crate) fn instants(given: Option<u32>, periods: u64) -> u32 {
+pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
     const LEAST: u64 = 400;
     const A_PERIOD: u64 = 40;
     let otherwise = (A_PERIOD.saturating_mul(periods)).clamp(LEAST, MOST_INSTANTS.unsigned_abs());
@@ -65,13 +34,22 @@ pub(crate) fn instants(given: Option<u32>, periods: u64) -> u32 {
 
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+#[command(after_help = "\
+The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
+after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
+than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
+are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
+
+Examples:
+  bouncing-disk toss
+  bouncing-disk toss --set disk.friction=0.05 --out toss.png
+  bouncing-disk toss --many --set platform.angular_frequency=12")]
 pub(crate) struct TossArgs {
     #[command(flatten)]
     system: SystemArgs,
     /// How the disk turns at the start, at the lowest point of the platform
-    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest")]
-    spin: Spin,
+    #[arg(help_heading = OWN, long, value_name = "SPIN", default_value = "absolute-rest", value_parser = one_of(SPINS))]
+    spin: InitialSpin,
     /// Follows the disk through many tosses, and says what it settles on
     #[arg(help_heading = OWN, long)]
     many: bool,
@@ -92,44 +70,16 @@ pub(crate) struct TossArgs {
     output: OutputArgs,
 }
 
-#[derive(Serialize)]
-struct Job<'a> {
-    system: &'a System,
-    spin: InitialSpin,
-    many: bool,
-    samples: usize,
-    transient_impacts: Option<usize>,
-    examined_impacts: Option<usize>,
-    periods: Option<u64>,
-}
-
 /// Runs the command.
-pub(crate) fn run(args: &TossArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.system, &args.output, context)? {
-        return Ok(());
-    }
-    args.output.check(true, &args.system.inputs(), None)?;
-    let system = args.system.system()?;
+pub(super) fn run(args: &TossArgs, context: Context) -> Result<(), Failure> {
+    let Some(system) = args.system.begin(&args.output, true, context)? else { return Ok(()) };
     let report = if args.many { many(&system, args, context)? } else { single(&system, args)? };
     report.deliver(&args.output, context.quiet)
 }
 
-fn job<'a>(system: &'a System, args: &TossArgs, samples: usize) -> Job<'a> {
-    let many = |value: usize| args.many.then_some(value);
-    Job {
-        system,
-        spin: args.spin.into(),
-        many: args.many,
-        samples,
-        transient_impacts: many(args.transient),
-        examined_impacts: many(args.examined),
-        periods: args.many.then_some(args.periods),
-    }
-}
-
 fn single(system: &System, args: &TossArgs) -> Result<Report, Failure> {
-    let toss = single_toss(system, args.spin.into())?;
-    let trajectory = toss_trajectory(system, args.spin.into())?;
+    let toss = single_toss(system, args.spin)?;
+    let trajectory = toss_trajectory(system, args.spin)?;
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
     let text = quantities(system, &toss).to_text();
@@ -137,7 +87,7 @@ fn single(system: &System, args: &TossArgs) -> Result<Report, Failure> {
 }
 
 /// The numbers of a toss, in the order in which the paper speaks of them.
-pub(crate) fn quantities(system: &System, toss: &TossPerformance) -> Quantities {
+pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities {
     let mut list = Quantities::default();
     list.push("axial_forcing", system.axial_forcing(), "1");
     list.push("angular_forcing", system.angular_forcing(), "1");
@@ -145,7 +95,7 @@ pub(crate) fn quantities(system: &System, toss: &TossPerformance) -> Quantities 
     list.push("speed_ratio", toss.speed_ratio, "1");
     list.push("efficiency", toss.efficiency, "1");
     list.push("separation_phase", toss.separation_phase, "rad");
-    list.push("slides_at_separation", if toss.sliding_at_separation { "yes" } else { "no" }, "1");
+    list.push("slides_at_separation", toss.sliding_at_separation, "1");
     list.push("launch_speed", toss.launch_speed, "m/s");
     list.push("rotary_energy_gain", toss.rotary_energy_gain, "J/kg");
     list.push("work_of_normal_force", toss.energy.normal_work, "J/kg");
@@ -161,7 +111,7 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
         ..MultiTossSettings::default()
     };
     let start = start(system, args.spin)?;
-    // Before the long part, so that a number of periods that is not legal is told at once.
+    // Before the long part, so that an illegal number of periods is refused at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
     let span = PhaseSpan { periods: args.periods, remainder: 0.0 };
     let instants = instants(args.samples, args.periods) as usize;
@@ -172,11 +122,11 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
 }
 
 /// At rest on the platform at its lowest point, as a single toss starts.
-fn start(system: &System, spin: Spin) -> Result<InitialCondition, Failure> {
+fn start(system: &System, spin: InitialSpin) -> Result<InitialCondition, Failure> {
     let phase = Phase::new(TOSS_START)?;
     let angular_speed = match spin {
-        Spin::AbsoluteRest => 0.0,
-        Spin::RestRelativeToHand => system.dimensionless().platform_angular_speed(phase),
+        InitialSpin::AbsoluteRest => 0.0,
+        _ => system.dimensionless().platform_angular_speed(phase),
     };
     Ok(InitialCondition::Contact { phase, angular_speed })
 }
@@ -216,8 +166,7 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
     }
     let unit = system.scales().angular_speed;
     list.push("mean_angular_speed", orbit.mean_angular_speed.map(|speed| speed * unit), "rad/s");
-    let repeats = orbit.rotation_repeats.map(|repeats| if repeats { "yes" } else { "no" });
-    list.push("rotation_repeats", repeats, "1");
+    list.push("rotation_repeats", orbit.rotation_repeats, "1");
     list
 }
 
@@ -234,7 +183,7 @@ pub(crate) struct Sample {
 }
 
 /// Disk and platform in SI units; the time is 0 at the first instant.
-pub(crate) fn samples(system: &System, motion: impl IntoIterator<Item = Snapshot>) -> Vec<Sample> {
+pub(super) fn samples(system: &System, motion: impl IntoIterator<Item = Snapshot>) -> Vec<Sample> {
     let scales = system.scales();
     let mut start = None;
     let sample = |snapshot: Snapshot| {
@@ -260,12 +209,22 @@ fn report(
     text: String,
     found: Vec<(&'static str, Data)>,
 ) -> Result<Report, Failure> {
+    let many = |value: u64| args.many.then_some(value);
+    let job = json!({
+        "system": system,
+        "spin": args.spin,
+        "many": args.many,
+        "samples": samples.len(),
+        "transient_impacts": many(args.transient as u64),
+        "examined_impacts": many(args.examined as u64),
+        "periods": many(args.periods),
+    });
     let samples: Rc<[Sample]> = samples.into();
     let period = args.many.then(|| TAU / system.platform().angular_frequency());
     let mut data = found;
     data.push(("motion", motion(&samples)));
     Ok(Report {
-        provenance: provenance("bouncing-disk toss", &job(system, args, samples.len()))?,
+        provenance: provenance("bouncing-disk toss", &job)?,
         text,
         table: write_table(&samples),
         data,
@@ -274,39 +233,18 @@ fn report(
 }
 
 /// The motion as a list for a file of JSON.
-pub(crate) fn motion(samples: &Rc<[Sample]>) -> Data {
+pub(super) fn motion(samples: &Rc<[Sample]>) -> Data {
     let samples = Rc::clone(samples);
     Data::list(samples.len(), move |index| Ok(serde_json::to_value(samples[index])?))
 }
 
 /// The motion as comma-separated text.
-pub(crate) fn write_table(samples: &Rc<[Sample]>) -> WriteTable {
+pub(super) fn write_table(samples: &Rc<[Sample]>) -> WriteTable {
     let samples = Rc::clone(samples);
     Box::new(move |to| {
-        let mut csv = Csv::begin(
-            to,
-            &[
-                Column::new("time", "s"),
-                Column::new("disk_height", "m"),
-                Column::new("platform_height", "m"),
-                Column::new("disk_angle", "rad"),
-                Column::new("platform_angle", "rad"),
-                Column::new("disk_angular_speed", "rad/s"),
-                Column::new("platform_angular_speed", "rad/s"),
-            ],
-        )?;
-        samples.iter().try_for_each(|sample| {
-            let values = [
-                sample.time_s,
-                sample.disk_height_m,
-                sample.platform_height_m,
-                sample.disk_angle_rad,
-                sample.platform_angle_rad,
-                sample.disk_angular_speed_rad_s,
-                sample.platform_angular_speed_rad_s,
-            ];
-            csv.row(&values.map(Into::into))
-        })
+        let mut csv = csv::Writer::from_writer(to);
+        samples.iter().try_for_each(|sample| csv.serialize(sample))?;
+        csv.flush()
     })
 }
 

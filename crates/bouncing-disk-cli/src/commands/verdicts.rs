@@ -1,31 +1,37 @@
 //! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
 
-mod found;
-mod kind;
-
+use std::io::Write;
 use std::ops::Range as Rows;
 use std::rc::Rc;
 
 use bouncing_disk::Observer;
-use bouncing_disk::core::{ChatterPolicy, MAX_CELLS, Verdict, VerdictSettings, each_verdict};
-use clap::Args;
+use bouncing_disk::core::{
+    ChatterPolicy,
+    attractors::{MAX_CELLS, Verdict, VerdictSettings, each_verdict},
+};
 use serde::{Deserialize, Serialize};
 
-use self::found::Found;
-pub(crate) use self::kind::Kind;
-use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::commands::map::{MapArgs, VERTICAL, map};
-use crate::commands::start::{STARTS, Start};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
+use super::map::{MapArgs, VERTICAL, map};
+use super::prelude::*;
+use super::start::{STARTS, Start};
 use crate::output::json::Data;
-use crate::output::report::{Report, provenance, stored};
-use crate::pictures;
-use crate::range::Range;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Forcings unless given.
+const FORCINGS: &str = "0.30:0.62:33";
+
+/// Orbits that are followed together.
+const TOGETHER: usize = 4_096;
+
+/// Most cells that keep their evidence.
+const MOST_DETAILED: u64 = 1 << 24;
+
+/// Bytes of a cell while the result is made, with its evidence and without.
+const DETAILED: u64 = 2 * size_of::<Option<Verdict>>() as u64;
+const PLAIN: u64 = 4;
+
+/// Verdicts on what the disk does for good, over forcing and restitution
+#[derive(Debug, Args)]
+#[command(after_help = "\
 A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
 proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
 makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
@@ -34,24 +40,7 @@ docs/studying-the-dynamics.md.
 Examples:
   bouncing-disk verdicts --axial-forcing 0.3:0.6:7
   bouncing-disk verdicts -G 0:3:300 -r 0:0.95:200 --impacts 2000 --out map.png
-  bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json";
-
-/// Forcings unless given.
-const FORCINGS: (f64, f64, usize) = (0.30, 0.62, 33);
-
-/// Orbits that are followed together.
-const TOGETHER: usize = 4_096;
-
-/// Most cells that keep their evidence.
-const MOST_DETAILED: u64 = 1 << 24;
-
-/// What a cell takes while the result is made (bytes), with its evidence and without.
-const DETAILED: u64 = 2 * size_of::<Option<Verdict>>() as u64;
-const PLAIN: u64 = 4;
-
-/// Verdicts on what the disk does for good, over forcing and restitution
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk verdicts -G 0:3:4000 -r 0:0.95:4000 --chunk 17/500 --out part-17.json")]
 pub(crate) struct VerdictsArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
     /// included. That of FILE, --preset or --set unless given; without these 0.30:0.62:33
@@ -84,16 +73,13 @@ pub(crate) struct VerdictsArgs {
 }
 
 /// Runs the command.
-pub(crate) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> {
-    if args.map.wrote_template(&args.output, context)? {
-        return Ok(());
-    }
-    let (first, last, count) = FORCINGS;
-    let values =
-        args.map.values(args.axial_forcing, Range::new(first, last, count).map_err(Failure::usage)?)?;
+pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> {
+    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let otherwise = FORCINGS.parse().map_err(Failure::usage)?;
+    let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let job = VerdictsJob {
-        axial_forcings: values.axial_forcings,
-        restitutions: values.restitutions,
+        axial_forcings,
+        restitutions,
         start: args.start,
         settings: VerdictSettings {
             transient: args.transient,
@@ -101,12 +87,12 @@ pub(crate) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> 
             longest_period: args.longest_period,
             tolerance: args.tolerance,
         },
-        details: args.details || values.restitutions.count() == 1,
+        details: args.details || restitutions.count() == 1,
     };
-    grid::run(job, &args.map.inputs(), &args.grid, &args.output, context)
+    grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// What verdicts depend on.
+/// The inputs of verdicts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VerdictsJob {
@@ -202,22 +188,22 @@ impl GridJob for VerdictsJob {
             data.push(("kinds_by_restitution", stored(&digits)?));
         }
         let found = Rc::new(Found { job: self, kinds, verdicts });
-        if found.job.details {
+        if self.details {
             let listed = Rc::clone(&found);
-            data.push(("cells", Data::list(listed.kinds.len(), move |index| listed.cell(index))));
+            let cell = move |index| {
+                let (forcing, restitution) = listed.place(index);
+                let verdict = serde_json::to_value(listed.verdicts.get(index))?;
+                Ok(json!({ "axial_forcing": forcing, "restitution": restitution, "verdict": verdict }))
+            };
+            data.push(("cells", Data::list(found.kinds.len(), cell)));
         }
-        let drawn = Rc::clone(&found);
-        let figure = move || {
-            let Self { axial_forcings, restitutions, .. } = drawn.job;
-            pictures::regimes::draw(axial_forcings, restitutions, &drawn.kinds)
+        let (text, drawn) = (found.text(), Rc::clone(&found));
+        let figure = move || pictures::regimes::draw(self.axial_forcings, self.restitutions, &drawn.kinds);
+        let table = move |to: &mut dyn Write| {
+            let columns = found.columns();
+            columns.write_csv(to, (0..found.kinds.len()).map(|index| found.row(index)))
         };
-        Ok(Report {
-            provenance,
-            text: found.text(),
-            table: Box::new(move |to| found.write_csv(to)),
-            data,
-            figure: Some(Box::new(figure)),
-        })
+        Ok(Report { provenance, text, table: Box::new(table), data, figure: Some(Box::new(figure)) })
     }
 }
 
@@ -248,5 +234,165 @@ impl VerdictsJob {
         } else {
             (self.axial_forcings.value(row), self.restitutions.value(0))
         }
+    }
+}
+
+/// The verdicts, cell by cell in the order of the rows.
+struct Found {
+    job: VerdictsJob,
+    kinds: Vec<Kind>,
+    /// Of each cell, where the job keeps the evidence; else none at all.
+    verdicts: Vec<Option<Verdict>>,
+}
+
+/// Forcing and restitution of a cell, what the disk does there, and the evidence where it is kept.
+type Cell = (f64, f64, Kind, Option<Verdict>);
+
+impl Found {
+    /// Forcing and restitution of a cell.
+    fn place(&self, index: usize) -> (f64, f64) {
+        self.job.cell(index / self.job.columns(), index % self.job.columns())
+    }
+
+    fn row(&self, index: usize) -> Cell {
+        let (forcing, restitution) = self.place(index);
+        (forcing, restitution, self.kinds[index], self.verdicts.get(index).copied().flatten())
+    }
+
+    /// The text: of a map how many cells there are of each kind that there is, else each verdict in words.
+    fn text(&self) -> String {
+        if !self.job.is_map() {
+            let columns = Columns::<Cell>::new().column("axial_forcing", "1", |row| row.0);
+            let columns = columns.column("verdict", "1", |row| {
+                row.3.map_or(row.2.name().to_owned(), |verdict| verdict.to_string())
+            });
+            return columns.to_text(&(0..self.kinds.len()).map(|index| self.row(index)).collect::<Vec<_>>());
+        }
+        let all = self.kinds.len() as f64;
+        let columns = Columns::<(Kind, usize)>::new()
+            .column("verdict", "1", |row| row.0.name())
+            .column("cells", "1", |row| row.1)
+            .column("share", "%", move |row| 100.0 * row.1 as f64 / all);
+        let count = |kind| (kind, self.kinds.iter().filter(|own| **own == kind).count());
+        let there = Kind::ALL.map(count).into_iter().filter(|(_, count)| *count > 0);
+        columns.to_text(&there.collect::<Vec<_>>())
+    }
+
+    /// The columns of a file: each cell is a row, with the details where there are any.
+    fn columns(&self) -> Columns<Cell> {
+        let plain = Columns::<Cell>::new()
+            .column("axial_forcing", "1", |row| row.0)
+            .column("restitution", "1", |row| row.1)
+            .column("verdict", "1", |row| row.2.name());
+        if !self.job.details {
+            return plain;
+        }
+        plain
+            .column("impacts", "1", |row| match row.3? {
+                Verdict::Periodic { impacts, .. } => Some(impacts),
+                Verdict::Chattering { cycle, .. } => Some(cycle.impacts),
+                _ => None,
+            })
+            .column("platform_periods", "1", |row| match row.3? {
+                Verdict::Periodic { platform_periods, .. } => Some(platform_periods),
+                Verdict::Chattering { cycle, .. } => Some(cycle.platform_periods),
+                _ => None,
+            })
+            .column("spectral_radius", "1", |row| match row.3? {
+                Verdict::Periodic { multipliers, .. } => Some(multipliers.spectral_radius()),
+                _ => None,
+            })
+            .column("exponent", "per impact", |row| match row.3? {
+                Verdict::Chaotic { exponent, .. } => Some(exponent),
+                _ => None,
+            })
+            .column("exponent_error", "per impact", |row| match row.3? {
+                Verdict::Chaotic { standard_error, .. } => Some(standard_error),
+                _ => None,
+            })
+            .column("words", "1", |row| row.3.map(|verdict| verdict.to_string()))
+    }
+}
+
+/// The kind of motion that the disk settles on, without the evidence.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    AtRest,
+    ExactCycle,
+    LongCycle,
+    PeriodOne,
+    PeriodTwo,
+    PeriodThree,
+    LongerPeriod,
+    Chaotic,
+    Undecided,
+    /// There is no such start.
+    NoStart,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 10] = [
+        Self::AtRest,
+        Self::ExactCycle,
+        Self::LongCycle,
+        Self::PeriodOne,
+        Self::PeriodTwo,
+        Self::PeriodThree,
+        Self::LongerPeriod,
+        Self::Chaotic,
+        Self::Undecided,
+        Self::NoStart,
+    ];
+
+    pub(crate) fn of(verdict: Option<&Verdict>) -> Self {
+        match verdict {
+            None => Self::NoStart,
+            Some(Verdict::AtRest { .. }) => Self::AtRest,
+            Some(Verdict::Chattering { cycle, .. }) if cycle.is_exact() => Self::ExactCycle,
+            Some(Verdict::Chattering { .. }) => Self::LongCycle,
+            Some(Verdict::Periodic { impacts: 1, .. }) => Self::PeriodOne,
+            Some(Verdict::Periodic { impacts: 2, .. }) => Self::PeriodTwo,
+            Some(Verdict::Periodic { impacts: 3, .. }) => Self::PeriodThree,
+            Some(Verdict::Periodic { .. }) => Self::LongerPeriod,
+            Some(Verdict::Chaotic { .. }) => Self::Chaotic,
+            Some(_) => Self::Undecided,
+        }
+    }
+
+    /// Its place in [`Self::ALL`], as a letter.
+    fn digit(self) -> char {
+        char::from(b'0' + self as u8)
+    }
+
+    fn of_digit(letter: char) -> Option<Self> {
+        Self::ALL.get(letter.to_digit(10)? as usize).copied()
+    }
+
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::AtRest => "at rest",
+            Self::ExactCycle => "cycle with rest",
+            Self::LongCycle => "cycle with rest, chosen by rounding",
+            Self::PeriodOne => "period 1",
+            Self::PeriodTwo => "period 2",
+            Self::PeriodThree => "period 3",
+            Self::LongerPeriod => "period 4 or longer",
+            Self::Chaotic => "chaotic",
+            Self::Undecided => "undecided",
+            Self::NoStart => "no such start",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_have_a_digit_each() {
+        for kind in Kind::ALL {
+            assert_eq!(Kind::of_digit(kind.digit()), Some(kind));
+        }
+        assert_eq!([':', '/', 'a'].map(Kind::of_digit), [None; 3]);
     }
 }

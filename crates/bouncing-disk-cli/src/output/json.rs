@@ -5,10 +5,7 @@ use std::io::{self, Write};
 
 use serde_json::Value;
 
-/// What is given the elements of a list one by one.
-pub(crate) type Elements<'w> = dyn FnMut(&Value) -> io::Result<()> + 'w;
-
-/// What a field has.
+/// The value of a field.
 pub(crate) enum Data {
     Whole(Value),
     /// A list whose elements are tables or lists, each made when it is written: all of them together may take
@@ -16,8 +13,8 @@ pub(crate) enum Data {
     List(Box<List>),
 }
 
-/// Gives all elements of a list.
-pub(crate) type List = dyn Fn(&mut Elements<'_>) -> io::Result<()>;
+/// Gives a function the elements of a list one by one.
+pub(crate) type List = dyn Fn(&mut dyn FnMut(&Value) -> io::Result<()>) -> io::Result<()>;
 
 impl From<Value> for Data {
     fn from(value: Value) -> Self {
@@ -26,7 +23,7 @@ impl From<Value> for Data {
 }
 
 impl Data {
-    /// A list of what is made of the numbers below `count`.
+    /// A list of `count` elements, made from their indices.
     pub(crate) fn list(count: usize, of: impl Fn(usize) -> io::Result<Value> + 'static) -> Self {
         Self::List(Box::new(move |each| (0..count).try_for_each(|index| each(&of(index)?))))
     }
@@ -37,45 +34,45 @@ pub(crate) fn write<'a>(
     to: &mut dyn Write,
     fields: impl IntoIterator<Item = (&'a str, &'a Data)>,
 ) -> io::Result<()> {
-    to.write_all(b"{")?;
-    for (index, (name, data)) in fields.into_iter().enumerate() {
-        let comma = if index == 0 { "" } else { "," };
-        write!(to, "{comma}\n  {}: ", Value::from(name))?;
+    let mut before = "{";
+    for (name, data) in fields {
+        write!(to, "{before}\n  {}: ", Value::from(name))?;
+        before = ",";
         match data {
-            Data::Whole(value) => below(to, value)?,
-            Data::List(elements) => list(to, elements)?,
-        }
+            Data::List(elements) => {
+                below(to, ["[", "]"], |each| elements(&mut |element| each(element.to_string())))
+            }
+            Data::Whole(Value::Array(elements))
+                if elements.iter().any(|own| own.is_array() || own.is_object()) =>
+            {
+                below(to, ["[", "]"], |each| {
+                    elements.iter().try_for_each(|element| each(element.to_string()))
+                })
+            }
+            Data::Whole(Value::Object(fields)) => below(to, ["{", "}"], |each| {
+                fields
+                    .iter()
+                    .try_for_each(|(name, value)| each(format!("{}: {value}", Value::from(name.as_str()))))
+            }),
+            Data::Whole(other) => write!(to, "{other}"),
+        }?;
     }
     to.write_all(b"\n}\n")
 }
 
-fn list(to: &mut dyn Write, elements: impl Fn(&mut Elements<'_>) -> io::Result<()>) -> io::Result<()> {
-    let mut before = "[";
-    elements(&mut |element| {
-        write!(to, "{before}\n    {element}")?;
+/// Writes parts one below the other, between brackets.
+fn below(
+    to: &mut dyn Write,
+    [open, close]: [&str; 2],
+    parts: impl FnOnce(&mut dyn FnMut(String) -> io::Result<()>) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut before = open;
+    parts(&mut |part| {
+        write!(to, "{before}\n    {part}")?;
         before = ",";
         Ok(())
     })?;
-    to.write_all(if before == "[" { b"[]" } else { b"\n  ]" })
-}
-
-fn below(to: &mut dyn Write, value: &Value) -> io::Result<()> {
-    match value {
-        Value::Array(elements)
-            if elements.iter().any(|element| element.is_array() || element.is_object()) =>
-        {
-            list(to, |each| elements.iter().try_for_each(each))
-        }
-        Value::Object(fields) if !fields.is_empty() => {
-            let mut before = "{";
-            for (name, value) in fields {
-                write!(to, "{before}\n    {}: {value}", Value::from(name.as_str()))?;
-                before = ",";
-            }
-            to.write_all(b"\n  }")
-        }
-        other => write!(to, "{other}"),
-    }
+    if before == open { write!(to, "{open}{close}") } else { write!(to, "\n  {close}") }
 }
 
 #[cfg(test)]
@@ -84,38 +81,26 @@ mod tests {
 
     use super::*;
 
-    fn text(fields: &[(&str, Data)]) -> String {
-        let mut bytes = Vec::new();
-        write(&mut bytes, fields.iter().map(|(name, data)| (*name, data))).unwrap();
-        String::from_utf8(bytes).unwrap()
-    }
-
     #[test]
     fn what_is_written_is_what_was_given() {
-        let fields = [
+        let fields: [(&str, Data); 5] = [
             ("b \"", json!({"x": 0.1, "y": [1, 2]}).into()),
             ("a", json!([[1.5, null], [2, 3]]).into()),
             ("c", json!([]).into()),
             ("d", json!({}).into()),
+            ("e", Data::list(2, |index| Ok(json!({"index": index})))),
         ];
-        let text = text(&fields);
+        let mut bytes = Vec::new();
+        write(&mut bytes, fields.iter().map(|(name, data)| (*name, data))).unwrap();
+        let text = String::from_utf8(bytes).unwrap();
         let read: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(
-            read,
-            json!({"b \"": {"x": 0.1, "y": [1, 2]}, "a": [[1.5, null], [2, 3]], "c": [], "d": {}})
-        );
+        let expected = json!({
+            "b \"": {"x": 0.1, "y": [1, 2]}, "a": [[1.5, null], [2, 3]], "c": [], "d": {},
+            "e": [{"index": 0}, {"index": 1}],
+        });
+        assert_eq!(read, expected);
         assert!(text.starts_with("{\n  \"b \\\"\": {\n    \"x\": 0.1,\n"), "{text}");
         assert!(text.contains("    [1.5,null],\n    [2,3]\n  ]"), "{text}");
-        assert_eq!(serde_json::from_str::<Value>(&self::text(&[])).unwrap(), json!({}));
-    }
-
-    #[test]
-    fn a_list_has_the_same_text_whether_it_is_whole_or_not() {
-        for count in 0..3 {
-            let whole: Vec<Value> = (0..count).map(|index| json!({"index": index})).collect();
-            let made = Data::list(count, |index| Ok(json!({"index": index})));
-            assert_eq!(text(&[("a", made)]), text(&[("a", json!(whole).into())]));
-        }
         let fails = Data::list(1, |_| Err(io::Error::other("no such element")));
         assert!(write(&mut Vec::new(), [("a", &fails)]).is_err());
     }

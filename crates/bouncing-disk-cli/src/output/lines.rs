@@ -1,27 +1,20 @@
-//! Writes lines to whoever reads them.
+//! Writes lines for whoever reads them.
 
-use std::fmt::Arguments;
-use std::io::{self, Write};
+use std::io::{self, Write as _};
 
-/// Writes a text and a line end. A reader that has gone, as `head` does, is an error of its own kind, which
+/// Writes a line to standard output. A reader that has gone, as `head` does, is an error of its own kind, which
 /// [`Failure`](crate::failure::Failure) tells from others.
-pub(crate) fn line(mut to: impl Write, text: Arguments<'_>) -> io::Result<()> {
-    // One call, so that lines of several threads do not mix.
-    to.write_all(format!("{text}\n").as_bytes())?;
+pub(crate) fn say(text: &str) -> io::Result<()> {
+    let mut to = io::stdout();
+    to.write_all(format!("{}\n", text.trim_end()).as_bytes())?;
     to.flush()
 }
 
-/// As `println!`, but without its panic: gives the result of [`line()`].
-macro_rules! say {
-    ($($text:tt)*) => { $crate::output::lines::line(std::io::stdout(), format_args!($($text)*)) };
+/// Writes a line to standard error, in one call, so that lines of several threads do not mix. If it is refused,
+/// nobody is left to read a message.
+pub(crate) fn complain(text: &str) {
+    let _ = io::stderr().write_all(format!("{text}\n").as_bytes());
 }
-
-/// As `eprintln!`, but without its panic. A standard error that refuses a line leaves nobody to be told.
-macro_rules! complain {
-    ($($text:tt)*) => {{ let _ = $crate::output::lines::line(std::io::stderr(), format_args!($($text)*)); }};
-}
-
-pub(crate) use {complain, say};
 
 /// A text from elsewhere (a key, a name of a file) on one line, with everything escaped that a terminal would
 /// obey.
@@ -29,21 +22,4 @@ pub(crate) fn visible(text: &str) -> String {
     text.chars()
         .flat_map(|letter| if letter.is_control() { letter.escape_debug().collect() } else { vec![letter] })
         .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_terminal_is_told_nothing_but_text() {
-        assert_eq!(visible("α\u{1b}[2J\n"), "α\\u{1b}[2J\\n");
-    }
-
-    #[test]
-    fn a_line_ends() {
-        let mut text = Vec::new();
-        line(&mut text, format_args!("{} of {}", 1, 2)).unwrap();
-        assert_eq!(text, b"1 of 2\n");
-    }
 }

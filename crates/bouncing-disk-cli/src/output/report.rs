@@ -1,29 +1,25 @@
 //! The result of a command, in every form that it may be asked for.
 
-use std::io::{self, Write};
-
 use bouncing_disk::{Format, Provenance};
 use bouncing_disk_plot::Figure;
 use serde::Serialize;
 use serde_json::Value;
 
-use super::files::{Kind, Target};
+use super::files::{Kind, OutputArgs, Target, no_picture};
 use super::json::{self, Data};
-use super::lines::{complain, say};
-use super::table::Table;
-use crate::arguments::OutputArgs;
+use super::lines::say;
+use super::table::WriteTable;
 use crate::failure::Failure;
 
-/// The name of the program in what it writes.
+/// The name of the program in what it writes, and its version.
 pub(crate) const PROGRAM: &str = env!("CARGO_PKG_NAME");
-/// Its version.
 pub(crate) const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// What a command has found.
+/// The result of a command.
 pub(crate) struct Report {
     /// Of what, and from what.
     pub(crate) provenance: Provenance,
-    /// What is printed.
+    /// The text for the terminal.
     pub(crate) text: String,
     /// Writes what goes into a comma-separated file.
     pub(crate) table: WriteTable,
@@ -33,17 +29,21 @@ pub(crate) struct Report {
     pub(crate) figure: Option<Box<dyn Fn() -> Figure>>,
 }
 
-/// Writes a table as comma-separated text.
-pub(crate) type WriteTable = Box<dyn Fn(&mut dyn Write) -> io::Result<()>>;
-
 impl Report {
-    /// Writes a file.
-    fn write(&self, target: &Target, replace: bool) -> Result<(), Failure> {
+    /// Prints the result, or writes it to the files that are asked for.
+    pub(crate) fn deliver(&self, output: &OutputArgs, quiet: bool) -> Result<(), Failure> {
+        if output.out.is_empty() {
+            return Ok(say(&self.text)?);
+        }
+        output.out.iter().try_for_each(|target| self.write(target, output.force, quiet))
+    }
+
+    fn write(&self, target: &Target, replace: bool, quiet: bool) -> Result<(), Failure> {
         let figure = || self.figure.as_ref().map(|draw| draw()).ok_or_else(no_picture);
         match target.kind {
             Kind::Csv => {
                 let provenance = value(&self.provenance)?;
-                target.write(replace, |to| {
+                target.write(replace, quiet, |to| {
                     writeln!(to, "# provenance: {provenance}")?;
                     (self.table)(to)
                 })
@@ -51,60 +51,23 @@ impl Report {
             Kind::Json => {
                 let provenance = stored(&self.provenance)?;
                 let data = self.data.iter().map(|(name, data)| (*name, data));
-                target.write(replace, |to| {
-                    json::write(to, [("provenance", &provenance)].into_iter().chain(data))
-                })
+                let fields = [("provenance", &provenance)].into_iter().chain(data);
+                target.write(replace, quiet, |to| json::write(to, fields))
             }
             Kind::Png => {
                 let bytes = figure()?.to_png()?;
-                target.write(replace, |to| to.write_all(&bytes))
+                target.write(replace, quiet, |to| to.write_all(&bytes))
             }
             Kind::Svg => {
                 let text = figure()?.to_svg()?;
-                target.write(replace, |to| to.write_all(text.as_bytes()))
+                target.write(replace, quiet, |to| to.write_all(text.as_bytes()))
             }
-            Kind::Toml => Err(no_result(target)),
+            Kind::Toml => Err(target.no_result()),
         }
     }
-
-    /// Prints the result, or writes it to the files that are asked for.
-    pub(crate) fn deliver(&self, output: &OutputArgs, quiet: bool) -> Result<(), Failure> {
-        if output.out.is_empty() {
-            return Ok(say!("{}", self.text.trim_end())?);
-        }
-        for target in &output.out {
-            self.write(target, output.force)?;
-            wrote(target, quiet);
-        }
-        Ok(())
-    }
 }
 
-/// A table that is there already.
-pub(crate) fn ready(table: Table) -> WriteTable {
-    Box::new(move |to| table.write_csv(to))
-}
-
-/// Says that a file is there.
-pub(crate) fn wrote(target: &Target, quiet: bool) {
-    if !quiet {
-        complain!("wrote {target}");
-    }
-}
-
-/// Why there is no picture.
-pub(crate) fn no_picture() -> Failure {
-    Failure::usage("this command has no picture; .csv and .json are possible")
-}
-
-/// Why no result goes into a file of parameters.
-pub(crate) fn no_result(target: &Target) -> Failure {
-    Failure::usage(format!(
-        "{target}: a result is .csv, .json, .png or .svg; .toml is the file of --template"
-    ))
-}
-
-/// A value as JSON. What cannot be stored is a defect, and told as a failure.
+/// A value as JSON. One that cannot be stored is a defect, and reported as a failure.
 pub(crate) fn value(of: &(impl Serialize + ?Sized)) -> Result<Value, Failure> {
     serde_json::to_value(of).map_err(|error| Failure::failed(format!("a result cannot be stored: {error}")))
 }

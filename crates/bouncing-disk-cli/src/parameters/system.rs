@@ -1,98 +1,182 @@
-//! Where the commands of tosses and orbits have their disk and platform from.
+//! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
-use std::path::{Path, PathBuf};
+use bouncing_disk::{Motor, System};
+use serde::{Deserialize, Serialize};
+use toml::{Table, Value};
 
-use bouncing_disk::System;
-use clap::{Args, ValueEnum};
-
-use super::Kind;
-use super::document::entries;
-use super::setting::Setting;
-use super::sheet::{FIELDS, Sheet};
-use crate::failure::Failure;
-
-/// The systems of the paper, by the names that the library has for them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SystemPreset {
-    /// The pizza toss of Table I: a stroke of 0.25 m at 15 rad/s
-    PizzaToss,
-    /// The motor of Table III at 70 kHz
-    Motor,
-}
-
-impl SystemPreset {
-    fn system(self) -> System {
-        match self {
-            Self::PizzaToss => System::pizza_toss(),
-            Self::Motor => System::motor(),
-        }
-    }
-}
+use super::source::{Described, Format, Refusal, Setting, SourceArgs, parse, unknown};
+use crate::range::Words;
 
 /// Disk and platform.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Disk and platform")]
-pub(crate) struct SystemArgs {
-    /// A file of parameters, .toml or .json, in SI units; --template writes one
-    #[arg(help_heading = None)]
-    pub(crate) file: Option<PathBuf>,
-    /// Parameters of the paper, in place of a file
-    #[arg(long, conflicts_with = "file", value_name = "NAME")]
-    pub(crate) preset: Option<SystemPreset>,
-    /// Gives a parameter another value, in the unit of the file: disk.friction=0.2; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    pub(crate) set: Vec<Setting>,
-    /// Writes the parameters as a commented TOML file, to the terminal or with --out FILE.toml into a file,
-    /// and computes nothing
-    #[arg(long)]
-    pub(crate) template: bool,
+pub(crate) type SystemArgs = SourceArgs<System>;
+
+/// The tables of a file.
+const TABLES: [&str; 2] = ["platform", "disk"];
+
+/// The parameters: table and key, unit, meaning.
+const FIELDS: [(&str, &str, &str); 10] = [
+    ("platform.amplitude", "m", "amplitude A of the height"),
+    ("platform.twist_amplitude", "rad", "amplitude Phi of the angle"),
+    ("platform.angular_frequency", "rad/s", "angular frequency omega"),
+    ("platform.phase_lag", "rad", "phase lag theta of the twist"),
+    ("disk.contact_radius", "m", "effective contact radius a_e"),
+    ("disk.gyration_radius", "m", "radius of gyration a_g"),
+    ("disk.friction", "1", "coefficient of friction mu"),
+    ("disk.restitution", "1", "coefficient of restitution, in [0, 1)"),
+    ("disk.preload_acceleration", "m/s^2", "preload acceleration g; gravity, where nothing else presses"),
+    ("disk.load_acceleration", "rad/s^2", "angular deceleration by a load, T/(m a_g^2)"),
+];
+
+/// Whether a key is a parameter, in whatever table it stands.
+pub(super) fn is_parameter(key: &str) -> bool {
+    FIELDS.iter().any(|(path, ..)| path.split_once('.').is_some_and(|(_, name)| name == key))
 }
 
-impl SystemArgs {
-    /// The file that is read, if any.
-    pub(crate) fn inputs(&self) -> Vec<&Path> {
-        self.file.as_deref().into_iter().collect()
-    }
-
-    /// Whether a system is asked for; otherwise it is the default, the pizza toss.
-    pub(crate) fn is_given(&self) -> bool {
-        self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
-    }
-
-    /// The system.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] names the file, the line and the key.
-    pub(crate) fn system(&self) -> Result<System, Failure> {
-        let Some(path) = &self.file else {
-            let mut sheet = Sheet::from(&self.preset.unwrap_or(SystemPreset::PizzaToss).system());
-            sheet.set(&self.set)?;
-            return sheet.build();
-        };
-        let (text, format) = super::read(path, Kind::System)?;
-        let read = || {
-            let mut sheet = Sheet::of_entries(entries(&text, format).map_err(Failure::usage)?)?;
-            sheet.set(&self.set)?;
-            sheet.check_given()?;
-            sheet.build()
-        };
-        read().map_err(|failure| failure.in_context(&path.display().to_string()))
-    }
+/// A file, which may lack parameters that --set gives.
+#[derive(Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields, default, expecting = "the tables platform and disk")]
+struct File {
+    platform: PlatformTable,
+    disk: DiskTable,
 }
 
-/// The parameters of a system as a file that is read to the same system, with comments.
-pub(crate) fn template(system: &System) -> String {
-    let sheet = Sheet::from(system);
-    let mut text = "# A disk on a platform that vibrates and twists. SI units.\n".to_owned();
-    let mut last = "";
-    for field in &FIELDS {
-        let (table, name) = field.path.split_once('.').unwrap_or_default();
-        if table != last {
-            text += &format!("\n[{table}]\n");
-            last = table;
+#[derive(Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields, default, expecting = "the table platform")]
+struct PlatformTable {
+    amplitude: Option<f64>,
+    twist_amplitude: Option<f64>,
+    angular_frequency: Option<f64>,
+    phase_lag: Option<f64>,
+}
+
+#[derive(Serialize, Deserialize, Default)]
+#[serde(deny_unknown_fields, default, expecting = "the table disk")]
+struct DiskTable {
+    contact_radius: Option<f64>,
+    gyration_radius: Option<f64>,
+    friction: Option<f64>,
+    restitution: Option<f64>,
+    preload_acceleration: Option<f64>,
+    load_acceleration: Option<f64>,
+}
+
+/// The tables of a file, or of a whole system.
+fn tables(of: &impl Serialize) -> Result<Table, String> {
+    Table::try_from(of).map_err(|error| error.to_string())
+}
+
+/// Sets values, and checks all.
+fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
+    let paths = || FIELDS.iter().map(|(path, ..)| *path);
+    for Setting { key, value } in settings {
+        let Some((table, name)) = paths().find(|path| path == key).and_then(|path| path.split_once('.'))
+        else {
+            return Err(unknown(key, paths()));
+        };
+        if let Some(Value::Table(table)) = tables.get_mut(table) {
+            table.insert(name.to_owned(), (*value).into());
         }
-        let unit = if field.unit == "1" { String::new() } else { format!("{}: ", field.unit) };
-        text += &format!("{name} = {:?} # {unit}{}\n", (field.get)(&sheet), field.meaning);
     }
-    text
+    tables.try_into().map_err(|error| error.message().to_owned())
+}
+
+impl Described for System {
+    type Other = Motor;
+
+    const PRESETS: Words<fn() -> Self> = &[
+        ("pizza-toss", "The pizza toss of Table I: a stroke of 0.25 m at 15 rad/s", Self::pizza_toss),
+        ("motor", "The motor of Table III at 70 kHz", Self::motor),
+    ];
+    const FILE: &'static str = "the parameters of a disk and its platform";
+    const READERS: &'static str = "toss, orbits, diagram, verdicts, basins, doublings and design";
+
+    fn is_known_by(key: &str) -> bool {
+        TABLES.contains(&key)
+    }
+
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
+        let mut file: File = parse(text, format).map_err(Refusal::Text)?;
+        // A file may leave it out.
+        file.disk.load_acceleration.get_or_insert(0.0);
+        tables(&file).and_then(|tables| build(tables, settings)).map_err(Refusal::Value)
+    }
+
+    fn with(self, settings: &[Setting]) -> Result<Self, String> {
+        build(tables(&self)?, settings)
+    }
+
+    fn template(&self) -> String {
+        let tables = tables(self).unwrap_or_default();
+        let mut text = "# A disk on a platform that vibrates and twists. SI units.\n".to_owned();
+        let mut last = "";
+        for (path, unit, meaning) in FIELDS {
+            let (table, name) = path.split_once('.').unwrap_or_default();
+            if table != last {
+                text += &format!("\n[{table}]\n");
+                last = table;
+            }
+            let unit = if unit == "1" { String::new() } else { format!("{unit}: ") };
+            let value = tables.get(table).and_then(|table| table.get(name)?.as_float()).unwrap_or_default();
+            text += &format!("{name} = {value:?} # {unit}{meaning}\n");
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str, format: Format) -> Result<System, String> {
+        System::read(text, format, &[]).map_err(|refusal| match refusal {
+            Refusal::Text(why) | Refusal::Value(why) => why,
+        })
+    }
+
+    #[test]
+    fn both_formats_give_the_same_system() {
+        for system in [System::pizza_toss(), System::motor()] {
+            assert_eq!(read(&system.template(), Format::Toml), Ok(system));
+            assert_eq!(read(&serde_json::to_string(&system).unwrap(), Format::Json), Ok(system));
+        }
+    }
+
+    #[test]
+    fn faults_are_reported_with_line_and_key() {
+        let template = System::pizza_toss().template();
+        let changed = |from: &str, to: &str| template.replace(from, to);
+        let line = 1 + template.lines().position(|line| line.starts_with("friction")).unwrap();
+        let toml = |to: &str| (changed("friction = 0.6", to), Format::Toml);
+        let table = |to: &str| (to.to_owned(), Format::Toml);
+        let json = |text: &str| (text.to_owned(), Format::Json);
+        for ((text, format), told) in [
+            (toml("fricton = 0.6"), "the key \"fricton\" is unknown; did you mean \"friction\"?"),
+            (toml("friction = '0.6'"), "invalid type: string \"0.6\", expected a number"),
+            (toml("friction = {}"), "invalid type: map, expected a number"),
+            (toml("friction = "), ""),
+        ] {
+            let why = read(&text, format).unwrap_err();
+            assert!(why.starts_with(&format!("line {line}: {told}")), "{text}: {why}");
+        }
+        for ((text, format), told) in [
+            (toml("friction = nan"), "friction = NaN is outside its legal range"),
+            (toml(""), "missing field `friction`"),
+            (table(&changed("[disk]", "[disc]")), "did you mean \"disk\"?"),
+            (table("disk = 1"), "line 1: invalid type: integer `1`, expected the table disk"),
+            (table(""), "missing field"),
+            (json(""), "line 1: EOF while parsing a value"),
+            (json("[1]"), "line 1: invalid type: integer `1`, expected the table platform"),
+            (json("{\n\"disk\": {\"friction\": 1,\n}"), "line 3: "),
+            (json("{\"disk\": {\n\"friction\": 1,\n\"friction\": 2}}"), "line 3: duplicate field `friction`"),
+            (json("{\"disk\": {\"a\\u001b[2J\": 1}}"), "the key \"a\\u{1b}[2J\" is unknown"),
+        ] {
+            let why = read(&text, format).unwrap_err();
+            assert!(why.contains(told), "{text}: {why}");
+        }
+        // The load may be missing, and nothing is the same as no key.
+        assert!(read(&changed("\nload_acceleration", "\n# load"), Format::Toml).is_ok());
+        let stored = serde_json::to_string(&System::pizza_toss()).unwrap();
+        let nothing = stored.replace("\"load_acceleration\":0.0", "\"load_acceleration\":null");
+        assert!(nothing != stored && read(&nothing, Format::Json).is_ok());
+    }
 }

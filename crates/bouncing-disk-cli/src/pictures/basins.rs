@@ -2,7 +2,7 @@
 
 use std::rc::Rc;
 
-use bouncing_disk::core::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
+use bouncing_disk::core::attractors::{ATTACHED, FIRST_ORBIT, Label, UNDECIDED};
 use bouncing_disk_plot::{Axis, Colour, Figure, Marker, Panel, Raster, Rect, Scatter, Ticks};
 
 use super::{PHASE, SPEED, math};

@@ -1,6 +1,6 @@
 //! The cascade: how fast the distances between doublings shrink.
 
-use bouncing_disk::core::CascadeDoubling;
+use bouncing_disk::core::orbits::CascadeDoubling;
 use bouncing_disk_plot::{Axis, Colour, Figure, Line, Panel, Rect, SINGLE_COLUMN, Scatter, Ticks};
 
 use super::math;

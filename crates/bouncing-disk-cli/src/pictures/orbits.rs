@@ -1,6 +1,6 @@
 //! The impacts of periodic orbits in the plane of phase and speed.
 
-use bouncing_disk::core::{OrbitsFound, Stability};
+use bouncing_disk::core::orbits::{OrbitsFound, Stability};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, Figure, Legend, Marker, Panel, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };

@@ -11,14 +11,6 @@ use super::{axis, spanned};
 /// Colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
 
-/// From low to high.
-const SCALE: [Colour; 4] = [
-    Colour::rgb(253, 231, 160),
-    Colour::rgb(120, 198, 140),
-    Colour::rgb(35, 120, 150),
-    Colour::rgb(50, 25, 95),
-];
-
 /// The factor by which numbers of this unit are multiplied, so that they are of the size of 1, and the unit
 /// with its prefix.
 pub(super) fn prefixed(values: impl Iterator<Item = f64>, unit: &str) -> (f64, String) {
@@ -89,12 +81,6 @@ fn curve(result: &MotorSweepResult, quantity: SweepQuantity, along: &SweepAxis) 
     Figure::new(SINGLE_COLUMN, 202.0).panel(panel)
 }
 
-fn colour(share: f64) -> Colour {
-    let place = share.clamp(0.0, 1.0) * (SCALE.len() - 1) as f64;
-    let index = (place as usize).min(SCALE.len() - 2);
-    SCALE[index].mixed(SCALE[index + 1], place - index as f64)
-}
-
 /// The outer ends of equal cells with these middles.
 fn ends(values: &[f64], scale: f64) -> (f64, f64) {
     let (low, high) = (scale * values[0], scale * values[values.len() - 1]);
@@ -123,7 +109,7 @@ fn map(result: &MotorSweepResult, quantity: SweepQuantity, rows: &SweepAxis, col
         let share = (scale * value - least) / (most - least);
         1 + ((share * LEVELS as f64).max(0.0) as usize).min(LEVELS - 1) as u8
     };
-    let steps = (0..LEVELS).map(|level| colour((level as f64 + 0.5) / LEVELS as f64));
+    let steps = (0..LEVELS).map(|level| Colour::scale((level as f64 + 0.5) / LEVELS as f64));
     let palette: Vec<Colour> = std::iter::once(Colour::PALE_GREY).chain(steps).collect();
     let (across, x_unit) = prefixed(columns.values.iter().copied(), columns.parameter.unit());
     let (up, y_unit) = prefixed(rows.values.iter().copied(), rows.parameter.unit());

@@ -4,28 +4,21 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::atomic::{AtomicU32, Ordering};
-
-static COUNT: AtomicU32 = AtomicU32::new(0);
 
 /// A folder that is removed at the end.
-pub(crate) struct Folder(PathBuf);
+pub(crate) struct Folder(tempfile::TempDir);
 
 impl Folder {
     pub(crate) fn new() -> Self {
-        let name = format!("bouncing-disk-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
-        let path = std::env::temp_dir().join(name);
-        let _ = fs::remove_dir_all(&path);
-        fs::create_dir_all(&path).unwrap();
-        Self(path)
+        Self(tempfile::tempdir().unwrap())
     }
 
     pub(crate) fn path(&self) -> &Path {
-        &self.0
+        self.0.path()
     }
 
     pub(crate) fn join(&self, name: &str) -> PathBuf {
-        self.0.join(name)
+        self.path().join(name)
     }
 
     pub(crate) fn write(&self, name: &str, text: &str) {
@@ -36,9 +29,13 @@ impl Folder {
         fs::read(self.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
     }
 
+    pub(crate) fn text(&self, name: &str) -> String {
+        String::from_utf8(self.read(name)).unwrap()
+    }
+
     /// The names of all that is in it.
     pub(crate) fn names(&self) -> Vec<String> {
-        let entries = fs::read_dir(&self.0).unwrap();
+        let entries = fs::read_dir(self.path()).unwrap();
         let mut names: Vec<String> =
             entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
         names.sort();
@@ -48,35 +45,33 @@ impl Folder {
     /// The program with these words, in this folder.
     pub(crate) fn command(&self, line: &str) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_bouncing-disk"));
-        command.current_dir(&self.0).args(line.split_whitespace());
+        command.current_dir(self.path()).args(line.split_whitespace());
         command
-    }
-
-    pub(crate) fn run(&self, line: &str) -> Output {
-        self.command(line).output().unwrap()
     }
 
     /// What it prints where all goes well.
     pub(crate) fn done(&self, line: &str) -> String {
-        let output = self.run(line);
+        let output = self.command(line).output().unwrap();
         assert_eq!(output.status.code(), Some(0), "{line}: {}", errors(&output));
         String::from_utf8(output.stdout).unwrap()
     }
 
     /// What it says where it ends with this status, and prints nothing.
     pub(crate) fn refused(&self, line: &str, status: i32) -> String {
-        let output = self.run(line);
+        let output = self.command(line).output().unwrap();
         let text = errors(&output);
         assert_eq!(output.status.code(), Some(status), "{line}: {text}");
         assert!(output.stdout.is_empty(), "{line}");
         assert!(!text.contains("panicked"), "{line}: {text}");
         text
     }
-}
 
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = fs::remove_dir_all(&self.0);
+    /// The same of many lines, each with a part of what it says.
+    pub(crate) fn all_refused(&self, status: i32, lines: &[(&str, &str)]) {
+        for (line, told) in lines {
+            let text = self.refused(line, status);
+            assert!(text.contains(told), "{line}: {text}");
+        }
     }
 }
 

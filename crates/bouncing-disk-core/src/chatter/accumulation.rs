@@ -14,10 +14,10 @@ use core::f64::consts::TAU;
 
 use super::expansion::{Expansion, LAST_SHARE, MAJORANT};
 use super::impact_series::ChatterSeries;
-use crate::error::{Error, not_negative, within};
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
-use crate::platform::phase::{PAIR_TOLERANCE, Phase};
-use crate::platform::vibration::Vibration;
+use crate::numerics::error::{Error, not_negative, within};
 use crate::read_checked;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
@@ -53,14 +53,14 @@ pub struct Accumulation {
 
 read_checked!(Accumulation as UncheckedAccumulation {
     duration: f64,
-    #[serde(deserialize_with = "crate::stored::infinite_if_none")]
+    #[serde(deserialize_with = "crate::numerics::stored::infinite_if_none")]
     error_bound: f64,
     phase: Phase,
     turns: u64,
 });
 
 impl Accumulation {
-    /// Checks what is read. There is no bound on what a cut leaves out: it is infinite.
+    /// Checks a value that was deserialised. There is no bound on what a cut leaves out: it is infinite.
     fn check(&self) -> Result<(), Error> {
         not_negative("duration", self.duration)?;
         within("error_bound", self.error_bound, 0.0, f64::INFINITY, "[0, inf] (rad)")?;
@@ -71,8 +71,7 @@ impl Accumulation {
 
 /// One impact of a chattering sequence, from the expansion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedChatterImpact"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChatterImpact {
     /// Time since the impact that the sequence started from, in radians.
     pub time: f64,
@@ -80,24 +79,6 @@ pub struct ChatterImpact {
     pub speed: f64,
     /// Phase pair (sin, cos) at this impact.
     pub pair: (f64, f64),
-}
-
-read_checked!(ChatterImpact as UncheckedChatterImpact {
-    time: f64,
-    speed: f64,
-    pair: (f64, f64),
-});
-
-impl ChatterImpact {
-    /// Checks what is read: the pair as that of a [`Phase`].
-    fn check(&self) -> Result<(), Error> {
-        not_negative("time", self.time)?;
-        not_negative("speed", self.speed)?;
-        let (sin, cos) = self.pair;
-        let (low, high) = (1.0 - PAIR_TOLERANCE, 1.0 + PAIR_TOLERANCE);
-        within("length of a pair", (sin * sin + cos * cos).sqrt(), low, high, "within 1e-9 of 1")?;
-        Ok(())
-    }
 }
 
 impl Vibration {
@@ -523,7 +504,7 @@ mod tests {
         assert!(summed > 20_000, "{summed}");
     }
 
-    /// Where the platform falls away is told by the phase, not by the force, which rounds there.
+    /// The phase decides where the platform falls away, not the force, which rounds there.
     #[test]
     fn a_disk_without_speed_rests_where_the_platform_does_not_fall_away() {
         let mut pulled_off = 0;

@@ -5,9 +5,9 @@
 //! A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
 //! coefficients and the sums that do not cancel are derived in docs/numerics/chattering.md.
 
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
 
 use super::expansion::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
 

@@ -2,10 +2,10 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::error::Error;
+use crate::numerics::error::Error;
 use crate::read_checked;
 
-/// What is done with the infinite sequence of impacts of a chattering disk.
+/// How the infinite sequence of impacts of a chattering disk is treated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]

@@ -7,8 +7,8 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 
 /// Bound on the rounding error of the pull, in units of 1 + P.
 const PULL_ROUNDING: f64 = 1.0e-15;

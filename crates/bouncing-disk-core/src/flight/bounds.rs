@@ -1,7 +1,7 @@
 //! Cheap tests that spare a search: certain when they answer, silent otherwise.
 
 use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
-use crate::platform::crests::CLEAR;
+use crate::flight::platform::vibration::CLEAR;
 
 /// T^2/6, rounded down, and T^3/24, rounded up by more than what the former may lack, for the half radian T of
 /// [`SHORT_FLIGHT`]: the shares of the drift P cos and of P in the gap over its time.
@@ -62,9 +62,9 @@ mod tests {
     use super::*;
     use crate::flight::gap::LaunchForm;
     use crate::flight::launch::Launch;
+    use crate::flight::platform::phase::Phase;
+    use crate::flight::platform::vibration::Vibration;
     use crate::numerics::elementary::{CREST, sin_cos};
-    use crate::platform::phase::Phase;
-    use crate::platform::vibration::Vibration;
     use crate::testing::spread;
 
     fn vibration(k: u32) -> Vibration {

@@ -11,14 +11,14 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::error::{Error, within};
 use crate::flight::first_impact::{landed_within_a_turn, turned_by};
 use crate::flight::gap::SHORT_FLIGHT;
 use crate::flight::gap::{BRIEFEST, Bracket, GapForm, LaunchForm, Root, ShortForm};
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, hypot};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::numerics::error::{Error, within};
 
 /// Largest gap accepted, in units of g/omega^2.
 const LARGEST_GAP: f64 = 1.0e17;
@@ -68,7 +68,7 @@ impl Vibration {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a gap or a velocity outside these ranges;
-    /// [`Error::FlightTooLong`] beyond [`crate::MAX_FLIGHT_DURATION`].
+    /// [`Error::FlightTooLong`] beyond [`crate::flight::MAX_FLIGHT_DURATION`].
     pub fn first_impact_of_drop(
         &self,
         phase: Phase,

@@ -21,18 +21,18 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::error::Error;
 use crate::flight::bounds::{arc_speed, clears_by_tangents, may_return_soon};
 use crate::flight::gap::{
     Bracket, CrestForm, FASTEST_BRIEF, GapForm, LaunchForm, Root, SHORT_FLIGHT, ShortForm, is_brief,
 };
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{
     CREST, impact_phase, nearby_wrapped, nearest_periods, sin_cos_bounded, sine_deficit_ratio, versine_ratio,
 };
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::numerics::error::Error;
 
 /// Longest flight accepted, in radians: beyond it the period count times 2 pi is no longer exact.
 pub const MAX_FLIGHT_DURATION: f64 = 1.6e9;

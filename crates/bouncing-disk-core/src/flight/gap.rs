@@ -1,11 +1,11 @@
 //! The gap between disk and platform in three forms, each without cancellation where it is used, and the search
 //! of a root that is known to be the only one in its window.
 
-use crate::error::Error;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{
     rotated, sin_cos_bounded, sine_deficit, sine_deficit_ratio, versine_ratio, versine_shortfall,
 };
-use crate::platform::vibration::Vibration;
+use crate::numerics::error::Error;
 
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;

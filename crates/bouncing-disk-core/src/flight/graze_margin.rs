@@ -2,10 +2,10 @@
 
 use core::f64::consts::{PI, TAU};
 
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::sin_cos;
-use crate::platform::vibration::Vibration;
 
 /// Bisection and Newton steps to a minimum of the gap.
 const MAX_STEPS: u32 = 100;

@@ -4,16 +4,13 @@
 //! It walks from the launch in steps that cannot jump over a zero of the gap (conservative advancement), until a
 //! single zero is in plain sight, and leaves that to Brent's method of the `roots` crate.
 
-use core::f64::consts::TAU;
-
 use roots::{Convergency, find_root_brent};
 
-use crate::error::{Error, not_negative, within};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::Launch;
+use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{sin, sin_cos, wrapped_angle};
-use crate::platform::vibration::Vibration;
-use crate::read_checked;
+use crate::numerics::error::Error;
 
 /// Steps after which the walk reports [`Error::NoConvergence`].
 const MAX_STEPS: u32 = 1_000_000;
@@ -29,8 +26,7 @@ const MAX_ITERATIONS: usize = 300;
 
 /// The first impact as the reference solver sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedReferenceImpact"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReferenceImpact {
     /// Duration of the flight in radians. Its rounding is that of one double, also for a long flight.
     pub duration: f64,
@@ -40,23 +36,6 @@ pub struct ReferenceImpact {
     pub velocity: f64,
     /// Evaluations of the gap.
     pub evaluations: u32,
-}
-
-read_checked!(ReferenceImpact as UncheckedReferenceImpact {
-    duration: f64,
-    impact_phase: f64,
-    velocity: f64,
-    evaluations: u32,
-});
-
-impl ReferenceImpact {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        not_negative("duration", self.duration)?;
-        within("impact_phase", self.impact_phase, 0.0, TAU.next_down(), "[0, 2 pi) (rad)")?;
-        within("velocity", self.velocity, f64::MIN, 0.0, "(-inf, 0] (units of g/omega)")?;
-        Ok(())
-    }
 }
 
 /// The gap and its derivatives at one time.

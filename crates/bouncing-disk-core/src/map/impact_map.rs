@@ -4,14 +4,14 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
-use crate::error::{Error, not_negative, within};
-use crate::flight::impact::Impact;
+use crate::flight::launch::Impact;
 use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
+use crate::flight::platform::vibration::Vibration;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
-use crate::observer::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
-use crate::platform::phase::Phase;
-use crate::platform::vibration::Vibration;
+use crate::numerics::error::{Error, not_negative, within};
 use crate::read_checked;
+use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +163,9 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The map of a disk with this law of restitution on a vibrating platform.
     ///
     /// ```
-    /// use bouncing_disk_core::{ImpactMap, ImpactState, KuwabaraKono, TangentGrowth, Unobserved, Vibration};
+    /// use bouncing_disk_core::chaos::TangentGrowth;
+    /// use bouncing_disk_core::map::KuwabaraKono;
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
     ///
     /// // The largest Lyapunov exponent of an orbit under a law that depends on the speed.
     /// let law = KuwabaraKono::new(0.5, 3.0)?;
@@ -249,8 +251,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     #[inline]
     pub(crate) fn steps(&self, mut state: ImpactState, impacts: u64) -> Result<ImpactState, Error> {
         for _ in 0..impacts {
-            let speed = self.rebound_speed(state.velocity)?;
-            state = self.vibration.impact_after_in_place(state.phase, speed)?.into();
+            state = self.step(state)?.into();
         }
         Ok(state)
     }
@@ -261,7 +262,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// It is singular at a graze (impact velocity zero): the entries are infinite there.
     ///
     /// ```
-    /// # use bouncing_disk_core::{ImpactMap, Multipliers, Vibration};
+    /// # use bouncing_disk_core::orbits::Multipliers;
+    /// # use bouncing_disk_core::{ImpactMap, Vibration};
     /// // The period-1 orbit closes after one impact: the derivative is its monodromy, and it attracts.
     /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
     /// let (_, derivative) = map.step_with_derivative(map.period_one(1).expect("it exists"))?;
@@ -365,7 +367,7 @@ read_checked!(Attachment as UncheckedAttachment {
 });
 
 impl Attachment {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         not_negative("last_speed", self.last_speed)?;
         if let Some((_, turns)) = self.separation {

@@ -2,10 +2,10 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{Error, within};
+use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::wrapped_angle;
-use crate::platform::phase::Phase;
+use crate::numerics::error::{Error, within};
 
 /// The phase pi - tau, at which the platform that runs backwards has the height that it has at tau.
 fn mirrored(phase: Phase) -> Phase {
@@ -52,8 +52,8 @@ mod tests {
     use core::f64::consts::TAU;
 
     use super::*;
+    use crate::flight::platform::vibration::Vibration;
     use crate::numerics::random::SplitMix64;
-    use crate::platform::vibration::Vibration;
 
     fn map(peak_acceleration: f64, restitution: f64) -> ImpactMap {
         ImpactMap::new(Vibration::new(peak_acceleration).expect("legal"), restitution).expect("legal")

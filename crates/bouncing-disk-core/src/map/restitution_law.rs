@@ -3,17 +3,18 @@
 
 use core::fmt::{self, Debug, Display};
 
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 
 pub(crate) mod kuwabara_kono;
 
 /// A law of restitution: which share of the relative axial speed an impact leaves.
 ///
-/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::KuwabaraKono) that of viscoelastic bodies. A law of
+/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::map::KuwabaraKono) that of viscoelastic bodies. A law of
 /// one's own needs two methods:
 ///
 /// ```
-/// use bouncing_disk_core::{ImpactMap, ImpactState, RestitutionLaw, Vibration};
+/// use bouncing_disk_core::map::RestitutionLaw;
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
 ///
 /// /// r = 1/(1 + v).
 /// #[derive(Debug, Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use core::f64::consts::PI;
 
-use crate::error::{Error, within};
 use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
@@ -67,7 +67,7 @@ read_checked!(Concentration as UncheckedConcentration {
 });
 
 impl Concentration {
-    /// Checks what is read.
+    /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         within("mean_direction_rad", self.mean_direction_rad, -PI, PI, "[-pi, pi] (rad)")?;
         within("resultant_length", self.resultant_length, 0.0, 1.0 + LENGTH_ROUNDING, "[0, 1]")?;

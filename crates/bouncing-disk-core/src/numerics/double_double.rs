@@ -7,9 +7,7 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::error::{Error, finite, within};
 use crate::numerics::real::Real;
-use crate::read_checked;
 
 mod decimal;
 
@@ -19,7 +17,7 @@ mod decimal;
 /// to 1e290. What overflows is no number, as in doubles.
 ///
 /// ```
-/// use bouncing_disk_core::extended::DoubleDouble;
+/// use bouncing_disk_core::numerics::double_double::DoubleDouble;
 ///
 /// let tenth: DoubleDouble = "0.1".parse()?;
 /// assert_ne!(tenth, DoubleDouble::from(0.1), "the double is not a tenth");
@@ -27,14 +25,10 @@ mod decimal;
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDoubleDouble"))]
 pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
-
-read_checked!(DoubleDouble as UncheckedDoubleDouble { high: f64, low: f64 });
 
 /// 2^27 + 1, which splits a double into two halves.
 const SPLITTER: f64 = 134_217_729.0;
@@ -116,15 +110,6 @@ impl DoubleDouble {
     pub const ONE: Self = Self { high: 1.0, low: 0.0 };
     /// pi.
     pub const PI: Self = Self { high: 2.0 * HALF_PI[0], low: 2.0 * HALF_PI[1] };
-
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        finite("high part", self.high)?;
-        finite("low part", self.low)?;
-        let sum = self.high + self.low;
-        within("high part", self.high, sum, sum, "the nearest double of the sum of both parts")?;
-        Ok(())
-    }
 
     /// The nearest double.
     #[must_use]

@@ -1,6 +1,6 @@
 //! How many of so many: a share with the interval that a sample leaves for the true one.
 
-use crate::error::{Error, within};
+use crate::numerics::error::{Error, within};
 use crate::numerics::statistics::NORMAL_975;
 use crate::read_checked;
 

@@ -1,7 +1,7 @@
 //! Power laws y = c x^exponent fitted to numbers with known errors, and why there is none.
 
-use crate::error::{Error, finite, not_negative, within};
 use crate::numerics::elementary::{exp, ln};
+use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::read_checked;
 
 /// A point of a supposed power law.

@@ -1,15 +1,17 @@
 //! Real numbers of more than one precision: what an algorithm needs that is to run in doubles and in
 //! double-doubles.
 
-use core::fmt::Debug;
+use core::fmt::{Debug, Display};
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::numerics::elementary;
 
-/// A floating-point number with the same bits everywhere.
-pub(crate) trait Real:
+/// A floating-point number with the same bits everywhere: `f64` or
+/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble).
+pub trait Real:
     Copy
     + Debug
+    + Display
     + PartialOrd
     + Neg<Output = Self>
     + Add<Output = Self>

@@ -1,4 +1,4 @@
-//! What is said of a sample of numbers in one number or two.
+//! Summaries of a sample of numbers.
 
 /// The 97.5 % quantile of the normal distribution: so many standard errors on either side of a mean make its
 /// 95 % interval.

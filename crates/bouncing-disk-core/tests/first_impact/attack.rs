@@ -6,9 +6,11 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
+use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit};
+use bouncing_disk_core::sweep::{Flights, InstructionSet, SweepEvent, sweep};
 use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Error, Flights, Grid, Impact, ImpactMap, ImpactState, InstructionSet,
-    KnownOrbit, Launch, Orbit, OrbitEvent, Phase, SweepEvent, Unobserved, Vibration, sweep,
+    ChatterPolicy, Error, Impact, ImpactMap, ImpactState, Launch, Orbit, OrbitEvent, Phase, Unobserved,
+    Vibration,
 };
 
 use crate::launches::{self, Case, SplitMix};

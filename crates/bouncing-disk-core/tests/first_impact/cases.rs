@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use bouncing_disk_core::reference::first_impact_by_advancement;
+use bouncing_disk_core::flight::reference::first_impact_by_advancement;
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use serde_json::Value;

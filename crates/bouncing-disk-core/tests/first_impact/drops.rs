@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::{Launch, Phase, Vibration};
 
 use crate::launches::SplitMix;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk_core::elementary;
+use bouncing_disk_core::numerics::elementary;
 
 use crate::launches::SplitMix;
 use crate::oracle::{self, High, PRECISION, high, low, two_pi};

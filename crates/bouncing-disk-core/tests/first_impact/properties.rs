@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{Error, Impact, Launch, MAX_FLIGHT_DURATION, Phase, Vibration, elementary};
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary;
+use bouncing_disk_core::{Error, Impact, Launch, Phase, Vibration};
 use proptest::prelude::*;
 
 fn impact(peak: f64, angle: f64, speed: f64) -> Impact {

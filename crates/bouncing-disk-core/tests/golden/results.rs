@@ -8,10 +8,10 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, InstructionSet, KnownOrbit, Label,
-    OrbitBatch, OrbitEvent, Phase, Unobserved, Vibration, elementary,
-};
+use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, Label};
+use bouncing_disk_core::numerics::elementary;
+use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved, Vibration};
 
 use bouncing_disk_core::numerics::digest::Digest;
 

@@ -2,10 +2,9 @@
 
 Pizza dough on a hand and the rotor of a standing-wave ultrasonic motor obey the same equations (Liu, Friend
 and Yeo, Phys. Rev. E 80, 046201 (2009)). Everything is computed by the Rust library ``bouncing-disk``, with
-the same bits on every machine and for any number of threads. Arguments are keywords in SI units.
+the same bits on every machine and for any number of threads. Arguments are keywords in SI units. The ``progress`` of a
+long call is called as ``progress(done, total)``, by the thread that made the call; what it raises ends the call.
 
-Examples
---------
 >>> import bouncing_disk as bd
 >>> bd.System.pizza_toss().friction
 0.6
@@ -16,221 +15,27 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from bouncing_disk._errors import (
-    BouncingDiskError,
-    ComputationError,
-    FitRefusedError,
-    InvalidError,
-    OutOfRangeError,
-    TooLargeError,
+from bouncing_disk import (
+    _attractors,
+    _chaos,
+    _errors,
+    _estimate,
+    _motor,
+    _orbits,
+    _system,
+    _threads,
+    _toss,
 )
-from bouncing_disk._native import (
-    ATTACHED,
-    FIRST_ORBIT,
-    UNDECIDED,
-    Attractors,
-    BasinFractions,
-    Branch,
-    ChatterCut,
-    Crisis,
-    ImpactMap,
-    Motor,
-    PeriodicOrbit,
-    System,
-    Trajectory,
-    attractors,
-    basin_entropy,
-    basin_fractions_over,
-    basins,
-    best_phase_lag,
-    best_toss,
-    boundary_scaling,
-    continued,
-    crisis,
-    doubling_cascade,
-    elementary_effects,
-    ensemble,
-    fit_braking,
-    fit_exponential,
-    fit_parameters,
-    fit_transients,
-    input_spreads,
-    iterate_orbits,
-    local_sensitivities,
-    low_period_traps,
-    lyapunov_exponents,
-    lyapunov_spectra,
-    manifold,
-    motor_map,
-    multi_toss,
-    nearest_trap,
-    operating_point,
-    orbit_diagram,
-    periodic_orbits,
-    read_speeds,
-    rotary_response,
-    set_threads,
-    simulate,
-    single_toss,
-    sobol_indices,
-    stall_load,
-    survival_times,
-    threads,
-    torque_speed_curve,
-    toss_trajectory,
-    transient,
-    transients,
-    verdicts,
-)
-from bouncing_disk._results import (
-    Attractor,
-    BasinEntropy,
-    Basins,
-    BestPhaseLag,
-    Bifurcation,
-    BoundaryScaling,
-    CrisisLives,
-    DoublingCascade,
-    ElementaryEffects,
-    Energy,
-    EventTable,
-    BrakingFit,
-    ExponentialFit,
-    InputSpread,
-    IntervalEstimate,
-    LocalSensitivities,
-    LowPeriodTraps,
-    LyapunovSpectra,
-    Manifold,
-    MotorMap,
-    MotorReport,
-    NearestTrap,
-    OperatingPoint,
-    OrbitDiagram,
-    ParameterFit,
-    Result,
-    RiseEstimate,
-    RotaryResponse,
-    SobolIndices,
-    SpeedCurve,
-    SpeedCurves,
-    Spread,
-    StallLoad,
-    TorqueSpeedCurve,
-    TossDesign,
-    TossOrbit,
-    TossPerformance,
-    TrajectorySamples,
-    TransientEnsemble,
-    TransientFit,
-    Verdicts,
-)
-
-__all__ = [
-    "ATTACHED",
-    "FIRST_ORBIT",
-    "UNDECIDED",
-    "Attractor",
-    "BasinEntropy",
-    "Attractors",
-    "BasinFractions",
-    "Basins",
-    "BestPhaseLag",
-    "Bifurcation",
-    "BoundaryScaling",
-    "BouncingDiskError",
-    "Branch",
-    "ChatterCut",
-    "ComputationError",
-    "Crisis",
-    "CrisisLives",
-    "DoublingCascade",
-    "ElementaryEffects",
-    "Energy",
-    "EventTable",
-    "BrakingFit",
-    "ExponentialFit",
-    "FitRefusedError",
-    "ImpactMap",
-    "InputSpread",
-    "IntervalEstimate",
-    "InvalidError",
-    "LocalSensitivities",
-    "LowPeriodTraps",
-    "LyapunovSpectra",
-    "Manifold",
-    "Motor",
-    "MotorMap",
-    "MotorReport",
-    "NearestTrap",
-    "OperatingPoint",
-    "OrbitDiagram",
-    "OutOfRangeError",
-    "ParameterFit",
-    "PeriodicOrbit",
-    "Result",
-    "RiseEstimate",
-    "RotaryResponse",
-    "SobolIndices",
-    "SpeedCurve",
-    "SpeedCurves",
-    "Spread",
-    "StallLoad",
-    "System",
-    "TooLargeError",
-    "TorqueSpeedCurve",
-    "TossDesign",
-    "TossOrbit",
-    "TossPerformance",
-    "Trajectory",
-    "TrajectorySamples",
-    "TransientEnsemble",
-    "TransientFit",
-    "Verdicts",
-    "attractors",
-    "basin_entropy",
-    "basin_fractions_over",
-    "basins",
-    "best_phase_lag",
-    "best_toss",
-    "boundary_scaling",
-    "continued",
-    "crisis",
-    "doubling_cascade",
-    "elementary_effects",
-    "ensemble",
-    "fit_braking",
-    "fit_exponential",
-    "fit_parameters",
-    "fit_transients",
-    "input_spreads",
-    "iterate_orbits",
-    "local_sensitivities",
-    "low_period_traps",
-    "lyapunov_exponents",
-    "lyapunov_spectra",
-    "manifold",
-    "motor_map",
-    "multi_toss",
-    "nearest_trap",
-    "operating_point",
-    "orbit_diagram",
-    "periodic_orbits",
-    "read_speeds",
-    "rotary_response",
-    "set_threads",
-    "simulate",
-    "single_toss",
-    "sobol_indices",
-    "stall_load",
-    "survival_times",
-    "threads",
-    "torque_speed_curve",
-    "toss_trajectory",
-    "transient",
-    "transients",
-    "verdicts",
-]
+from bouncing_disk._attractors import *
+from bouncing_disk._base import Result
+from bouncing_disk._chaos import *
+from bouncing_disk._errors import *
+from bouncing_disk._estimate import *
+from bouncing_disk._motor import *
+from bouncing_disk._orbits import *
+from bouncing_disk._system import *
+from bouncing_disk._threads import *
+from bouncing_disk._toss import *
 
 # Sweeps, and what they raise, are imported when one is asked for: what they need takes longer than all else here.
 if TYPE_CHECKING:
@@ -247,9 +52,10 @@ if TYPE_CHECKING:
         sweep,
     )
 
-__all__ += [
+__all__ = [
     "FailedPoint",
     "MissingDependencyError",
+    "Result",
     "SweepClusterError",
     "SweepFailedError",
     "SweepFolderError",
@@ -259,6 +65,15 @@ __all__ += [
     "read_sweep",
     "sweep",
 ]
+__all__ += _attractors.__all__
+__all__ += _chaos.__all__
+__all__ += _errors.__all__
+__all__ += _estimate.__all__
+__all__ += _motor.__all__
+__all__ += _orbits.__all__
+__all__ += _system.__all__
+__all__ += _threads.__all__
+__all__ += _toss.__all__
 
 
 def __getattr__(name: str) -> Any:

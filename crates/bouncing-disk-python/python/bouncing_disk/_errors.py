@@ -26,17 +26,11 @@ class BouncingDiskError(Exception):
 class OutOfRangeError(BouncingDiskError, ValueError):
     """A value lies outside its legal range.
 
-    Attributes
-    ----------
-    field : str
-        The name of the argument, or a path into it, such as ``disk.restitution`` in a dictionary.
-    value : float
-        The value that was given; of a list that is too short or too long its length.
-    range : str
-        The legal range, in words and in the unit of the value.
+    Attributes:
+        field: the name of the argument, or a path into it, such as ``disk.restitution`` in a dictionary.
+        value: the value that was given; of a list that is too short or too long its length.
+        range: the legal range, in words and in the unit of the value.
 
-    Examples
-    --------
     >>> import bouncing_disk as bd
     >>> try:
     ...     bd.System.motor().replace(restitution=1.5)
@@ -55,14 +49,10 @@ class OutOfRangeError(BouncingDiskError, ValueError):
 class TooLargeError(BouncingDiskError, ValueError):
     """More was asked for than the limit allows or than there is memory for.
 
-    Attributes
-    ----------
-    what : str
-        What was asked for.
-    count : int
-        How many of it.
-    limit : int
-        The largest number.
+    Attributes:
+        what: what was asked for.
+        count: how many of it.
+        limit: the largest number.
     """
 
     def __init__(self, message: str, what: str, count: int, limit: int) -> None:
@@ -75,23 +65,18 @@ class TooLargeError(BouncingDiskError, ValueError):
 class InvalidError(BouncingDiskError, ValueError):
     """Arguments that do not fit together, or a text that cannot be read.
 
-    Attributes
-    ----------
-    kind : str
-        What is wrong, such as ``"not-given"``, ``"both-given"``, ``"text"``, or ``"out-of-range-together"`` for what
-        follows from several arguments, each of them legal by itself.
-    details : dict
-        Its names and numbers: of a text its ``line`` and ``column``, of what follows from several arguments the
-        ``quantity``, its ``value`` and ``range``, and the ``arguments``.
+    Attributes:
+        kind: what is wrong, such as ``"not-given"``, ``"both-given"``, ``"text"``, or
+            ``"out-of-range-together"`` for what follows from several arguments, each of them legal by itself.
+        details: its names and numbers: of a text its ``line`` and ``column``, of what follows from several
+            arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.
 
-    Examples
-    --------
     >>> import bouncing_disk as bd
     >>> try:
     ...     bd.System.pizza_toss().replace(amplitude=1e300)
     ... except bd.InvalidError as error:
-    ...     print(error.details["quantity"], "follows from", error.details["arguments"])
-    peak_acceleration follows from amplitude, angular_frequency, preload_acceleration
+    ...     print(error.details["quantity"], error.details["range"])
+    peak_acceleration [0, 1e8] (units of the preload acceleration)
     """
 
     def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:
@@ -107,12 +92,9 @@ class FitRefusedError(BouncingDiskError, ValueError):
 class ComputationError(BouncingDiskError, RuntimeError):
     """The computation of legal arguments has no result.
 
-    Attributes
-    ----------
-    kind : str
-        Why, such as ``"never-leaves"`` or ``"not-settled"``.
-    details : dict
-        The numbers.
+    Attributes:
+        kind: why, such as ``"never-leaves"`` or ``"not-settled"``.
+        details: the numbers.
     """
 
     def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:

@@ -1,14 +1,16 @@
 /**
  * Makes the picture of the explorer for the README: a screenshot of a built page, in a state that its address records.
  *
- *     node dev/picture.mjs EXPLORER.html [PICTURE.png]
+ *     node --test dev/picture.mjs
  *
- * It needs an installed Chromium; CHROMIUM says where, if not at /usr/bin/chromium.
+ * EXPLORER_HTML, CHROMIUM and PICTURE say where the page, the browser and the picture are, if not at their usual places.
  */
 
+import assert from "node:assert/strict";
 import { statSync } from "node:fs";
-import { fileURLToPath, pathToFileURL } from "node:url";
-import { chromium } from "playwright-core";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { whenText, within } from "../tests/browser.mjs";
 
 /** The orbit diagram of Fig. 6 from the first bounces to chaos, the system at its own forcing. */
 const STATE = [
@@ -19,41 +21,17 @@ const STATE = [
 ].join("&"); // prettier-ignore
 /** Where the cursor points, in shares of the picture: its orbit is read below. */
 const CURSOR = { x: 0.36, y: 0.5 };
-const SIZE = { width: 1280, height: 800 };
 /** Bytes that a README may ask its readers to load. */
 const MOST_BYTES = 250_000;
 
-const DEFAULT = fileURLToPath(new URL("../../../../docs/figures/explorer.png", import.meta.url));
+const path = process.env.PICTURE ?? fileURLToPath(new URL("../../../../docs/figures/explorer.png", import.meta.url));
 
-async function main() {
-  const [html, picture = DEFAULT] = process.argv.slice(2);
-  if (html === undefined) {
-    console.error("usage: node dev/picture.mjs EXPLORER.html [PICTURE.png]");
-    process.exitCode = 2;
-    return;
-  }
-  const browser = await chromium.launch({
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--headless", "--no-sandbox", "--disable-gpu"],
-  });
-  try {
-    const context = await browser.newContext({ viewport: SIZE, colorScheme: "light", reducedMotion: "reduce" });
-    const page = await context.newPage();
-    await page.goto(`${pathToFileURL(html).href}#${STATE}`);
-    await page.waitForFunction(() => /forcings, /.test(document.getElementById("status")?.textContent ?? ""));
-    await page.waitForFunction(() => /doubling at/.test(document.getElementById("view-diagram")?.textContent ?? ""));
-    const canvas = page.locator("#view-diagram .picture canvas").last();
-    const box = await canvas.boundingBox();
-    if (box === null) throw new Error("the view has no picture");
+test("the picture of the explorer", () =>
+  within({ hash: `#${STATE}`, reducedMotion: "reduce" }, async (page) => {
+    await whenText(page, "#view-diagram", /doubling at/);
+    const box = await page.locator("#view-diagram .picture canvas").last().boundingBox();
     await page.mouse.move(box.x + CURSOR.x * box.width, box.y + CURSOR.y * box.height);
-    await page.waitForFunction(() => /impacts? in/.test(document.querySelector(".facts")?.textContent ?? ""));
-    await page.screenshot({ path: picture });
-  } finally {
-    await browser.close();
-  }
-  const { size } = statSync(picture);
-  console.log(`${picture}: ${size} bytes`);
-  if (size > MOST_BYTES) throw new Error(`the picture is larger than ${MOST_BYTES} bytes`);
-}
-
-await main();
+    await whenText(page, ".facts", /impacts? in/);
+    await page.screenshot({ path });
+    assert.ok(statSync(path).size < MOST_BYTES, "the picture is too large");
+  }));

@@ -1,17 +1,14 @@
 /** What the parts of the page have in common: the state that a link reproduces, and what a view is. */
 
-import type { ImpactStart, MotionStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
+import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
 
 export type ViewName = "toss" | "diagram" | "basins" | "motor";
 
 /** What is drawn over the forcing. */
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
-/** A throw of the disk from the air. */
-export type Throw = Omit<Extract<MotionStart, { kind: "flight" }>, "kind">;
-
 /**
- * All that the pictures depend on. It is frozen: a change makes another one. In the hash of the address numbers stand
+ * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
  * as JavaScript prints them, which gives the same bits back.
  */
 export interface State {
@@ -23,7 +20,7 @@ export interface State {
   /** How the motion of the first view and the orbits of the others begin. */
   readonly start: Readonly<ImpactStart & { angular_speed: number }>;
   /** How the motion of the first view begins where the disk was thrown; another start takes its place. */
-  readonly thrown: Readonly<Throw> | null;
+  readonly thrown: Readonly<FlightStart> | null;
   /** The window of the orbit diagram: the forcing, and the quantity with the range of its axis (null: all of it). */
   readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean }>;
   /** The window of the basins: phases in periods and normalised speeds. */
@@ -45,15 +42,21 @@ export class Refused extends Error {
   }
 }
 
+export const messageOf = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
 /** Where answers come from. Nothing here blocks the page. */
 export interface Client {
   /** An answer from the quick worker: `check`, `motion`, `orbit` and sheets. A later one of the slot cancels it. */
-  ask(slot: string, request: Request): Promise<Response>;
+  ask<Json>(slot: string, request: Request): Promise<Response<Json>>;
   /**
-   * Answers from the heavy worker, one after the other, as they come. A later series of the same slot, or `cancel`,
-   * ends it within 100 ms: what is under way is given up with the worker.
+   * Answers from the heavy worker, one after the other, as they come; the last one in the end. A later series of the
+   * same slot, or `cancel`, ends it within 100 ms: what is under way is given up with the worker.
    */
-  series(slot: string, requests: readonly Request[], each: (response: Response, index: number) => void): Promise<void>;
+  series<Json>(
+    slot: string,
+    requests: readonly Request[],
+    each?: (response: Response<Json>, index: number) => void,
+  ): Promise<Response<Json>>;
   cancel(slot: string): void;
 }
 
@@ -76,17 +79,9 @@ export interface Context {
   announce(text: string): void;
   /** One line under the view, with errors of computations. */
   status(text: string, kind?: "busy" | "done" | "error"): void;
-  /** Colours of the present theme by their CSS custom properties: `colour("--stable")`. */
-  colour(name: string): string;
 }
 
 export interface View {
-  readonly name: ViewName;
-  /** What the tab says, and what a screen reader says of the view. */
-  readonly title: string;
-  readonly description: string;
-  /** Makes the elements, once. */
-  mount(host: HTMLElement, context: Context): void;
   /** Draws what this state asks for, as soon as it is known. */
   show(state: State): void;
   /** Stops animations and cancels what is under way. */
@@ -94,4 +89,13 @@ export interface View {
   /** The size of the host or the theme has changed. */
   redraw(): void;
   offers(): Offer[];
+}
+
+export interface ViewKind {
+  readonly name: ViewName;
+  /** What the tab says, and what a screen reader says of the view. */
+  readonly title: string;
+  readonly description: string;
+  /** Puts the view into its place, once. */
+  make(host: HTMLElement, context: Context): View;
 }

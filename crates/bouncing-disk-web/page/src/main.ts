@@ -3,23 +3,21 @@
 import "./style.css";
 import { Address, link } from "./address";
 import { makeClient, type Source } from "./client";
-import type { Change, Context, State } from "./contract";
-import { helpDialog, presetDialog, shortcuts } from "./dialogs";
+import type { Context, Offer, State, ViewKind } from "./contract";
+import { fileName, save } from "./drawing/files";
 import { byId, element } from "./elements";
-import { fileName, save } from "./exports";
-import { Menu } from "./menu";
-import { Notes } from "./notes";
-import { Parameters } from "./parameters";
+import { Parameters } from "./form";
+import { Notes, Problems, TourPanel } from "./notes";
 import { openingPanel, stateOf, type Panel, type Preset } from "./presets";
-import { Problems } from "./problems";
-import { Readout } from "./readout";
-import { Stage } from "./stage";
-import { VIEW_NAMES } from "./state";
+import { helpDialog, Menu, presetDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
-import { Tabs } from "./tabs";
-import { Themes } from "./theme";
-import { TourPanel } from "./tour_panel";
-import { VIEWS } from "./views";
+import { basins } from "./views/basins";
+import { diagram } from "./views/diagram";
+import { motor } from "./views/motor";
+import { toss } from "./views/toss";
+
+/** In the order of their tabs. */
+const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor];
 
 /** The worker's script and the module: in this page, or beside it. */
 function source(): Source {
@@ -48,10 +46,7 @@ function begin(): void {
       stage.show(state);
       fresh = false;
     },
-    summary: (summary) => {
-      parameters.follow(summary);
-      readout.show(summary);
-    },
+    summary: (summary) => parameters.follow(summary),
     refused: (message) => problems.add(message),
   });
   const open = (state: State): void => {
@@ -60,13 +55,13 @@ function begin(): void {
   };
   const address = new Address((state, messages) => {
     problems.replace(messages);
-    void store.open(state, true);
+    void store.open(state);
   });
 
   const context: Context = {
     client,
     state: () => store.state(),
-    change: (change: Change, options) => store.change(change, options),
+    change: (change, options) => store.change(change, options),
     announce: (text) => {
       announcer.textContent = text;
     },
@@ -76,15 +71,11 @@ function begin(): void {
       statusLine.textContent = text;
       statusLine.dataset["kind"] = kind;
     },
-    colour: (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim(),
   };
   const stage = new Stage(byId("views"), VIEWS, context);
   const tabs = new Tabs(byId("tabs"), VIEWS, (view) => store.change({ view }));
   const side = byId("parameters");
   const parameters = new Parameters(side, (change, options) => store.change(change, options));
-  const derived = element("details", { class: "group", open: true }, element("summary", {}, "What follows"));
-  side.append(derived);
-  const readout = new Readout(derived);
   const choose = (preset: Preset, panel: Panel): void => {
     notes.choose(preset, panel);
     open(stateOf(panel));
@@ -95,65 +86,59 @@ function begin(): void {
   const tour = new TourPanel(open);
   byId("main").prepend(tour.element);
 
-  const themeButton = byId<HTMLButtonElement>("theme-button");
-  const themes = new Themes(() => stage.redraw());
-  const nameTheme = (): void => {
-    themeButton.dataset["theme"] = themes.present;
-    themeButton.setAttribute("aria-label", `Colours: ${themes.present}`);
+  const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
+  const themes = new Themes(tool("theme"), () => stage.redraw());
+  const copy = (): void => void copyLink(context, tool("link"));
+  const saved = async (offer: Offer): Promise<void> => {
+    const name = fileName(offer);
+    try {
+      save(await offer.make(), name);
+      context.announce(`${name} is saved`);
+    } catch (error) {
+      problems.add(`${name} cannot be made: ${String(error)}`);
+    }
   };
-  nameTheme();
-
-  const actions = {
-    presets: () => presets.showModal(),
-    tour: () => tour.begin(),
-    help: () => help.showModal(),
-    theme: () => {
-      themes.next();
-      nameTheme();
-      context.announce(`Colours: ${themes.present}`);
-    },
-    copy: () => void copyLink(context, byId<HTMLButtonElement>("link-button")),
-  };
-  byId("presets-button").addEventListener("click", actions.presets);
-  byId("tour-button").addEventListener("click", actions.tour);
-  byId("help-button").addEventListener("click", actions.help);
-  themeButton.addEventListener("click", actions.theme);
-  byId("link-button").addEventListener("click", actions.copy);
+  const place = tool("export").nextSibling;
+  const menu = new Menu(tool("export"), () => [
+    ...(stage.view?.offers() ?? []).map((offer) => ({
+      label: offer.name,
+      note: offer.kind.toUpperCase(),
+      act: () => void saved(offer),
+    })),
+    { label: "link to this state", note: "COPY", act: copy },
+  ]);
+  byId("tools").insertBefore(menu.element, place);
+  /** The tools with the keys that do the same. */
+  const tools: readonly (readonly [string, string, () => void])[] = [
+    ["p", "presets", () => presets.showModal()],
+    ["t", "tour", () => tour.begin()],
+    ["l", "link", copy],
+    ["d", "theme", () => context.announce(themes.next())],
+    ["?", "help", () => help.showModal()],
+  ];
+  for (const [, name, act] of tools) tool(name).addEventListener("click", act);
   byId("skip").addEventListener("click", (event) => {
     event.preventDefault();
     stage.host?.focus();
   });
-  const exportButton = byId<HTMLButtonElement>("export-button");
-  const place = exportButton.nextSibling;
-  const menu = new Menu(exportButton, () => [
-    ...(stage.view?.offers() ?? []).map((offer) => ({
-      label: offer.name,
-      note: offer.kind.toUpperCase(),
-      act: () => {
-        save(offer).then(
-          () => context.announce(`${fileName(offer)} is saved`),
-          (error: unknown) => problems.add(`${fileName(offer)} cannot be made: ${String(error)}`),
-        );
-      },
-    })),
-    { label: "link to this state", note: "COPY", act: actions.copy },
-  ]);
-  byId("tools").insertBefore(menu.element, place);
 
   document.addEventListener("keydown", (event) => {
     const busy = document.querySelector("dialog[open]") !== null || event.ctrlKey || event.altKey || event.metaKey;
     const target = event.target as HTMLElement;
-    if (busy || event.defaultPrevented || !shortcuts.on || target.closest("input, select, textarea, [contenteditable]"))
+    if (
+      busy ||
+      event.defaultPrevented ||
+      !shortcutsOn() ||
+      target.closest("input, select, textarea, [contenteditable]")
+    )
       return;
-    const view = VIEW_NAMES[Number(event.key) - 1];
-    const keys: Readonly<Record<string, () => void>> = {
-      p: actions.presets, t: actions.tour, e: () => exportButton.click(), l: actions.copy, d: actions.theme,
-      "?": actions.help,
-    }; // prettier-ignore
-    const act = view === undefined ? keys[event.key] : () => store.change({ view });
-    if (act === undefined) return;
+    const view = VIEWS[Number(event.key) - 1]?.name;
+    const own = tools.find(([key]) => key === event.key)?.[2];
+    if (view !== undefined) store.change({ view });
+    else if (event.key === "e") tool("export").click();
+    else if (own !== undefined) own();
+    else return;
     event.preventDefault();
-    act();
   });
 
   // On a narrow screen the picture comes first and the form is closed until somebody wants it.
@@ -166,7 +151,7 @@ function begin(): void {
 
   const first = address.opened();
   problems.replace(first.problems);
-  void store.open(first.state, true);
+  void store.open(first.state);
 }
 
 async function copyLink(context: Context, button: HTMLButtonElement): Promise<void> {

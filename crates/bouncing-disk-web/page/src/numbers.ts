@@ -2,23 +2,14 @@
 
 import { readNumber } from "./state";
 
-const MINUS = "−";
-
 /** About so many significant digits, with a true minus sign and 10ⁿ where it is easier to read. */
 export function shown(value: number, digits = 5): string {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? "not a number" : value > 0 ? "∞" : `${MINUS}∞`;
-  if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e-3 && size < 1e6) return String(Number(value.toPrecision(digits))).replace("-", MINUS);
+  if (value === 0 || (size >= 1e-3 && size < 1e6)) return brief(value, digits);
   const [mantissa = "", exponent = ""] = value.toExponential(digits - 1).split("e");
-  const power = [...String(Number(exponent))].map((digit) => SUPERSCRIPT[digit] ?? digit).join("");
-  const factor = String(Number(mantissa)).replace("-", MINUS);
-  return factor === "1" ? `10${power}` : `${factor} × 10${power}`;
+  const factor = brief(Number(mantissa), digits);
+  return `${factor === "1" ? "" : `${factor} × `}10${superscript(Number(exponent))}`;
 }
-
-const SUPERSCRIPT: Readonly<Record<string, string>> = {
-  "-": "⁻", "0": "⁰", "1": "¹", "2": "²", "3": "³", "4": "⁴", "5": "⁵", "6": "⁶", "7": "⁷", "8": "⁸", "9": "⁹",
-}; // prettier-ignore
 
 /** For a field that is eight characters wide: as short as it can be read back, five or six digits at most. */
 export function abridged(value: number): string {
@@ -33,7 +24,7 @@ export function abridged(value: number): string {
 
 /** A typed number: `0.5`, `1e-8`, with a true minus sign, and `0.26π` or `pi/2` where multiples of pi are meant. */
 export function typed(text: string, multiplesOfPi: boolean): number | null {
-  const plain = text.trim().replaceAll(MINUS, "-").replace(/\s+/g, " ");
+  const plain = text.trim().replaceAll("−", "-").replace(/\s+/g, " ");
   const direct = readNumber(plain);
   if (direct !== null || !multiplesOfPi) return direct;
   const parts = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(plain);
@@ -51,4 +42,92 @@ export function stepped(value: number, direction: 1 | -1, coarse: boolean, small
   const exponent = size > 0 ? Math.floor(Math.log10(size)) - 2 : Math.log10(smallest);
   const step = 10 ** exponent * (coarse ? 10 : 1);
   return Number((Math.round(value / step + direction) * step).toPrecision(12));
+}
+
+/** A hyphen in front of a number is a minus. */
+export function minus(text: string): string {
+  return text.replace("-", "\u2212");
+}
+
+function superscript(power: number): string {
+  return [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
+}
+
+/** About `digits` significant digits; powers of ten where a plain number would be long. */
+export function plain(value: number | null | undefined, digits = 4): string {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "\u2212∞";
+  if (value === 0) return "0";
+  const size = Math.floor(Math.log10(Math.abs(value)));
+  if (size >= 6 || size < -4) {
+    const [lead = "", power = "0"] = value.toExponential(digits - 1).split("e");
+    return `${minus(lead)} × 10${superscript(Number(power))}`;
+  }
+  return minus(grouped(value.toFixed(Math.max(0, digits - 1 - size))));
+}
+
+/** A number that people chose, without zeros that say nothing. */
+export function brief(value: number, digits = 6): string {
+  return minus(String(Number(value.toPrecision(digits))));
+}
+
+/** Thousands stand apart by a comma. */
+export function grouped(text: string): string {
+  const [whole = "", part] = text.split(".");
+  const spaced = whole.replace(/\B(?=(\d{3})+$)/g, ",");
+  return part === undefined ? spaced : `${spaced}.${part}`;
+}
+
+/** Value and standard error to two digits of the error: "0.4860 ± 0.0012". */
+export function withError(value: number | null, error: number | null, factor = 1): string {
+  if (value === null || Number.isNaN(value)) return "–";
+  if (error === null || !Number.isFinite(error) || error <= 0) return plain(value * factor);
+  const scaled = error * factor;
+  const decimals = Math.max(0, 1 - Math.floor(Math.log10(scaled)));
+  // What the error hides altogether has neither digits nor a sign.
+  if (Math.abs(value * factor) < 0.5 * 10 ** -decimals) return `0 ± ${plain(scaled, 2)}`;
+  if (decimals > 8) {
+    const power = Math.floor(Math.log10(Math.max(Math.abs(value * factor), scaled)));
+    const by = 10 ** power;
+    const places = Math.max(0, decimals + power);
+    const lead = minus(((value * factor) / by).toFixed(places));
+    return `(${lead} ± ${(scaled / by).toFixed(places)}) × 10${superscript(power)}`;
+  }
+  return `${minus(grouped((value * factor).toFixed(decimals)))} ± ${grouped(scaled.toFixed(decimals))}`;
+}
+
+/** Two numbers with as many digits as it takes to tell them apart, and `least` decimals anyhow. */
+export function toldApart(one: number, other: number, least = 2): [string, string] {
+  const apart = Math.abs(one - other);
+  const decimals = apart > 0 ? Math.max(least, 1 - Math.floor(Math.log10(apart))) : least;
+  const text = (value: number) => minus(grouped(value.toFixed(Math.min(decimals, 20))));
+  return [text(one), text(other)];
+}
+
+export function percent(share: number, decimals = 1): string {
+  return `${(100 * share).toFixed(decimals)} %`;
+}
+
+const PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"] as const;
+
+/** The prefix with which the greatest value of an axis reads best; a value times `factor` is the number with it. */
+export function prefixOf(greatest: number): { factor: number; symbol: string } {
+  if (!(greatest > 0) || !Number.isFinite(greatest)) return { factor: 1, symbol: "" };
+  const thousands = Math.min(Math.max(Math.floor(Math.log10(greatest) / 3 + 1e-9), -4), 3);
+  return { factor: 10 ** (-3 * thousands), symbol: PREFIXES[thousands + 4] ?? "" };
+}
+
+/** A quantity with its unit: "12.3 µs". */
+export function quantity(value: number | null, unit: string, digits = 3): string {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const prefix = prefixOf(Math.abs(value));
+  return `${plain(value * prefix.factor, digits)} ${prefix.symbol}${unit}`;
+}
+
+/** A quantity with its standard error and its unit. */
+export function quantityWithError(value: number | null, error: number | null, unit: string): string {
+  if (value === null || !Number.isFinite(value)) return "–";
+  const prefix = prefixOf(Math.abs(value));
+  const text = withError(value, error, prefix.factor);
+  return `${text.includes("±") ? `(${text})` : text} ${prefix.symbol}${unit}`;
 }

@@ -1,7 +1,7 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import type { Change, Quantity, State, Throw, ViewName } from "./contract";
-import type { Range, SystemParameters } from "./protocol";
+import type { Change, Quantity, State, ViewName } from "./contract";
+import type { FlightStart, Range, SystemParameters } from "./protocol";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
@@ -27,7 +27,7 @@ export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
   load_acceleration: 0,
 };
 
-export const DEFAULT_STATE: State = frozen({
+export const DEFAULT_STATE: State = {
   view: "toss",
   system: DEFAULT_SYSTEM,
   mass: 0.4,
@@ -36,21 +36,11 @@ export const DEFAULT_STATE: State = frozen({
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
-});
-
-/** The same state, of which nothing can be changed. */
-export function frozen(state: State): State {
-  const { system, start, thrown, diagram, basins, motor } = state;
-  for (const part of [system, start, thrown ?? {}, diagram, basins, motor]) {
-    for (const value of Object.values(part) as unknown[]) if (Array.isArray(value)) Object.freeze(value);
-    Object.freeze(part);
-  }
-  return Object.freeze(state);
-}
+};
 
 /** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
-  return frozen({
+  return {
     view: change.view ?? state.view,
     system: { ...state.system, ...change.system },
     mass: change.mass ?? state.mass,
@@ -59,19 +49,6 @@ export function changed(state: State, change: Change): State {
     diagram: { ...state.diagram, ...change.diagram },
     basins: { ...state.basins, ...change.basins },
     motor: { ...state.motor, ...change.motor },
-  });
-}
-
-/** One change that does what both do, one after the other. */
-export function merged(first: Change, second: Change): Change {
-  const names = ["system", "start", "diagram", "basins", "motor"] as const;
-  const both = names.filter((name) => first[name] !== undefined && second[name] !== undefined);
-  const replaced = second.start !== undefined && second.thrown === undefined;
-  return {
-    ...first,
-    ...second,
-    ...(replaced ? { thrown: null } : {}),
-    ...Object.fromEntries(both.map((name) => [name, { ...first[name], ...second[name] }])),
   };
 }
 
@@ -90,125 +67,124 @@ export function readNumber(text: string): number | null {
 /** Text that is not what a part of the address has to be; the message says what that is. */
 class Unreadable extends Error {}
 
-function number(text: string): number {
-  const value = readNumber(text);
-  if (value === null) throw new Unreadable("a number");
-  return value;
+/** How a value stands in an address. */
+interface Form<Value> {
+  print(value: Value): string;
+  read(text: string): Value;
 }
 
-function numberWithin(low: number, high: number, whole: boolean): (text: string) => number {
-  return (text) => {
-    const value = number(text);
-    if (value >= low && value <= high && (!whole || Number.isInteger(value))) return value;
-    throw new Unreadable(`a ${whole ? "whole " : ""}number from ${low} to ${high}`);
+const NUMBER: Form<number> = {
+  print: printed,
+  read(text) {
+    const value = readNumber(text);
+    if (value === null) throw new Unreadable("a number");
+    return value;
+  },
+};
+
+function within(low: number, high: number, whole: boolean): Form<number> {
+  return {
+    print: printed,
+    read(text) {
+      const value = NUMBER.read(text);
+      if (value >= low && value <= high && (!whole || Number.isInteger(value))) return value;
+      throw new Unreadable(`a ${whole ? "whole " : ""}number from ${low} to ${high}`);
+    },
   };
 }
 
-function oneOf<Name extends string>(names: readonly Name[]): (text: string) => Name {
-  return (text) => {
-    const name = names.find((known) => known === text);
-    if (name === undefined) throw new Unreadable(`one of ${names.join(", ")}`);
-    return name;
+function oneOf<Name extends string>(names: readonly Name[]): Form<Name> {
+  return {
+    print: (name) => name,
+    read(text) {
+      const name = names.find((known) => known === text);
+      if (name === undefined) throw new Unreadable(`one of ${names.join(", ")}`);
+      return name;
+    },
   };
 }
 
-function range(lowest: number): (text: string) => Range {
-  return (text) => {
-    const [low, high, more] = text.split(",").map(readNumber);
-    if (low == null || high == null || more !== undefined || low >= high || low < lowest) {
-      const bound = lowest === -Infinity ? "" : ` from ${lowest} up`;
-      throw new Unreadable(`two numbers${bound}, the lower one first, with a comma between them`);
-    }
-    return [low, high];
+const SWITCH: Form<boolean> = {
+  print: (on) => (on ? "on" : "off"),
+  read: (text) => oneOf(["on", "off"]).read(text) === "on",
+};
+
+function range(lowest: number): Form<Range> {
+  return {
+    print: (ends) => ends.map(printed).join(","),
+    read(text) {
+      const [low, high, more] = text.split(",").map(readNumber);
+      if (low == null || high == null || more !== undefined || low >= high || low < lowest) {
+        const bound = lowest === -Infinity ? "" : ` from ${lowest} up`;
+        throw new Unreadable(`two numbers${bound}, the lower one first, with a comma between them`);
+      }
+      return [low, high];
+    },
+  };
+}
+
+/** A word for what is not there. */
+function orNone<Value>(word: string, { print, read }: Form<Value>): Form<Value | null> {
+  return {
+    print: (value) => (value === null ? word : print(value)),
+    read: (text) => (text === word ? null : read(text)),
   };
 }
 
 /** A throw that the library may still refuse, such as one that starts on the platform and goes downwards. */
-function throwOf(text: string): Throw | null {
-  if (text === "none") return null;
-  const [phase, gap, relative_velocity, angular_speed, more] = text.split(",").map(readNumber);
-  if (phase == null || gap == null || relative_velocity == null || angular_speed == null || more !== undefined || gap < 0)
-    throw new Unreadable(
-      "none, or four numbers with commas between them: phase, gap from 0 up, relative velocity, angular speed",
-    );
-  return { phase, gap, relative_velocity, angular_speed };
-}
-
-function printedThrow(thrown: Throw | null): string {
-  if (thrown === null) return "none";
-  return [thrown.phase, thrown.gap, thrown.relative_velocity, thrown.angular_speed].map(printed).join(",");
-}
-
-const printedRange = ([low, high]: Range): string => `${printed(low)},${printed(high)}`;
+const THROW: Form<FlightStart> = {
+  print: ({ phase, gap, relative_velocity, angular_speed }) =>
+    [phase, gap, relative_velocity, angular_speed].map(printed).join(","),
+  read(text) {
+    const [phase, gap, relative_velocity, angular_speed, more] = text.split(",").map(readNumber);
+    if (phase == null || gap == null || relative_velocity == null || angular_speed == null || more !== undefined || gap < 0)
+      throw new Unreadable(
+        "none, or four numbers with commas between them: phase, gap from 0 up, relative velocity, angular speed",
+      );
+    return { phase, gap, relative_velocity, angular_speed };
+  },
+}; // prettier-ignore
 
 interface Key {
   print(state: State): string;
   read(text: string): Change;
 }
 
-function systemKey(name: keyof SystemParameters): Key {
-  return { print: (state) => printed(state.system[name]), read: (text) => ({ system: { [name]: number(text) } }) };
-}
+const whole = <Part extends "view" | "mass" | "thrown">(part: Part, { print, read }: Form<State[Part]>): Key => ({
+  print: (state) => print(state[part]),
+  read: (text) => ({ [part]: read(text) }),
+});
+
+type Parts = Pick<State, "system" | "start" | "diagram" | "basins" | "motor">;
+
+function keyOf<Part extends keyof Parts, Name extends keyof Parts[Part]>(
+  part: Part,
+  name: Name,
+  { print, read }: Form<Parts[Part][Name]>,
+): Key {
+  return { print: (state) => print((state as Parts)[part][name]), read: (text) => ({ [part]: { [name]: read(text) } }) };
+} // prettier-ignore
 
 /** The hash's keys, in the order in which they are written. */
 const KEYS: Readonly<Record<string, Key>> = {
-  view: { print: (state) => state.view, read: (text) => ({ view: oneOf(VIEW_NAMES)(text) }) },
+  view: whole("view", oneOf(VIEW_NAMES)),
   ...Object.fromEntries(
-    (Object.keys(DEFAULT_SYSTEM) as (keyof SystemParameters)[]).map((name) => [name, systemKey(name)]),
+    (Object.keys(DEFAULT_SYSTEM) as (keyof SystemParameters)[]).map((name) => [name, keyOf("system", name, NUMBER)]),
   ),
-  mass: { print: (state) => printed(state.mass), read: (text) => ({ mass: number(text) }) },
-  impact_phase: {
-    print: (state) => printed(state.start.impact_phase),
-    read: (text) => ({ start: { impact_phase: number(text) } }),
-  },
-  normalised_speed: {
-    print: (state) => printed(state.start.normalised_speed),
-    read: (text) => ({ start: { normalised_speed: number(text) } }),
-  },
-  angular_speed: {
-    print: (state) => printed(state.start.angular_speed),
-    read: (text) => ({ start: { angular_speed: number(text) } }),
-  },
-  throw: {
-    print: (state) => printedThrow(state.thrown),
-    read: (text) => ({ thrown: throwOf(text) }),
-  },
-  diagram_forcing: {
-    print: (state) => printedRange(state.diagram.axial_forcing),
-    read: (text) => ({ diagram: { axial_forcing: range(0)(text) } }),
-  },
-  diagram_quantity: {
-    print: (state) => state.diagram.quantity,
-    read: (text) => ({ diagram: { quantity: oneOf(QUANTITIES)(text) } }),
-  },
-  diagram_range: {
-    print: (state) => (state.diagram.range === null ? "all" : printedRange(state.diagram.range)),
-    read: (text) => ({ diagram: { range: text === "all" ? null : range(-Infinity)(text) } }),
-  },
-  diagram_branches: {
-    print: (state) => (state.diagram.branches ? "on" : "off"),
-    read: (text) => ({ diagram: { branches: oneOf(["on", "off"])(text) === "on" } }),
-  },
-  basins_phase: {
-    print: (state) => printedRange(state.basins.phase_periods),
-    read: (text) => ({ basins: { phase_periods: range(-Infinity)(text) } }),
-  },
-  basins_speed: {
-    print: (state) => printedRange(state.basins.normalised_speed),
-    read: (text) => ({ basins: { normalised_speed: range(0)(text) } }),
-  },
-  motor_loads: {
-    print: (state) => printedRange(state.motor.loads),
-    read: (text) => ({ motor: { loads: range(-Infinity)(text) } }),
-  },
-  motor_points: {
-    print: (state) => printed(state.motor.points),
-    read: (text) => ({ motor: { points: numberWithin(2, MOST_POINTS, true)(text) } }),
-  },
-  motor_rise_times: {
-    print: (state) => printed(state.motor.rise_times),
-    read: (text) => ({ motor: { rise_times: numberWithin(0.01, MOST_RISE_TIMES, false)(text) } }),
-  },
+  mass: whole("mass", NUMBER),
+  impact_phase: keyOf("start", "impact_phase", NUMBER),
+  normalised_speed: keyOf("start", "normalised_speed", NUMBER),
+  angular_speed: keyOf("start", "angular_speed", NUMBER),
+  throw: whole("thrown", orNone("none", THROW)),
+  diagram_forcing: keyOf("diagram", "axial_forcing", range(0)),
+  diagram_quantity: keyOf("diagram", "quantity", oneOf(QUANTITIES)),
+  diagram_range: keyOf("diagram", "range", orNone("all", range(-Infinity))),
+  diagram_branches: keyOf("diagram", "branches", SWITCH),
+  basins_phase: keyOf("basins", "phase_periods", range(-Infinity)),
+  basins_speed: keyOf("basins", "normalised_speed", range(0)),
+  motor_loads: keyOf("motor", "loads", range(-Infinity)),
+  motor_points: keyOf("motor", "points", within(2, MOST_POINTS, true)),
+  motor_rise_times: keyOf("motor", "rise_times", within(0.01, MOST_RISE_TIMES, false)),
 };
 
 /** `#view=toss&amplitude=0.0616&...`: all of the state, so that a link outlives other defaults. */
@@ -260,3 +236,11 @@ function unescaped(text: string): string {
 }
 
 const shortened = (text: string): string => (text.length > 40 ? `${text.slice(0, 40)}...` : text);
+
+export function axialForcing(system: Readonly<SystemParameters>): number {
+  return (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
+}
+
+export function amplitudeOf(axialForcing: number, system: Readonly<SystemParameters>): number {
+  return (axialForcing * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2;
+}

@@ -1,9 +1,8 @@
 /** The present state, and the way in which it changes: nothing that the library refuses ever becomes the state. */
 
-import { Cancelled, Refused } from "./contract";
-import type { Change, Client, State } from "./contract";
-import type { Refusal, Summary } from "./protocol";
-import { changed, DEFAULT_STATE, merged } from "./state";
+import { Cancelled, messageOf, Refused, type Change, type Client, type State } from "./contract";
+import type { MotionStart, Refusal, Summary } from "./protocol";
+import { changed, DEFAULT_STATE } from "./state";
 
 export interface ChangeOptions {
   settled?: boolean;
@@ -13,7 +12,7 @@ export interface ChangeOptions {
   taken?: () => void;
 }
 
-export interface Listener {
+interface Listener {
   /** Another state; `cause` says whether the address follows it or it follows the address. */
   changed(state: State, cause: { settled: boolean; fromAddress: boolean }): void;
   summary(summary: Summary): void;
@@ -22,7 +21,7 @@ export interface Listener {
 
 interface Waiting {
   change: Change;
-  options: ChangeOptions & { fromAddress?: boolean };
+  options: ChangeOptions;
 }
 
 /** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
@@ -68,7 +67,7 @@ export class Store {
     return this.pumping || this.opening;
   }
 
-  change(change: Change, options: ChangeOptions & { fromAddress?: boolean } = {}): void {
+  change(change: Change, options: ChangeOptions = {}): void {
     const waiting = { change, options };
     if (!this.busy() && !needsCheck(change)) {
       this.commit(changed(this.present, change), [waiting]);
@@ -79,32 +78,26 @@ export class Store {
   }
 
   /** The first state of the page, or one of its address: what is refused has its default, with a sentence for each. */
-  async open(state: State, fromAddress: boolean): Promise<void> {
+  async open(state: State): Promise<void> {
     const address = ++this.addresses;
     this.opening = true;
     this.queue = [];
     let candidate = state;
     for (let tries = 0; tries < MOST_MENDINGS; tries++) {
-      const refusal = await this.refusalOf(candidate, {
-        system: {},
-        start: {},
-        thrown: candidate.thrown,
-        mass: candidate.mass,
-      });
+      const { thrown, mass } = candidate;
+      const refusal = await this.refusalOf(candidate, { system: {}, start: {}, thrown, mass });
       if (address !== this.addresses) return;
       if (refusal === null) break;
       if (refusal.kind === BROKEN) {
         this.listener.refused(refusal.message);
         break;
       }
-      const change = mended(refusal, tries);
-      this.listener.refused(
-        `The address asks for what is not possible (${refusal.message}); a default is taken instead.`,
-      );
-      candidate = changed(candidate, { thrown: candidate.thrown, ...change });
+      const problem = `The address asks for what is not possible (${refusal.message}); a default is taken instead.`;
+      this.listener.refused(problem);
+      candidate = changed(candidate, { thrown, ...mended(refusal, tries) });
     }
     this.opening = false;
-    this.commit(candidate, [{ change: {}, options: { fromAddress } }]);
+    this.commit(candidate, [], true);
     void this.pump();
   }
 
@@ -119,39 +112,22 @@ export class Store {
   }
 
   /** What waited is checked as one change; only where that is refused, one by one. */
-  private async take(batch: readonly Waiting[]): Promise<void> {
-    const address = this.addresses;
-    if (batch.length > 1) {
-      const refusal = await this.refusalOf(...this.applied(batch));
-      if (address !== this.addresses) return;
-      if (refusal === null) {
-        this.commit(this.applied(batch)[0], batch);
-        return;
-      }
-    }
-    for (const waiting of batch) {
-      await this.single(waiting, address);
-      if (address !== this.addresses) return;
-    }
-  }
-
-  private async single(waiting: Waiting, address: number): Promise<void> {
-    const refusal = await this.refusalOf(...this.applied([waiting]));
+  private async take(batch: readonly Waiting[], address = this.addresses): Promise<void> {
+    const state = batch.reduce((before, { change }) => changed(before, change), this.present);
+    const change: Change = Object.assign({}, ...batch.map((waiting) => waiting.change));
+    const refusal = await this.refusalOf(state, change);
     if (address !== this.addresses) return;
-    if (refusal === null) this.commit(this.applied([waiting])[0], [waiting]);
-    else if (waiting.options.refused) waiting.options.refused(refusal);
+    const [first] = batch as [Waiting];
+    if (refusal === null) this.commit(state, batch);
+    else if (batch.length > 1) {
+      for (const waiting of batch) if (address === this.addresses) await this.take([waiting], address);
+    } else if (first.options.refused) first.options.refused(refusal);
     else this.listener.refused(refusal.message);
   }
 
-  private applied(batch: readonly Waiting[]): [State, Change] {
-    const change = batch.map((waiting) => waiting.change).reduce(merged);
-    return [changed(this.present, change), change];
-  }
-
-  private commit(state: State, batch: readonly Waiting[]): void {
+  private commit(state: State, batch: readonly Waiting[], fromAddress = false): void {
     this.present = state;
-    const settled = batch.some((waiting) => waiting.options.settled !== false);
-    const fromAddress = batch.every((waiting) => waiting.options.fromAddress === true);
+    const settled = fromAddress || batch.some((waiting) => waiting.options.settled !== false);
     if (this.summary !== null) this.listener.summary(this.summary);
     this.summary = null;
     this.listener.changed(state, { settled, fromAddress });
@@ -161,20 +137,17 @@ export class Store {
   /** What the library says against a state, of which this change is new; `null` where it has nothing to say. */
   private async refusalOf(state: State, change: Change): Promise<Refusal | null> {
     const { system, mass, start, thrown } = state;
+    const motion = (start: MotionStart) =>
+      ({ call: "motion", system, start, periods: 1, samples_per_period: 2 }) as const;
     this.summary = null;
     try {
-      if (change.system) {
-        const response = await this.client.ask("check", { call: "check", system });
-        this.summary = response.json as Summary;
-      }
+      if (change.system) this.summary = (await this.client.ask<Summary>("check", { call: "check", system })).json;
       if (change.start) {
-        const motion = { call: "motion", system, start: { kind: "impact", ...start } } as const;
-        const ask = this.client.ask("check start", { ...motion, periods: 1, samples_per_period: 2 });
+        const ask = this.client.ask("check start", motion({ kind: "impact", ...start }));
         await only(ask, (refusal) => ofStart(refusal, change));
       }
       if (change.thrown && thrown !== null) {
-        const motion = { call: "motion", system, start: { kind: "flight", ...thrown } } as const;
-        const ask = this.client.ask("check throw", { ...motion, periods: 1, samples_per_period: 2 });
+        const ask = this.client.ask("check throw", motion({ kind: "flight", ...thrown }));
         await only(ask, (refusal) => ({ ...refusal, quantity: "thrown" }));
       }
       if (change.mass !== undefined) {
@@ -186,8 +159,7 @@ export class Store {
       if (error instanceof Refused) return error.refusal;
       if (error instanceof Cancelled) return null;
       // The module broke down: what it has not said to be legal does not become the state.
-      const message = error instanceof Error ? error.message : String(error);
-      return { kind: BROKEN, quantity: null, value: null, range: null, message };
+      return { kind: BROKEN, quantity: null, range: null, message: messageOf(error) };
     }
   }
 }

@@ -1,18 +1,28 @@
-/**
- * The script of a worker: one instance of the module, which answers one request after the other.
- *
- * The build puts the glue of wasm-bindgen (`--target no-modules`) in front of this file, so that the whole is one
- * classic script: workers that are modules do not start from a page on the disk.
- */
+/** What the page and a worker say to each other. */
 
-import type { FromWorker, ModuleSource, ToWorker } from "./messages";
+/** Where a worker finds the module: compiled by another worker, as base64 text, or at an address beside the page. */
+export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
+
+export type ToWorker =
+  | { kind: "start"; module: ModuleSource }
+  /** `request` is the JSON of a `Request`, which the module reads itself. */
+  | { kind: "ask"; id: number; request: string };
+
+export type FromWorker =
+  /** `module` is there if this worker compiled it, for those that start later. */
+  | { kind: "ready"; module: WebAssembly.Module | null }
+  | { kind: "answer"; id: number; json: string; digest: string; numbers: Float64Array; bytes: Uint8Array }
+  | { kind: "refused"; id: number; json: string }
+  /** `id` is null where the worker could not even start. The worker is of no use any more. */
+  | { kind: "failed"; id: number | null; message: string };
 
 interface Reply {
   readonly json: string;
   readonly digest: string;
   readonly refused: boolean;
-  numbers(): Float64Array;
-  bytes(): Uint8Array;
+  /** Copies outside of the module's memory, which can change hands. */
+  readonly numbers: Float64Array;
+  readonly bytes: Uint8Array;
   free(): void;
 }
 
@@ -70,17 +80,10 @@ function answer(id: number, request: string): void {
   try {
     if (explorer === null) throw new Error("the module has not started");
     const reply = explorer.respond(request);
-    const { json, digest } = reply;
-    if (reply.refused) {
-      reply.free();
-      say({ kind: "refused", id, json });
-      return;
-    }
-    const numbers = reply.numbers();
-    const bytes = reply.bytes();
+    const { json, digest, refused, numbers, bytes } = reply;
     reply.free();
-    // Both are copies outside of the module's memory, so they can change hands.
-    say({ kind: "answer", id, json, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
+    if (refused) say({ kind: "refused", id, json });
+    else say({ kind: "answer", id, json, digest, numbers, bytes }, [numbers.buffer, bytes.buffer]);
   } catch (error) {
     say({ kind: "failed", id, message: String(error) });
   }

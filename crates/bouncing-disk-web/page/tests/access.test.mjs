@@ -1,38 +1,8 @@
 /** Keyboard, screen reader, less motion and imposed colours. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, opened, settled, stateOf, whenAddress } from "./browser.mjs";
-
-const VIEWS = ["toss", "diagram", "basins", "motor"];
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within({ media = {}, ...options }, act) {
-  const { page, context, errors } = await opened(browser, options);
-  try {
-    if (Object.keys(media).length > 0) {
-      await page.emulateMedia(media);
-      await page.reload();
-      await page.waitForSelector('[role="tab"][aria-selected="true"]');
-    }
-    await act(page, context);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
-
-/** Opens a view by its tab and waits for its picture. */
-async function visit(page, view) {
-  await page.click(`#tab-${view}`);
-  await page.locator(`#view-${view} canvas`).first().waitFor();
-  await settled(page);
-}
+import { test } from "node:test";
+import { preset, settled, stateOf, VIEWS, visit, whenAddress, whenText, within } from "./browser.mjs";
 
 /** What a screen reader is told: the nodes of the accessibility tree that are not left out. */
 async function spoken(page, context) {
@@ -126,7 +96,6 @@ test("a refusal is an alert, belongs to its field and is told with it", () =>
 
 test("the orbit diagram by keyboard: zoom, shift, cross with its orbit, choice", () =>
   within({ hash: "#view=diagram" }, async (page) => {
-    await settled(page);
     await page.focus("#view-diagram canvas[tabindex='0']");
     const width = async () => {
       const [low, high] = (await stateOf(page)).diagram_forcing.split(",").map(Number);
@@ -152,7 +121,6 @@ test("the orbit diagram by keyboard: zoom, shift, cross with its orbit, choice",
 
 test("basins by keyboard: the cross tells where a start ends, and Enter runs it", () =>
   within({ hash: "#view=basins" }, async (page) => {
-    await settled(page);
     await page.focus("#view-basins canvas[tabindex='0']");
     await page.keyboard.press("Shift+ArrowUp");
     const live = page.locator("#view-basins .pointed");
@@ -179,7 +147,7 @@ test("the toss by keyboard: it pauses and steps, and says where the disk is", ()
   }));
 
 test("charts by keyboard: values are read one by one", () =>
-  within({ media: { reducedMotion: "reduce" } }, async (page) => {
+  within({ reducedMotion: "reduce" }, async (page) => {
     const chart = page.locator("#view-toss .chart").first();
     await chart.locator("canvas").waitFor();
     await chart.locator(".chart-stage").focus();
@@ -194,7 +162,6 @@ test("charts by keyboard: values are read one by one", () =>
 
 test("what goes on is not read out step by step, what is done is", () =>
   within({ hash: "#view=basins" }, async (page) => {
-    await settled(page);
     assert.equal(await page.getAttribute("#status", "aria-live"), "polite");
     assert.match(await page.textContent("#status"), /starts at Γ/);
     await page.click("#tab-motor");
@@ -203,7 +170,7 @@ test("what goes on is not read out step by step, what is done is", () =>
   }));
 
 test("who wants less motion gets a picture that stands, with the first periods in it", () =>
-  within({ media: { reducedMotion: "reduce" } }, async (page) => {
+  within({ reducedMotion: "reduce" }, async (page) => {
     await page.locator("#view-toss .chart canvas").first().waitFor();
     await page.waitForFunction(() => /^7\.00 periods/.test(document.querySelectorAll(".facts dd")[1].textContent));
     assert.equal(await page.textContent(".controls .play"), "Play");
@@ -227,8 +194,7 @@ test("without such a wish the busy sign turns and the disk moves", () =>
   }));
 
 test("colours that the system imposes leave what colours say", () =>
-  within({ hash: "#view=basins", media: { forcedColors: "active" } }, async (page) => {
-    await settled(page);
+  within({ hash: "#view=basins", forcedColors: "active" }, async (page) => {
     const style = (selector, name) =>
       page.evaluate(
         ([wanted, property]) =>
@@ -240,9 +206,7 @@ test("colours that the system imposes leave what colours say", () =>
     const lines = await style('[role="tab"]', "border-bottom-color");
     assert.equal(lines.filter((one) => one === lines[2]).length, 1, `the open tab is marked: ${lines}`);
     assert.deepEqual([...new Set(await style("input[type=range]", "appearance"))], ["auto"]);
-    await page.click("#presets-button");
-    await page.click('[data-preset="fig07"]');
-    await settled(page);
+    await preset(page, "fig07");
     const chips = await style(".chip", "background-color");
     assert.ok(new Set(chips).size === 2, `the open panel is marked: ${chips}`);
   }));

@@ -2,41 +2,22 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test } from "node:test";
-import { launch, opened, settled } from "./browser.mjs";
+import { test } from "node:test";
+import { coloursOf, preset, settled, VIEWS, visit, within } from "./browser.mjs";
 
-const VIEWS = ["toss", "diagram", "basins", "motor"];
 /** What the Web Content Accessibility Guidelines ask of text, and of lines and marks that carry meaning. */
 const TEXT = 4.5;
 const GRAPHIC = 3;
 const TARGET = 40;
 
-/** Opens a view by its tab and waits for its picture; the charts of a motor are there when its run-up is. */
-async function visit(page, view, act = "click") {
-  await page[act](`#tab-${view}`);
-  await page.locator(`#view-${view} canvas`).first().waitFor();
-  await settled(page);
-}
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(options, act) {
-  const { page, context, errors } = await opened(browser, options);
-  try {
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+/** Red, green and blue in linear light. */
+const linear = (colour) =>
+  [1, 3, 5]
+    .map((at) => parseInt(colour.slice(at, at + 2), 16) / 255)
+    .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
 
 function luminance(colour) {
-  const parts = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
-  const [red, green, blue] = parts.map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
+  const [red, green, blue] = linear(colour);
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
 }
 
@@ -46,13 +27,8 @@ function contrast(one, other) {
 }
 
 /** Every custom property with a colour that the sources name. */
-const NAMES = [
-  ...new Set(
-    ["../src/styles/theme.css", "../src/drawing/colours.css"].flatMap((path) =>
-      [...readFileSync(new URL(path, import.meta.url), "utf8").matchAll(/(--[\w-]+): #/g)].map(([, name]) => name),
-    ),
-  ),
-];
+const THEME = readFileSync(new URL("../src/styles/theme.css", import.meta.url), "utf8");
+const NAMES = [...THEME.matchAll(/(--[\w-]+): [^;]*#/g)].map(([, name]) => name);
 
 const PAPER = ["--picture-paper"];
 const GROUNDS = ["--background", "--panel", "--soft", "--error-soft", "--note"];
@@ -77,11 +53,9 @@ const PAIRS = [
 
 for (const scheme of ["light", "dark"])
   test(`text and what pictures show stand out from their grounds: ${scheme}`, () =>
-    within({ scheme }, async (page) => {
-      const colours = await page.evaluate((names) => {
-        const style = getComputedStyle(document.documentElement);
-        return Object.fromEntries(names.map((name) => [name, style.getPropertyValue(name).trim()]));
-      }, NAMES);
+    within({ colorScheme: scheme }, async (page) => {
+      const values = await coloursOf(page, NAMES);
+      const colours = Object.fromEntries(NAMES.map((name, index) => [name, values[index]]));
       const weak = [];
       for (const [name, grounds, least] of PAIRS)
         for (const ground of grounds) {
@@ -99,20 +73,21 @@ test("the categories of basins differ from each other in lightness or hue for ev
       deuteranope: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
       all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
     }; // prettier-ignore
-    const linear = (colour) =>
-      [1, 3, 5]
-        .map((at) => parseInt(colour.slice(at, at + 2), 16) / 255)
-        .map((part) => (part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4));
     for (const scheme of ["light", "dark"]) {
-      const colours = await page.evaluate((wanted) => {
-        document.documentElement.dataset.scheme = wanted;
-        const style = getComputedStyle(document.documentElement);
-        return Array.from({ length: 8 }, (_, index) => style.getPropertyValue(`--category-${index}`).trim());
-      }, scheme);
+      await page.evaluate((wanted) => (document.documentElement.dataset.scheme = wanted), scheme);
+      const names = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
+      const colours = await coloursOf(page, names);
       for (const [kind, matrix] of Object.entries(blind)) {
         const seen = colours.map((colour) => {
           const light = linear(colour);
-          return matrix.map((row) => Math.cbrt(Math.max(0, row.reduce((sum, one, at) => sum + one * light[at], 0))));
+          return matrix.map((row) =>
+            Math.cbrt(
+              Math.max(
+                0,
+                row.reduce((sum, one, at) => sum + one * light[at], 0),
+              ),
+            ),
+          );
         });
         for (let one = 0; one < 8; one++)
           for (let other = 0; other < one; other++) {
@@ -124,7 +99,7 @@ test("the categories of basins differ from each other in lightness or hue for ev
   }));
 
 test("what is tapped has 40 pixels at least", () =>
-  within({ width: 360, height: 740, touch: true }, async (page) => {
+  within({ width: 360, height: 740, hasTouch: true }, async (page) => {
     assert.ok(await page.evaluate(() => matchMedia("(pointer: coarse)").matches), "the page believes in fingers");
     const small = () =>
       page.evaluate((least) => {
@@ -153,7 +128,7 @@ test("what is tapped has 40 pixels at least", () =>
   }));
 
 test("on a telephone the picture comes first and the form is folded below it", () =>
-  within({ width: 360, height: 740, touch: true }, async (page) => {
+  within({ width: 360, height: 740, hasTouch: true }, async (page) => {
     for (const view of VIEWS) {
       await visit(page, view, "tap");
       const seen = await page.evaluate((name) => {

@@ -1,28 +1,8 @@
 /** Basins: what is seen is of the map that the form names, and shares say of which starts they are. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { isFake, launch, opened, settled, type } from "./browser.mjs";
-import { svgOf } from "./files.mjs";
-
-const real = { skip: isFake && "the fake module knows no physics" };
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(options, act) {
-  const { page, context, errors } = await opened(browser, options);
-  try {
-    await settled(page);
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+import { test } from "node:test";
+import { coloursOf, pixelsOf, svgOf, settled, type, whenText, within } from "./browser.mjs";
 
 /** What is asked by one of these calls waits until `window.release()`. */
 function holdable() {
@@ -42,69 +22,49 @@ function holdable() {
   };
 }
 
-/** Pixels of the picture that have the colour of an attractor. */
-const coloured = (page) =>
-  page.evaluate(() => {
-    const canvas = document.querySelector("#view-basins canvas");
-    const style = getComputedStyle(document.documentElement);
-    const wanted = [0, 1, 2, 3, 4, 5, 6, 7].map((index) =>
-      parseInt(style.getPropertyValue(`--category-${index}`).trim().slice(1), 16),
-    );
-    // A copy: the picture itself is not made for being read.
-    const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d", { willReadFrequently: true });
-    copy.drawImage(canvas, 0, 0);
-    const { data } = copy.getImageData(0, 0, canvas.width, canvas.height);
-    let count = 0;
-    for (let at = 0; at < data.length; at += 4) {
-      if (wanted.includes((data[at] << 16) | (data[at + 1] << 8) | data[at + 2])) count++;
-    }
-    return count;
-  });
+const CATEGORIES = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
+
+/** How many pixels of the picture have the colour of an attractor. */
+const coloured = async (page) =>
+  (await pixelsOf(page, "#view-basins canvas", await coloursOf(page, CATEGORIES))).length;
 
 const hold = (page, calls) => page.evaluate((which) => (window.holds = which), calls);
 const caption = (page) => page.textContent("#view-basins .alternative");
 const FORCING = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
 
-test("no cell of another map stands under the legend of this one, and the caption says what goes on", async () => {
-  const { page, context, errors } = await opened(browser);
-  await page.addInitScript(holdable);
-  await page.goto(`${page.url().split("#")[0]}#view=basins&${FORCING(0.486)}`);
-  await page.reload();
-  await page.waitForSelector('[role="tab"][aria-selected="true"]');
-  await settled(page);
-  const before = await coloured(page);
-  assert.ok(before > 10_000, `${before}`);
-  assert.match(await caption(page), /^Of the starts/);
-  // As long as the attractors are looked for, both are faint.
-  await hold(page, ["attractors", "basins"]);
-  await type(page, "axial_forcing", "0.5");
-  await page.waitForSelector("#view-basins .stale");
-  await page.waitForTimeout(200);
-  assert.ok((await coloured(page)) < before / 100, "old cells in full colours while attractors are looked for");
-  assert.match(await caption(page), /0\.5 .*being computed/);
-  // As soon as the new ones are known, the old cells are gone.
-  await page.evaluate(() => {
-    window.holds = ["basins"];
-    for (const send of window.held.splice(0)) send();
-  });
-  await page.waitForSelector("#view-basins .stale", { state: "detached" });
-  await page.waitForTimeout(200);
-  assert.equal(await coloured(page), 0, "old cells under a new legend");
-  assert.match(await caption(page), /being computed/);
-  await page.evaluate(() => window.release());
-  await page.waitForFunction(() => /^Of the starts/.test(document.querySelector("#view-basins .alternative").textContent));
-  assert.ok((await coloured(page)) > 10_000);
-  // While the window of one map moves, its cells are stretched; they are right where they are.
-  await hold(page, ["basins"]);
-  await page.click('#view-basins [aria-label="Zoom in"]');
-  await page.waitForTimeout(300);
-  assert.ok((await coloured(page)) > 10_000);
-  assert.match(await caption(page), /being computed/);
-  assert.deepEqual(errors, []);
-  await context.close();
-}); // prettier-ignore
+test("no cell of another map stands under the legend of this one, and the caption says what goes on", () =>
+  within({ hash: `#view=basins&${FORCING(0.486)}`, script: holdable }, async (page) => {
+    const before = await coloured(page);
+    assert.ok(before > 10_000, `${before}`);
+    assert.match(await caption(page), /^Of the starts/);
+    // As long as the attractors are looked for, both are faint.
+    await hold(page, ["attractors", "basins"]);
+    await type(page, "axial_forcing", "0.5");
+    await page.waitForSelector("#view-basins .stale");
+    await page.waitForTimeout(200);
+    assert.ok((await coloured(page)) < before / 100, "old cells in full colours while attractors are looked for");
+    assert.match(await caption(page), /0\.5 .*being computed/);
+    // As soon as the new ones are known, the old cells are gone.
+    await page.evaluate(() => {
+      window.holds = ["basins"];
+      for (const send of window.held.splice(0)) send();
+    });
+    await page.waitForSelector("#view-basins .stale", { state: "detached" });
+    await page.waitForTimeout(200);
+    assert.equal(await coloured(page), 0, "old cells under a new legend");
+    assert.match(await caption(page), /being computed/);
+    await page.evaluate(() => window.release());
+    await whenText(page, "#view-basins .alternative", /^Of the starts/);
+    assert.ok((await coloured(page)) > 10_000);
+    // While the window of one map moves, its cells are stretched; they are right where they are.
+    await hold(page, ["basins"]);
+    await page.click('#view-basins [aria-label="Zoom in"]');
+    await page.waitForTimeout(300);
+    assert.ok((await coloured(page)) > 10_000);
+    assert.match(await caption(page), /being computed/);
+  })); // prettier-ignore
 
-test("where no basins can be computed, none are shown", real, () =>
+test("where no basins can be computed, none are shown", () =>
   within({ hash: "#view=basins" }, async (page) => {
     await type(page, "restitution", "0.999999");
     await page.waitForFunction(() => document.getElementById("status").dataset.kind === "error", undefined, {
@@ -115,7 +75,7 @@ test("where no basins can be computed, none are shown", real, () =>
     assert.equal(await page.locator(".attractors li").count(), 0);
     assert.match(await caption(page), /^There are no basins at/);
     await type(page, "restitution", "0.5");
-    await page.waitForFunction(() => /^Of the starts/.test(document.querySelector("#view-basins .alternative").textContent));
+    await whenText(page, "#view-basins .alternative", /^Of the starts/);
     assert.ok((await page.locator(".attractors li").count()) > 1);
   })); // prettier-ignore
 
@@ -130,14 +90,13 @@ test("the share of the window leads, the sample is described, and an absent attr
       await page.textContent("#view-basins .panel"),
       /1,024 starts spread evenly over all phases and all normalised speeds up to the bound/,
     );
-    if (isFake) return;
     // A window within the basin of the orbit of period 1.
     await page.evaluate(() => {
       location.hash = location.hash
         .replace(/basins_phase=[^&]*/, "basins_phase=0.116,0.118")
         .replace(/basins_speed=[^&]*/, "basins_speed=1.457,1.459");
     });
-    await page.waitForFunction(() => /100\.0 % of this window/.test(document.querySelector(".attractors").textContent));
+    await whenText(page, ".attractors", /100\.0 % of this window/);
     const shares = (await page.locator(".attractors b").allTextContents()).map((text) => parseFloat(text));
     assert.equal(shares.reduce((sum, share) => sum + share), 100, `${shares}`);
     assert.equal(shares.length, await page.locator(".attractors li").count());

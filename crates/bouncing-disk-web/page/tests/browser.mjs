@@ -1,58 +1,63 @@
 /** The installed Chromium and the built page, for all tests. */
 
-import { spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { dirname, join } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import assert from "node:assert/strict";
+import { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
+import { file } from "./module.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-
-/** The page of the real module by EXPLORER_HTML; else one with a fake module, built here. */
-function builtPage() {
-  const given = process.env.EXPLORER_HTML;
-  if (given) {
-    if (!existsSync(given)) throw new Error(`EXPLORER_HTML is ${given}, which does not exist`);
-    return given;
-  }
-  const out = mkdtempSync(join(tmpdir(), "explorer-"));
-  const { status, stderr } = spawnSync(process.execPath, [join(here, "../build.mjs"), "--fake", "--out", out]);
-  if (status !== 0) throw new Error(String(stderr));
-  return join(out, "explorer.html");
-}
-
-export const isFake = !process.env.EXPLORER_HTML;
-export const file = builtPage();
 export const address = pathToFileURL(file).href;
 
-export const launch = () =>
-  chromium.launch({
+export const VIEWS = ["toss", "diagram", "basins", "motor"];
+
+let browser;
+before(async () => {
+  browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     args: [
-      "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+      "--headless",
+      "--no-sandbox",
+      "--disable-gpu",
+      "--disable-quic",
+      "--no-first-run",
       "--disable-background-networking",
-      "--disable-component-update", "--disable-sync", "--js-flags=--expose-gc", "--enable-precise-memory-info",
+      "--disable-component-update",
+      "--disable-sync",
+      "--js-flags=--expose-gc",
+      "--enable-precise-memory-info",
     ],
-  }); // prettier-ignore
-
-/** A page, and what must not happen in it: errors and requests. */
-export async function opened(browser, { hash = "", width = 1280, height = 800, scheme = "light", touch = false } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: scheme, hasTouch: touch });
-  const page = await context.newPage();
-  const errors = [];
-  const requests = [];
-  page.on("console", (message) => {
-    if (["error", "warning"].includes(message.type())) errors.push(message.text());
   });
+});
+after(() => browser.close());
+
+/**
+ * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing that
+ * it asks of anybody. `script` runs in the page before its own; other options are those of a browser's context.
+ */
+export async function within(
+  { hash = "", to = address, width = 1280, height = 800, settle = true, script, ...options },
+  act,
+) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: "light", ...options });
+  if (script !== undefined) await context.addInitScript(script);
+  const page = await context.newPage();
+  const [errors, requests] = [[], []];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && errors.push(message.text()));
   page.on("pageerror", (error) => errors.push(String(error)));
   page.on("request", (request) => {
     const url = request.url();
-    if (!url.startsWith("blob:") && !url.startsWith("data:") && url.split("#")[0] !== address) requests.push(url);
+    if (!/^(blob|data):/.test(url) && !url.startsWith(to)) requests.push(url);
   });
-  await page.goto(address + hash);
-  await ready(page);
-  return { page, context, errors, requests };
+  try {
+    await page.goto(to + hash);
+    await ready(page);
+    if (settle) await settled(page);
+    const result = await act(page, context);
+    assert.deepEqual([errors, requests], [[], []]);
+    return result;
+  } finally {
+    await context.close();
+  }
 }
 
 /** The first state has been checked by the module, and a view shows it. */
@@ -71,15 +76,29 @@ export async function settled(page) {
   await page.waitForTimeout(40);
 }
 
+/** Opens a view by its tab and waits for its picture; the charts of a motor are there when its run-up is. */
+export async function visit(page, view, act = "click") {
+  await page[act](`#tab-${view}`);
+  await page.locator(`#view-${view} canvas`).first().waitFor();
+  await settled(page);
+}
+
+/** Opens a figure or table of the paper, and one of its panels. */
+export async function preset(page, id, panel = 0) {
+  await page.click("#presets-button");
+  await page.click(`[data-preset="${id}"]`);
+  await page.waitForSelector("#note:not([hidden])");
+  if (panel > 0) await page.locator(".chip").nth(panel).click();
+  await settled(page);
+}
+
 /** The state, as the address has it. */
-export const stateOf = (page) =>
-  page.evaluate(() =>
-    Object.fromEntries(
-      location.hash
-        .slice(1)
-        .split("&")
-        .map((part) => part.split("=")),
-    ),
+export const stateOf = async (page) =>
+  Object.fromEntries(
+    (await page.evaluate(() => location.hash))
+      .slice(1)
+      .split("&")
+      .map((part) => part.split("=")),
   );
 
 /** The address follows the state a little later when much changes at once. */
@@ -91,6 +110,14 @@ export async function whenAddress(page, name, value) {
   );
 }
 
+/** An element's text comes to match. */
+export const whenText = (page, selector, pattern, timeout = 30_000) =>
+  page.waitForFunction(
+    ([wanted, source]) => new RegExp(source).test(document.querySelector(wanted)?.textContent ?? ""),
+    [selector, pattern.source],
+    { timeout },
+  );
+
 /** Types a number into a field of the form and confirms it. */
 export async function type(page, name, text) {
   const field = page.locator(`#field-${name}`);
@@ -99,4 +126,63 @@ export async function type(page, name, text) {
   });
   await field.fill(text);
   await field.press("Enter");
+}
+
+/** What stands beside a name in a view's list of facts. */
+export const fact = (page, view, name) =>
+  page.locator(`#view-${view} .facts div:has(dt:text-is("${name}")) dd`).textContent();
+
+/** Colours of custom properties in the present scheme, as `#rrggbb`. */
+export const coloursOf = (page, names) =>
+  page.evaluate((wanted) => {
+    const { dataset } = document.documentElement;
+    const style = getComputedStyle(document.documentElement);
+    return wanted.map((name) => {
+      const [light, dark = light] = style.getPropertyValue(name).match(/#[0-9a-f]{6}/g);
+      return dataset.scheme === "dark" ? dark : light;
+    });
+  }, names);
+
+/** The pixels of a picture that have one of these colours, within `slack` of each byte: `[x, y]`, in device pixels. */
+export const pixelsOf = (page, selector, colours, slack = 0) =>
+  page.evaluate(
+    ([wanted, hexadecimal, most]) => {
+      const canvas = document.querySelector(wanted);
+      const { width, height } = canvas;
+      // A copy: the picture itself is not made for being read.
+      const copy = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true });
+      copy.drawImage(canvas, 0, 0);
+      const { data } = copy.getImageData(0, 0, width, height);
+      const bytes = hexadecimal.map((colour) => [1, 3, 5].map((from) => parseInt(colour.slice(from, from + 2), 16)));
+      const is = (at) => bytes.some((one) => one.every((byte, index) => Math.abs(data[at + index] - byte) <= most));
+      const found = [];
+      for (let at = 0; at < data.length; at += 4)
+        if (is(at)) found.push([(at / 4) % width, Math.floor(at / 4 / width)]);
+      return found;
+    },
+    [selector, colours, slack],
+  );
+
+/** The bytes of a file that the browser saves. */
+export async function savedBy(page, act) {
+  const [download] = await Promise.all([page.waitForEvent("download"), act()]);
+  const chunks = [];
+  for await (const chunk of await download.createReadStream()) chunks.push(chunk);
+  return { name: download.suggestedFilename(), content: Buffer.concat(chunks) };
+}
+
+/** The text of the picture that a view offers by this name as SVG. */
+export async function svgOf(page, name) {
+  await page.click("#export-button");
+  const item = page.locator(".menu .items button", { hasText: name }).filter({ hasText: "SVG" });
+  return String((await savedBy(page, () => item.click())).content);
+}
+
+/** A seeded stream of numbers in [0, 1), so that a failure comes back. */
+export function stream(seed) {
+  let state = seed >>> 0;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
 }

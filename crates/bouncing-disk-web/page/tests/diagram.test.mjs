@@ -1,31 +1,15 @@
 /** The orbit diagram: what is said and drawn of a window, and how fast it is there. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { isFake, launch, opened, settled, stateOf, type } from "./browser.mjs";
-import { sourceOf } from "./sources.mjs";
+import { test } from "node:test";
+import { settled, stateOf, type, within as open } from "./browser.mjs";
+import { sourceOf } from "./module.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(hash, act, size = {}) {
-  const { page, context, errors } = await opened(browser, { hash: `#view=diagram&${hash}`, ...size });
-  try {
-    await settled(page);
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+const within = (hash, act) => open({ hash: `#view=diagram&${hash}` }, act);
 
 const words = (page) => page.textContent("#view-diagram .alternative");
-const real = { skip: isFake };
 
-test("a window of any place and width is answered", real, async () => {
+test("a window of any place and width is answered", async () => {
   for (const [window, restitution] of [
     ["60,60.1", 0.5],
     ["0.001,0.01", 0.5],
@@ -40,7 +24,7 @@ test("a window of any place and width is answered", real, async () => {
     });
 });
 
-test("what is said of a window is what its orbits do for good, and its bifurcations", real, async () => {
+test("what is said of a window is what its orbits do for good, and its bifurcations", async () => {
   await within("diagram_forcing=0.484,0.487", async (page) => {
     assert.match(await words(page), /for good: period 1 at 0\.484\d+, period 1 at .* period 2 at 0\.486\d+\./);
     assert.match(await words(page), /orbits have not settled after 3,000 impacts.*the lines are where they end/);
@@ -54,7 +38,7 @@ test("what is said of a window is what its orbits do for good, and its bifurcati
   });
 });
 
-test("a disk that takes up no spin has a sentence and a range instead of rounding", real, async () => {
+test("a disk that takes up no spin has a sentence and a range instead of rounding", async () => {
   for (const nothing of ["friction=0", "twist_amplitude=0"])
     await within(`diagram_quantity=angular_speed&${nothing}`, async (page) => {
       assert.match(await page.textContent("#view-diagram .remark"), /hands no spin on to the disk/);
@@ -71,7 +55,7 @@ test("a forcing is shown as it was typed", async () => {
 });
 
 test("a zoom that reaches the limit stays where it is", async () => {
-  const { confined } = await sourceOf("drawing/gestures.ts");
+  const { confined } = await sourceOf("drawing/window.ts");
   const limits = [
     [1e-9, 100],
     [1e-3, 1e3],
@@ -91,15 +75,14 @@ test("the help has the keys of the picture", async () => {
 });
 
 test("the ticks of the narrowest windows differ", async () => {
-  const { ticks } = await sourceOf("drawing/ticks.ts");
-  const { linearScale } = await sourceOf("drawing/scale.ts");
+  const { ticks } = await sourceOf("drawing/axes.ts");
   for (const width of [1e-9, 1e-12, 1e-13]) {
-    const labels = ticks(linearScale([0.45, 0.45 + width]), 5).major.map((tick) => tick.label);
+    const labels = ticks([0.45, 0.45 + width], 5).major.map((tick) => tick.label);
     assert.ok(labels.length > 1 && new Set(labels).size === labels.length, labels.join(" "));
   }
 });
 
-test("a zoom is there in a moment", real, async () => {
+test("a zoom is there in a moment", async () => {
   await within("", async (page) => {
     const { diagram_forcing } = await stateOf(page);
     await page.focus("#view-diagram canvas[tabindex='0']");

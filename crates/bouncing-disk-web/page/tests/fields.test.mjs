@@ -1,32 +1,17 @@
 /** Every field at and beyond its limits: refused where it is typed, or taken; the page goes on in both cases. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, opened, settled, type } from "./browser.mjs";
+import { test } from "node:test";
+import { settled, stateOf, type, whenText, within as open } from "./browser.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(hash, act) {
-  const { page, context, errors } = await opened(browser, { hash });
-  try {
-    await settled(page);
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+const within = (hash, act) => open({ hash }, act);
 
 const NO_NUMBER = /is not a number; write it like 0\.5/;
 const TAKEN = null;
 /** What each field does with what is typed. A lag and a phase are angles, of which there are all. */
-const POSITIVE = { "0": /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
-const ATLEAST0 = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
-const ANY = { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
+const POSITIVE = { 0: /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
+const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
+const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
 const FORCING = /is refused: the axial forcing has to be in \[0, 3\.18e7\]/;
 const FIELDS = {
   axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
@@ -79,6 +64,7 @@ for (const [name, expected] of Object.entries(FIELDS))
   test(`${name}: every limit is kept, and the field goes on after each`, () =>
     within("#view=toss", async (page) => {
       const first = await valueOf(page, name);
+      const state = await stateOf(page);
       for (const [text, wanted] of Object.entries(expected)) {
         const before = await valueOf(page, name);
         await type(page, name, text);
@@ -87,10 +73,13 @@ for (const [name, expected] of Object.entries(FIELDS))
         else {
           assert.match(String(refused), wanted, `${name} = ${text}`);
           assert.equal(await page.getAttribute(`#field-${name}`, "aria-invalid"), "true");
+          assert.equal(await page.inputValue(`#field-${name}`), text, "what was typed stays");
           assert.equal(await valueOf(page, name), before, "what is refused changes nothing");
+          assert.deepEqual(await stateOf(page), state);
         }
         await page.focus(`#field-${name}`);
         await page.keyboard.press("Escape");
+        assert.equal(await page.isVisible(`#error-${name}`), false);
         await type(page, name, first);
         assert.equal(await outcome(page, name, first), null, `${name} after ${text}`);
         await settled(page);
@@ -119,7 +108,7 @@ test("a motor without friction is said not to turn, and keeps no curves of anoth
     const charts = page.locator("#view-motor .chart");
     await charts.first().waitFor();
     await type(page, "friction", "0");
-    await page.waitForFunction(() => /^Without friction/.test(document.getElementById("status").textContent));
+    await whenText(page, "#status", /^Without friction/);
     await charts.first().waitFor({ state: "hidden" });
     await type(page, "friction", "0.6");
     await charts.first().waitFor();
@@ -145,6 +134,6 @@ test("a throw by numbers is refused with its range, too", () =>
     }
     assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
     await page.click(".throw button");
-    await page.waitForFunction(() => /^Thrown 100 mm above/.test(document.getElementById("status").textContent));
+    await whenText(page, "#status", /^Thrown 100 mm above/);
     assert.equal(await problem.isVisible(), false);
   }));

@@ -1,31 +1,17 @@
 /** What is not known is shown and named: undecided cells, cycles that rounding chose, errors of numbers. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, opened, settled } from "./browser.mjs";
+import { test } from "node:test";
+import { coloursOf, fact, pixelsOf, type, whenText, within as open } from "./browser.mjs";
 
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(hash, act, options = {}) {
-  const { page, context, errors } = await opened(browser, { hash, ...options });
-  try {
-    await settled(page);
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+const within = (hash, act, options = {}) => open({ hash, ...options }, act);
 
 /** The default system with the amplitude of this forcing. */
 const forcing = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
 
 /** At the fold of period 1 starts crawl past the orbit that is about to be born. */
 const FOLD = `#view=basins&${forcing(1 / 3)}`;
+const PICTURE = "#view-basins canvas";
 const ROUNDED = forcing(2.73);
 
 for (const scheme of ["light", "dark"])
@@ -38,40 +24,25 @@ for (const scheme of ["light", "dark"])
         assert.match(entry, /^Undecided: not on any of these/);
         assert.ok(share > 1 && share < 10, entry);
         assert.match(await page.textContent("#view-basins .alternative"), new RegExp(`${share} % are undecided\\.$`));
-        const { counts, place } = await page.evaluate(() => {
-          const canvas = document.querySelector("#view-basins canvas");
-          const style = getComputedStyle(document.documentElement);
-          const wanted = ["--undecided", "--undecided-line"].map((name) => {
-            const value = parseInt(style.getPropertyValue(name).trim().slice(1), 16);
-            return [value >> 16, (value >> 8) & 255, value & 255];
-          });
-          const { width, height } = canvas;
-          const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-          const is = (x, y, [red, green, blue]) => {
-            const at = 4 * (y * width + x);
-            return data[at] === red && data[at + 1] === green && data[at + 2] === blue;
-          };
-          const counts = [0, 0];
-          let place = null;
-          for (let y = 20; y < height - 50; y++)
-            for (let x = 60; x < width - 20; x++)
-              wanted.forEach((colour, index) => {
-                if (!is(x, y, colour)) return;
-                counts[index]++;
-                // A place amid grey cells is one that a pointer hits.
-                const amid = [-2, 2].every((by) => wanted.some((one) => is(x + by, y, one)));
-                if (index === 0 && amid) place ??= [x / devicePixelRatio, y / devicePixelRatio];
-              });
-          return { counts, place };
-        });
+        const pixels = await Promise.all(
+          (await coloursOf(page, ["--undecided", "--undecided-line"])).map((colour) => pixelsOf(page, PICTURE, [colour])),
+        );
+        // Inside of the axes, whose lines have the colour of the stripes.
+        const [width, height] = await page.$eval(PICTURE, (canvas) => [canvas.width, canvas.height]);
+        const isInside = ([x, y]) => x >= 60 && x < width - 20 && y >= 20 && y < height - 50;
+        const inner = pixels.map((all) => all.filter(isInside));
+        const counts = inner.map(({ length }) => length);
+        // A place amid grey cells is one that a pointer hits.
+        const known = new Set(inner.flat().map(String));
+        const place = inner[0].find(([x, y]) => known.has(`${x - 2},${y}`) && known.has(`${x + 2},${y}`));
         const all = counts[0] + counts[1];
         assert.ok(counts[0] > 500 && counts[1] > 0.2 * all && counts[1] < 0.5 * all, `grey and stripes: ${counts}`);
         const box = await page.locator("#view-basins canvas").last().boundingBox();
         await page.mouse.move(box.x + place[0], box.y + place[1]);
-        await page.waitForFunction(() => /: undecided\.$/.test(document.querySelector(".pointed").textContent));
+        await whenText(page, ".pointed", /: undecided\.$/);
       },
-      { scheme },
-    ));
+      { colorScheme: scheme },
+    )); // prettier-ignore
 
 test("where the whole window is decided, the words say so, and shares have their intervals", () =>
   within("#view=basins", async (page) => {
@@ -96,22 +67,14 @@ for (const [view, host] of [["basins", ".panel"], ["toss", ".toss-left"]])
       const caution = page.locator(`#view-${view} ${host} .caution`);
       await caution.waitFor({ state: "visible" });
       assert.match(await caution.textContent(), /^Rounding-dependent: /);
-      await page.fill("#field-axial_forcing", "0.45");
-      await page.press("#field-axial_forcing", "Enter");
+      await type(page, "axial_forcing", "0.45");
       await caution.waitFor({ state: "hidden" });
     })); // prettier-ignore
 
 test("numbers that come of a sample or an average have their errors with them", () =>
   within("#view=motor", async (page) => {
-    const fact = (name) =>
-      page.evaluate(
-        (wanted) =>
-          [...document.querySelectorAll("#view-motor .facts dt")].find((one) => one.textContent === wanted)
-            .nextElementSibling.textContent,
-        name,
-      );
-    await page.waitForFunction(() => /±/.test(document.querySelector("#view-motor .facts").textContent));
-    assert.match(await fact("Steady speed"), /^−?[\d.]+ ± [\d.]+ rad\/s without load$/);
-    await page.waitForFunction(() => /±.*N m/.test(document.querySelector("#view-motor .facts").textContent));
-    assert.match(await fact("Stall load"), /^\([\d.]+ ± [\d.]+\) .?N m$/);
+    await whenText(page, "#view-motor .facts", /±/);
+    assert.match(await fact(page, "motor", "Steady speed"), /^−?[\d.]+ ± [\d.]+ rad\/s without load$/);
+    await whenText(page, "#view-motor .facts", /±.*N m/);
+    assert.match(await fact(page, "motor", "Stall load"), /^\([\d.]+ ± [\d.]+\) .?N m$/);
   }));

@@ -1,28 +1,12 @@
 /** Under load: the page never freezes, and survives a thousand changes. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, opened, settled, stateOf, type } from "./browser.mjs";
+import { test } from "node:test";
+import { settled, stateOf, stream, type, VIEWS, within } from "./browser.mjs";
 
 const CHANGES = Number(process.env.EXPLORER_CHANGES ?? 1000);
 /** Growth of the page's memory (bytes). */
 const GROWTH = 50e6;
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-const VIEWS = ["toss", "diagram", "basins", "motor"];
-
-function stream(seed) {
-  let state = seed >>> 0;
-  return () => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return state / 2 ** 32;
-  };
-}
 
 /**
  * The pixels of a view's pictures, and what is said of them; a view without animation has the same ones for the same
@@ -35,29 +19,26 @@ const picture = (page, view) =>
   }));
 
 /** The long tasks of one round through all views, with the view in which each happened. */
-async function longTasks() {
-  const { page, context } = await opened(browser);
-  await settled(page);
-  await page.evaluate(() => {
-    globalThis.tasks = [];
-    new PerformanceObserver((list) => {
-      const view = document.querySelector("[role=tab][aria-selected=true]").id;
-      for (const { duration } of list.getEntries()) globalThis.tasks.push(`${view}: ${duration} ms`);
-    }).observe({ type: "longtask", buffered: false });
-  });
-  for (const view of VIEWS) {
-    await page.click(`#tab-${view}`);
-    await settled(page);
-    // The last one is what the next view begins with: one whose basins are found soon.
-    for (const forcing of ["0.4", "0.55", "0.5"]) {
-      await type(page, "axial_forcing", forcing);
+const longTasks = () =>
+  within({}, async (page) => {
+    await page.evaluate(() => {
+      globalThis.tasks = [];
+      new PerformanceObserver((list) => {
+        const view = document.querySelector("[role=tab][aria-selected=true]").id;
+        for (const { duration } of list.getEntries()) globalThis.tasks.push(`${view}: ${duration} ms`);
+      }).observe({ type: "longtask", buffered: false });
+    });
+    for (const view of VIEWS) {
+      await page.click(`#tab-${view}`);
       await settled(page);
+      // The last one is what the next view begins with: one whose basins are found soon.
+      for (const forcing of ["0.4", "0.55", "0.5"]) {
+        await type(page, "axial_forcing", forcing);
+        await settled(page);
+      }
     }
-  }
-  const tasks = await page.evaluate(() => globalThis.tasks);
-  await context.close();
-  return tasks;
-}
+    return page.evaluate(() => globalThis.tasks);
+  });
 
 test("no task of the main thread takes longer than 50 ms while work goes on", { timeout: 600_000 }, async () => {
   // The browser's measure begins at 50 ms. It counts the time that a busy machine gives to others, so a round without
@@ -71,86 +52,77 @@ test("no task of the main thread takes longer than 50 ms while work goes on", { 
   assert.fail(JSON.stringify(rounds));
 });
 
-test("the range that nobody chose is that of the present orbits, whatever was seen before", async () => {
-  const hash = "#view=diagram&diagram_quantity=normalised_speed&restitution=0.5";
-  const { page, context } = await opened(browser, { hash });
-  await settled(page);
-  const first = await picture(page, "diagram");
-  for (const restitution of ["0.9", "0.5"]) {
-    await type(page, "restitution", restitution);
-    await settled(page);
-  }
-  await page.evaluate(() => document.activeElement.blur());
-  assert.deepEqual(await picture(page, "diagram"), first);
-  await context.close();
-});
+test("the range that nobody chose is that of the present orbits, whatever was seen before", () =>
+  within({ hash: "#view=diagram&diagram_quantity=normalised_speed&restitution=0.5" }, async (page) => {
+    const first = await picture(page, "diagram");
+    for (const restitution of ["0.9", "0.5"]) {
+      await type(page, "restitution", restitution);
+      await settled(page);
+    }
+    await page.evaluate(() => document.activeElement.blur());
+    assert.deepEqual(await picture(page, "diagram"), first);
+  }));
 
 test(
   "a thousand changes in a row: no error, no growth, and the last picture is that of a fresh page",
   { timeout: 900_000 },
   async () => {
     const random = stream(2009);
-    const { page, context, errors, requests } = await opened(browser);
-    const memory = async () => {
-      await page.evaluate(() => globalThis.gc?.());
-      await page.waitForTimeout(300);
-      await page.evaluate(() => globalThis.gc?.());
-      return page.evaluate(() => performance.memory.usedJSHeapSize);
-    };
-    for (const view of VIEWS) {
-      await page.click(`#tab-${view}`);
-      await settled(page);
-    }
-    const before = await memory();
-    const ranges = {
-    axial_forcing: [0.2, 0.7], twist_amplitude: [0, 2], phase_lag: [-3, 3], restitution: [0, 0.9], friction: [0, 1],
-    contact_radius: [0.05, 0.2], gyration_radius: [0.05, 0.2], load_acceleration: [-3, 3], impact_phase: [0, 6],
-    normalised_speed: [0.1, 5], angular_speed: [-20, 20], mass: [0.1, 1],
-  }; // prettier-ignore
-    const names = Object.keys(ranges);
-    for (let change = 0; change < CHANGES; change++) {
-      if (random() < 0.15) {
-        await page.click(`#tab-${VIEWS[Math.floor(random() * VIEWS.length)]}`);
-      } else {
-        const name = names[Math.floor(random() * names.length)];
-        const [low, high] = ranges[name];
-        await page.evaluate(
-          ([id, text]) => {
-            const field = document.getElementById(id);
-            field.focus();
-            field.value = text;
-            field.dispatchEvent(new Event("change", { bubbles: true }));
-          },
-          [`field-${name}`, (low + random() * (high - low)).toPrecision(6)],
-        );
+    const { last, hash, state } = await within({}, async (page) => {
+      const memory = async () => {
+        await page.evaluate(() => globalThis.gc?.());
+        await page.waitForTimeout(300);
+        await page.evaluate(() => globalThis.gc?.());
+        return page.evaluate(() => performance.memory.usedJSHeapSize);
+      };
+      for (const view of VIEWS) {
+        await page.click(`#tab-${view}`);
+        await settled(page);
       }
-      // Mostly before the answers of the last change are there.
-      if (random() < 0.3) await page.waitForTimeout(60 * random());
-    }
-    await page.click("#tab-diagram");
-    await settled(page);
-    await page.waitForTimeout(600);
-    const grown = (await memory()) - before;
-    assert.deepEqual([errors, requests], [[], []]);
-    assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
-    assert.ok(grown < GROWTH, `${grown / 1e6} MB`);
-    await page.mouse.move(5, 795);
-    const last = await picture(page, "diagram");
-    const hash = await page.evaluate(() => location.hash);
-    const state = await stateOf(page);
-    await context.close();
-    const fresh = await opened(browser, { hash });
-    await settled(fresh.page);
-    await fresh.page.waitForTimeout(300);
-    await fresh.page.mouse.move(5, 795);
-    assert.deepEqual(await stateOf(fresh.page), state);
-    const again = await picture(fresh.page, "diagram");
-    assert.equal(again.words, last.words);
-    assert.ok(last.pixels.length > 0);
-    assert.ok(
-      last.pixels.every((pixels, index) => pixels === again.pixels[index]),
-      "the pictures differ",
-    );
-    await fresh.context.close();
+      const before = await memory();
+      const ranges = {
+        axial_forcing: [0.2, 0.7], twist_amplitude: [0, 2], phase_lag: [-3, 3], restitution: [0, 0.9], friction: [0, 1],
+        contact_radius: [0.05, 0.2], gyration_radius: [0.05, 0.2], load_acceleration: [-3, 3], impact_phase: [0, 6],
+        normalised_speed: [0.1, 5], angular_speed: [-20, 20], mass: [0.1, 1],
+      }; // prettier-ignore
+      const names = Object.keys(ranges);
+      for (let change = 0; change < CHANGES; change++) {
+        if (random() < 0.15) {
+          await page.click(`#tab-${VIEWS[Math.floor(random() * VIEWS.length)]}`);
+        } else {
+          const name = names[Math.floor(random() * names.length)];
+          const [low, high] = ranges[name];
+          await page.evaluate(
+            ([id, text]) => {
+              const field = document.getElementById(id);
+              field.focus();
+              field.value = text;
+              field.dispatchEvent(new Event("change", { bubbles: true }));
+            },
+            [`field-${name}`, (low + random() * (high - low)).toPrecision(6)],
+          );
+        }
+        // Mostly before the answers of the last change are there.
+        if (random() < 0.3) await page.waitForTimeout(60 * random());
+      }
+      await page.click("#tab-diagram");
+      await settled(page);
+      await page.waitForTimeout(600);
+      const grown = (await memory()) - before;
+      assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
+      assert.ok(grown < GROWTH, `${grown / 1e6} MB`);
+      await page.mouse.move(5, 795);
+      const last = await picture(page, "diagram");
+      return { last, hash: await page.evaluate(() => location.hash), state: await stateOf(page) };
+    });
+    await within({ hash }, async (page) => {
+      await page.waitForTimeout(300);
+      await page.mouse.move(5, 795);
+      assert.deepEqual(await stateOf(page), state);
+      const again = await picture(page, "diagram");
+      assert.equal(again.words, last.words);
+      assert.ok(last.pixels.length > 0);
+      assert.ok(last.pixels.every((pixels, index) => pixels === again.pixels[index]), "the pictures differ");
+    });
   },
-);
+); // prettier-ignore

@@ -1,42 +1,22 @@
 /** The motor view: nothing of one motor stands under another one, and one steady speed stands on the page. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { isFake, launch, opened, settled } from "./browser.mjs";
-import { sourceOf } from "./sources.mjs";
+import { test } from "node:test";
+import { fact, settled, whenText, within as open } from "./browser.mjs";
+import { sourceOf } from "./module.mjs";
 
-let browser, words, numbers;
-before(async () => {
-  browser = await launch();
-  words = await sourceOf("views/motor/words.ts");
-  numbers = await sourceOf("drawing/numbers.ts");
-});
-after(() => browser.close());
+const words = await sourceOf("views/motor/words.ts");
+const numbers = await sourceOf("numbers.ts");
 
-async function within(hash, act) {
-  const { page, context, errors } = await opened(browser, { hash });
-  try {
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+const within = (hash, act) => open({ hash, settle: false }, act);
 
 /** Fig. 10(c), whose impacts are few: its curves are there in a second or two. */
 const MOTOR =
   "#view=motor&amplitude=1e-7&twist_amplitude=6.820926132509799e-5&angular_frequency=439822.9715025711&phase_lag=0" +
   "&contact_radius=0.00125&gyration_radius=0.0063&friction=0.1&restitution=0.5&preload_acceleration=9.8&mass=0.0329";
 
-const done = (page) =>
-  page.waitForFunction(
-    () => /^Run-up and \d+ loads are computed/.test(document.getElementById("status").textContent),
-    undefined,
-    { timeout: 60_000 },
-  );
+const done = (page) => whenText(page, "#status", /^Run-up and \d+ loads are computed/, 60_000);
 const captions = (page) => page.locator("#view-motor .chart figcaption").allTextContents();
-const fact = (page, name) =>
-  page.locator(`#view-motor .facts div:has(dt:text-is("${name}")) dd`).textContent();
 
 test("the curves of a motor are gone as soon as there is another one, on the screen and from the exports", () =>
   within(MOTOR, async (page) => {
@@ -69,34 +49,38 @@ test("the curves of a motor are gone as soon as there is another one, on the scr
 test("the steady speed of the report is that of the run-up and of the curve without load", () =>
   within(MOTOR, async (page) => {
     await done(page);
-    const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "Steady speed"));
+    const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "motor", "Steady speed"));
     const [runUp, curve] = await captions(page);
     assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
     assert.ok(curve.startsWith(`From ${speed} rad/s at 0 N m`), curve);
     assert.doesNotMatch(runUp, /tends to/);
   }));
 
-const real = { skip: isFake ? "the fake module computes nothing" : false };
-
 /** The load of the system, as an angular deceleration, of so many N m. */
 const loaded = (torque) => `${MOTOR}&load_acceleration=${torque / (0.0329 * 0.0063 ** 2)}`;
 
-test("a steady speed says under which load it is, and a load that drives the rotor has none", real, async () => {
+test("a steady speed says under which load it is, and a load that drives the rotor has none", async () => {
   await within(loaded(10e-6), async (page) => {
     await done(page);
-    assert.match(await fact(page, "Steady speed"), /^15\.\d+ ± [\d.]+ rad\/s under the load of the sheet, 10\.0 µN m$/);
+    assert.match(
+      await fact(page, "motor", "Steady speed"),
+      /^15\.\d+ ± [\d.]+ rad\/s under the load of the sheet, 10\.0 µN m$/,
+    );
   });
   await within(loaded(60e-6), async (page) => {
     await done(page);
-    assert.match(await fact(page, "Steady speed"), /^none: the load of the sheet, 60\.0 µN m, is more than the 40\.3 µN m/);
+    assert.match(
+      await fact(page, "motor", "Steady speed"),
+      /^none: the load of the sheet, 60\.0 µN m, is more than the 40\.3 µN m/,
+    );
     assert.match((await captions(page))[0], /there is no steady speed\.$/);
   });
 });
 
-test("a motor that nothing turns is said to be one", real, () =>
+test("a motor that nothing turns is said to be one", () =>
   within(`${MOTOR}&twist_amplitude=0`.replace("&twist_amplitude=6.820926132509799e-5", ""), async (page) => {
     await settled(page);
-    await page.waitForFunction(() => /^Without a twist/.test(document.getElementById("status").textContent));
+    await whenText(page, "#status", /^Without a twist/);
     assert.equal(await page.locator("#view-motor .chart").first().isVisible(), false);
   }));
 
@@ -116,7 +100,7 @@ test("points at zero stand inside the frame where there is nothing but zero", as
   const { loadCharts } = await sourceOf("views/motor/charts.ts");
   const still = [operation({ efficiency: 0 }), operation({ load_torque: 1e-5 })];
   const [, , efficiency] = loadCharts(still, [0, 1e-5], 1e-5, null);
-  assert.ok(efficiency.yRange[0] < 0, `${efficiency.yRange}`);
+  assert.ok(efficiency.y.range[0] < 0, `${efficiency.y.range}`);
 });
 
 test("numbers that the error hides have no digits and no sign, others no more than are known", () => {
@@ -128,12 +112,21 @@ test("numbers that the error hides have no digits and no sign, others no more th
   const rise = { form: "exponential", constant: { value: 0.83503, low: 0.83479, high: 0.83528 }, residual: 0.2 };
   const constant = words.timeConstant({ points: 9, rise, refusal: null }, null);
   assert.equal(constant, "835.03 ms (95 % interval 834.79 to 835.28 ms)");
-  const lost = words.steadySpeed(operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" }), 1);
+  const lost = words.steadySpeed(
+    operation({ status: 1, speed: 16.0763, speed_error: 8e-4, shortfall: "it drifts" }),
+    1,
+  );
   assert.match(lost, /^not settled, 16\.1 rad\/s so far without load; it drifts$/);
 });
 
 test("what has not settled has no error, which would not hold its drift", () => {
-  const row = operation({ status: 1, load_torque: 1e-5, mechanical_power: 4e-5, efficiency: 0.06, efficiency_error: 1e-4 });
+  const row = operation({
+    status: 1,
+    load_torque: 1e-5,
+    mechanical_power: 4e-5,
+    efficiency: 0.06,
+    efficiency_error: 1e-4,
+  });
   const told = words.describeCurves([row], null);
   for (const sentence of told) assert.match(sentence, /so far, not settled/);
   assert.doesNotMatch(told.join(" "), /±/);

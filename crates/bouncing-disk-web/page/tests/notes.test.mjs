@@ -1,22 +1,13 @@
 /** What the notes of the presets say, computed by the module of the page. */
 
 import assert from "node:assert/strict";
-import { before, test } from "node:test";
-import { moduleOf } from "./module.mjs";
-import { sourceOf } from "./sources.mjs";
+import { test } from "node:test";
+import { moduleOf, sourceOf } from "./module.mjs";
 
-const file = process.env.EXPLORER_HTML;
-const options = { skip: file ? false : "the fake module of a page without EXPLORER_HTML computes nothing" };
-
-let ask, presets, stateOf, MOTION, EVENT;
-before(async () => {
-  if (!file) return;
-  const source = await sourceOf("presets.ts");
-  ({ MOTION_COLUMNS: MOTION, EVENT_COLUMNS: EVENT } = await sourceOf("protocol.ts"));
-  ({ stateOf } = source);
-  presets = new Map(source.PRESETS.map((preset) => [preset.id, preset]));
-  ({ ask } = await moduleOf(file));
-});
+const { PRESETS, stateOf } = await sourceOf("presets.ts");
+const { MOTION_COLUMNS: MOTION, EVENT_COLUMNS: EVENT } = await sourceOf("protocol.ts");
+const presets = new Map(PRESETS.map((preset) => [preset.id, preset]));
+const { ask } = await moduleOf();
 
 /** The note of a preset, and the states of its panels by the beginnings of their labels. */
 function preset(id) {
@@ -57,7 +48,7 @@ const fastest = (samples, column) => {
 
 const largest = (samples, column) => Math.max(...samples.map((sample) => sample[column]));
 
-test("Fig. 2: the lag parts turning from rising, and (f) does not throw", options, async () => {
+test("Fig. 2: the lag parts turning from rising, and (f) does not throw", async () => {
   const { state } = preset("fig02");
   const apart = async (label) => {
     const { samples } = await motion(state(label), 1);
@@ -72,13 +63,13 @@ test("Fig. 2: the lag parts turning from rising, and (f) does not throw", option
   for (const label of ["(a)", "(b)", "(c)", "(d)"]) assert.ok((await motion(state(label))).separation, label);
 });
 
-test("Fig. 3: the events of the inset, in this order", options, async () => {
+test("Fig. 3: the events of the inset, in this order", async () => {
   const { events } = await motion(preset("fig03").state("chattering"));
   const kinds = events.map(({ kind }) => kind).join(" ");
   assert.match(kinds, /separation( impact)+ .*attach.*separation/i, kinds.slice(0, 300));
 });
 
-test("Fig. 4: the fastest toss, and θ = 0 is best", options, async () => {
+test("Fig. 4: the fastest toss, and θ = 0 is best", async () => {
   const { state, says } = preset("fig04");
   const best = await thrown(state("φ_L = 0.301π"));
   says(`printed ${best.toFixed(0)} rad/s`);
@@ -98,7 +89,7 @@ test("Fig. 4: the fastest toss, and θ = 0 is best", options, async () => {
   }
 });
 
-test("Fig. 5: high and hardly turning, low and fast, turned back", options, async () => {
+test("Fig. 5: high and hardly turning, low and fast, turned back", async () => {
   const { state } = preset("fig05");
   const tosses = {};
   for (const panel of ["(a)", "(b)", "(c)"]) {
@@ -117,7 +108,7 @@ test("Fig. 5: high and hardly turning, low and fast, turned back", options, asyn
   }
 });
 
-test("Fig. 6: doublings and the crisis", options, async () => {
+test("Fig. 6: doublings and the crisis", async () => {
   const { says } = preset("fig06");
   const { json } = await ask({ call: "branches", restitution: 0.5, axial_forcing: [0.3, 0.65] });
   const doublings = json.bifurcations.filter(({ kind }) => kind === "doubling").slice(0, 3);
@@ -131,7 +122,7 @@ test("Fig. 6: doublings and the crisis", options, async () => {
   assert.deepEqual([await lasting(0.5605), await lasting(0.5615)], [1, 0]);
 });
 
-test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", options, async () => {
+test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", async () => {
   const { states } = preset("fig07");
   const shares = [];
   for (const { system } of states()) {
@@ -145,7 +136,7 @@ test("Fig. 7: the basin grows to the doubling, and is gone beyond the crisis", o
   assert.ok(Math.abs(last) < 1e-12, `${shares}`);
 });
 
-test("Fig. 9: how long the rotor takes to stop", options, async () => {
+test("Fig. 9: how long the rotor takes to stop", async () => {
   const { states, says } = preset("fig09");
   const times = [];
   for (const state of states()) {
@@ -170,14 +161,14 @@ async function stall(state) {
   return stalls.get(key);
 }
 
-test("Figs. 10 and 12: no trap that a preload can meet", options, async () => {
+test("Figs. 10 and 12: no trap that a preload can meet", async () => {
   const fig10 = preset("fig10").state;
   for (const label of ["(a)", "(b)", "(c)"]) assert.notEqual((await report(fig10(label))).trap?.caught, true, label);
   // Of the short cycles that stand next to the printed amplitude none is wide enough to be shown.
   assert.equal((await report(preset("fig12").state("(d)"))).trap, null);
 });
 
-test("Fig. 10: (a) does not rise on a straight line, and stops abruptly", options, async () => {
+test("Fig. 10: (a) does not rise on a straight line, and stops abruptly", async () => {
   const { state, says } = preset("fig10");
   const [sheet, points] = [await sheetOf(state("(a)")), 160];
   const request = { call: "motor_transient", sheet, members: 4, rise_times: 6, points, seed: 1 };
@@ -192,7 +183,7 @@ test("Fig. 10: (a) does not rise on a straight line, and stops abruptly", option
   assert.ok(Math.abs(slope(kink + 8, kink + 16)) < 0.1, "it stays there at once");
 });
 
-test("Fig. 11: the torque follows the preload, the speed does not", options, async () => {
+test("Fig. 11: the torque follows the preload, the speed does not", async () => {
   const { state, says } = preset("fig11");
   const ratios = [];
   for (const frequency of ["184 kHz", "70 kHz"]) {
@@ -205,7 +196,7 @@ test("Fig. 11: the torque follows the preload, the speed does not", options, asy
   says(`${ratios[0]} to ${ratios[1]} times`);
 });
 
-test("Fig. 13: what moves the torque and what the speed", options, async () => {
+test("Fig. 13: what moves the torque and what the speed", async () => {
   const { state } = preset("fig13");
   const of = (label) => stall(state(label));
   const base = await of("default");
@@ -223,7 +214,7 @@ test("Fig. 13: what moves the torque and what the speed", options, async () => {
   }
 });
 
-test("Tables I and II: the speed of the toss, and what it depends on", options, async () => {
+test("Tables I and II: the speed of the toss, and what it depends on", async () => {
   const base = await thrown(preset("table1").state("Table I"));
   preset("table1").says(`${base.toFixed(0)} rad/s`);
   const { state } = preset("table2");
@@ -235,7 +226,7 @@ test("Tables I and II: the speed of the toss, and what it depends on", options, 
   assert.ok(Math.max(...hardly) < 0.05 * little, `${hardly} ${little}`);
 });
 
-test("Table III: both readings", options, async () => {
+test("Table III: both readings", async () => {
   const { state, says } = preset("table3");
   const [gravity, printed] = [await stall(state("70 kHz")), await stall(state("g ="))];
   says(`${(100 * (printed.no_load_speed / gravity.no_load_speed - 1)).toFixed(0)} %`);

@@ -1,47 +1,22 @@
 /** Toss and bounce: what it says of the motion, when it plays, what a throw is, and what is drawn. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { isFake, launch, opened, settled, stateOf, whenAddress } from "./browser.mjs";
-import { svgOf } from "./files.mjs";
-
-const real = { skip: isFake && "the fake module knows no physics" };
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
-
-async function within(options, act) {
-  const { page, context, errors } = await opened(browser, options);
-  try {
-    await settled(page);
-    await act(page);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
-
-async function preset(page, id, panel = 0) {
-  await page.click("#presets-button");
-  await page.click(`[data-preset="${id}"]`);
-  await page.waitForSelector("#note:not([hidden])");
-  if (panel > 0) await page.locator(".chip").nth(panel).click();
-  await settled(page);
-}
-
-const fact = (page, name) =>
-  page.evaluate(
-    (wanted) =>
-      [...document.querySelectorAll("#view-toss .facts dt")].find((one) => one.textContent === wanted)
-        .nextElementSibling.textContent,
-    name,
-  );
+import { test } from "node:test";
+import {
+  coloursOf,
+  fact,
+  pixelsOf,
+  preset,
+  settled,
+  stateOf,
+  svgOf,
+  whenAddress,
+  whenText,
+  within,
+} from "./browser.mjs";
 
 /** The time of the animation, in periods. */
-const now = async (page) => Number.parseFloat(await fact(page, "Time"));
+const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
 
 /** The disk moves on by itself: the time grows three times in a row, however slow the machine is. */
 async function plays(page, what) {
@@ -65,21 +40,21 @@ const seek = (page, periods) =>
     input.dispatchEvent(new Event("input", { bubbles: true }));
   }, periods);
 
-test("Fig. 9: the energy of a contact that does not end is counted, and the slider reaches the stop", real, () =>
+test("Fig. 9: the energy of a contact that does not end is counted, and the slider reaches the stop", () =>
   within({}, async (page) => {
     await preset(page, "fig09", 2);
-    await page.waitForFunction(() => /of 48 periods/.test(document.querySelector("#view-toss").textContent));
+    await whenText(page, "#view-toss", /of 48 periods/);
     // All of what it has after the impact at the start: (a_g q)^2/2 with 6.3 mm and 30 rad/s less some.
     await seek(page, 0);
     await page.waitForFunction(() => /^0\.00/.test(document.querySelectorAll(".facts dd")[1].textContent));
-    assert.equal(await fact(page, "Kinetic, rotary"), "17.8 mJ/kg");
-    assert.equal(await fact(page, "Lost in friction"), "17.8 mJ/kg");
-    assert.equal(await fact(page, "Stored in the disk"), "−17.8 mJ/kg");
+    assert.equal(await fact(page, "toss", "Kinetic, rotary"), "17.8 mJ/kg");
+    assert.equal(await fact(page, "toss", "Lost in friction"), "17.8 mJ/kg");
+    assert.equal(await fact(page, "toss", "Stored in the disk"), "−17.8 mJ/kg");
     const end = Number(await page.getAttribute('[aria-label="Time in periods"]', "max"));
     assert.ok(end * 0.1 >= 4, `${end} periods of 0.1 s`);
     await seek(page, 45);
-    await page.waitForFunction(() => /slid|stick/.test(document.querySelector(".facts dd").textContent));
-    assert.equal(await fact(page, "Angular speed"), "0 rad/s", "what rounding leaves is nothing");
+    await whenText(page, "#view-toss .facts dd", /slid|stick/);
+    assert.equal(await fact(page, "toss", "Angular speed"), "0 rad/s", "what rounding leaves is nothing");
     assert.match(
       await page.textContent("#view-toss .alternative"),
       /the disk (sticks to|slides \w+ on) the platform and turns at 0 rad\/s; the platform at 0 rad\/s\.$/,
@@ -103,7 +78,7 @@ test("a motion that another view, the tour or a figure opens is seen to move", (
     }
     await page.click("#tour-button");
     for (let step = 1; step <= 6; step++) {
-      await page.waitForFunction((text) => document.querySelector(".tour .place").textContent === text, `Step ${step} of 8`);
+      await whenText(page, ".tour .place", new RegExp(`^Step ${step} of 8$`));
       if (step === 4 || step === 6) await plays(page, `step ${step} of the tour`);
       await page.click(".tour .primary");
     }
@@ -148,12 +123,12 @@ test("a throw is in the address, and a link of it shows the same motion", () =>
     assert.ok(gap > 0 && velocity >= 0 && speed >= 0, state.throw);
     const told = await page.textContent("#status");
     assert.match(told, /^Thrown /);
-    const copy = await opened(browser, { hash: await page.evaluate(() => location.hash) });
-    await settled(copy.page);
-    assert.deepEqual(await stateOf(copy.page), state);
-    assert.equal(await copy.page.textContent("#status"), told);
-    assert.deepEqual(await balanceOf(copy.page), await balanceOf(page));
-    await copy.context.close();
+    const hash = await page.evaluate(() => location.hash);
+    await within({ hash }, async (copy) => {
+      assert.deepEqual(await stateOf(copy), state);
+      assert.equal(await copy.textContent("#status"), told);
+      assert.deepEqual(await balanceOf(copy), await balanceOf(page));
+    });
     // Going back leads to the motion before, and so does the button.
     await page.getByRole("button", { name: "Start with the shared impact" }).click();
     await whenAddress(page, "throw", "none");
@@ -167,30 +142,18 @@ test("a throw is in the address, and a link of it shows the same motion", () =>
     await whenAddress(page, "throw", "none");
   }));
 
-/** Under the pointer is the disk where the cursor's place answers to it: the middle of what has its colour. */
+/** The middle of what has the colour of the disk: there it answers to the pointer. */
 async function placeOfDisk(page, box) {
   await page.waitForTimeout(100);
-  const [x, y] = await page.evaluate(() => {
-    const canvas = document.querySelector("#view-toss .picture-scene canvas");
-    const value = getComputedStyle(document.documentElement).getPropertyValue("--disk").trim();
-    const wanted = [1, 3, 5].map((from) => parseInt(value.slice(from, from + 2), 16));
-    const { width, height } = canvas;
-    const { data } = canvas.getContext("2d").getImageData(0, 0, width, height);
-    let [sumX, sumY, count] = [0, 0, 0];
-    for (let at = 0; at < data.length; at += 4) {
-      if (wanted.some((byte, index) => data[at + index] !== byte)) continue;
-      sumX += (at / 4) % width;
-      sumY += Math.floor(at / 4 / width);
-      count++;
-    }
-    return [sumX / count / devicePixelRatio, sumY / count / devicePixelRatio];
-  });
-  return [box.x + x, box.y + y];
+  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", await coloursOf(page, ["--disk"]));
+  const ratio = await page.evaluate(() => devicePixelRatio);
+  const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
+  return [box.x + middle(0), box.y + middle(1)];
 }
 
 const balanceOf = async (page) => {
   const names = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"];
-  return Promise.all(names.map((name) => fact(page, name)));
+  return Promise.all(names.map((name) => fact(page, "toss", name)));
 };
 
 test("Fig. 2: the path of a point of the platform is drawn, and opens with the lag", () =>
@@ -215,18 +178,14 @@ test("Fig. 2: the path of a point of the platform is drawn, and opens with the l
     await settled(page);
     assert.ok((await area()) < 0.01);
     // On the screen it is in the corner.
-    const drawn = await page.evaluate(() => {
-      const canvas = document.querySelector("#view-toss .picture-scene canvas");
-      const value = getComputedStyle(document.documentElement).getPropertyValue("--platform-line").trim();
-      const wanted = [1, 3, 5].map((from) => parseInt(value.slice(from, from + 2), 16));
-      const side = Math.round(190 * devicePixelRatio);
-      const { data } = canvas.getContext("2d").getImageData(canvas.width - side, 0, side, side);
-      let count = 0;
-      for (let at = 0; at < data.length; at += 4) {
-        if (wanted.every((byte, index) => Math.abs(data[at + index] - byte) < 40)) count++;
-      }
-      return count;
-    });
+    const line = await coloursOf(page, ["--platform-line"]);
+    const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", line, 39);
+    const [width, ratio] = await page.evaluate(() => [
+      document.querySelector("#view-toss .picture-scene canvas").width,
+      devicePixelRatio,
+    ]);
+    const side = 190 * ratio;
+    const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
     assert.ok(drawn > 60, `${drawn} pixels`);
   })); // prettier-ignore
 

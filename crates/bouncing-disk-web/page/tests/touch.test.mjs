@@ -1,30 +1,17 @@
 /** Fingers: the disk is thrown by dragging it, pictures are pinched and panned, and a basin's start is tapped. */
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
-import { launch, opened, settled, stateOf, whenAddress } from "./browser.mjs";
-
-let browser;
-before(async () => {
-  browser = await launch();
-});
-after(() => browser.close());
+import { test } from "node:test";
+import { settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
 
 /** A telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
-async function telephone(view, act) {
-  const options = { hash: `#view=${view}`, width: 390, height: 840, touch: true };
-  const { page, context, errors } = await opened(browser, options);
-  const session = await context.newCDPSession(page);
-  const touch = (type, ...points) =>
-    session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
-  try {
-    await settled(page);
+const telephone = (view, act) =>
+  within({ hash: `#view=${view}`, width: 390, height: 840, hasTouch: true }, async (page, context) => {
+    const session = await context.newCDPSession(page);
+    const touch = (type, ...points) =>
+      session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
     await act(page, touch);
-    assert.deepEqual(errors, []);
-  } finally {
-    await context.close();
-  }
-}
+  });
 
 const surface = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first();
 
@@ -34,7 +21,10 @@ const rangeOf = (text) => text.split(",").map(Number);
 async function drag(page, touch, from, to, steps = 8) {
   await touch("touchStart", from);
   for (let step = 1; step <= steps; step++) {
-    await touch("touchMove", from.map((start, at) => start + ((to[at] - start) * step) / steps));
+    await touch(
+      "touchMove",
+      from.map((start, at) => start + ((to[at] - start) * step) / steps),
+    );
     await page.waitForTimeout(12);
   }
   await touch("touchEnd");
@@ -60,7 +50,7 @@ test("a finger on the disk throws it, and the page stays where it is", () =>
     });
     const from = [box.x + box.width / 2 - 30, box.y + height];
     await drag(page, touch, from, [from[0] + 50, from[1] - 60]);
-    await page.waitForFunction(() => /^Thrown .* above/.test(document.getElementById("status").textContent));
+    await whenText(page, "#status", /^Thrown .* above/);
     const told = await page.textContent("#status");
     assert.match(told, /m\/s upwards relative to it, turning at \d/);
     assert.equal(await page.evaluate(() => scrollY), 0);
@@ -110,7 +100,7 @@ test("one finger moves the orbit diagram sideways, and a tap chooses a forcing a
     const { amplitude } = await stateOf(page);
     await page.touchscreen.tap(x + 60, y);
     await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);
-    await page.waitForFunction(() => /impact/.test(document.querySelector("#view-diagram .facts").textContent));
+    await whenText(page, "#view-diagram .facts", /impact/);
   }));
 
 test("a tap on a basin runs the orbit of that start in the first view", () =>
@@ -122,7 +112,7 @@ test("a tap on a basin runs the orbit of that start in the first view", () =>
     // The axes' margins are not known here; the start is near the middle of the picture.
     assert.ok(Math.abs(impact_phase / (2 * Math.PI) - 0.43) < 0.1, impact_phase);
     assert.ok(Math.abs(normalised_speed - 2.8) < 0.4, normalised_speed);
-    await page.waitForFunction(() => /flight|sticking|sliding/.test(document.querySelector(".facts").textContent));
+    await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
     const shown = Number(await page.inputValue("#field-normalised_speed"));
     assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
   }));

@@ -6,8 +6,9 @@
 //! start at different phases; a single transient is a picture of one member.
 
 use crate::display::numbers;
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount};
 use std::fmt::{self, Display, Formatter};
 
 use crate::error::{Error, check, finite, not_negative, room_for};

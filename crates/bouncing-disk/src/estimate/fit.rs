@@ -1,10 +1,11 @@
 //! Least-squares fits of measured or computed curves.
 
 use crate::display::numbers;
-use bouncing_disk_core::elementary::{exp, exp_m1, ln};
-use bouncing_disk_core::numerics::minimum::golden_section;
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::numerics::roots::golden_section;
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{Observer, Unobserved};
 use std::fmt::{self, Display, Formatter};
 
 use crate::error::{Error, finite, not_negative, positive};

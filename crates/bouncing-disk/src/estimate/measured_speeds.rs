@@ -37,7 +37,7 @@ pub struct MeasuredRun {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::core::elementary::exp;
+/// use bouncing_disk::core::numerics::elementary::exp;
 /// use bouncing_disk::{FitSettings, MeasuredRun, MeasuredSpeeds};
 ///
 /// // Synthetic: every 20 ms, rounded to a tenth of a rad/s as an instrument shows it.

@@ -17,8 +17,9 @@ pub(crate) mod settings;
 mod weights;
 mod windows;
 
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::run::Watch;
 use nalgebra::DVector;
 
 use crate::error::{Error, check, within_limit};

@@ -10,9 +10,10 @@ mod onset;
 mod resamples;
 mod shape_grid;
 
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::numerics::statistics::summing_scale;
-use bouncing_disk_core::{Observer, Unobserved, Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{Observer, Unobserved};
 
 use crate::error::{check, within_limit};
 use crate::estimate::fit::{ExponentialFit, Saturation, Start};

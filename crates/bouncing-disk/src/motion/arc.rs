@@ -3,7 +3,7 @@
 use std::iter::Sum;
 
 use bouncing_disk_core::Phase;
-use bouncing_disk_core::elementary::{sin_cos, sine_deficit_ratio};
+use bouncing_disk_core::numerics::elementary::{sin_cos, sine_deficit_ratio};
 
 use crate::motion::phase_time::PhaseSpan;
 

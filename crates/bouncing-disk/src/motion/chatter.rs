@@ -1,7 +1,8 @@
 //! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count, or
 //! in closed form where they are too many for that.
 
-use bouncing_disk_core::{ChatterImpact, ChatterSeries, Launch, Phase};
+use bouncing_disk_core::chatter::{ChatterImpact, ChatterSeries};
+use bouncing_disk_core::{Launch, Phase};
 
 use crate::motion::energy::EnergyLedger;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};

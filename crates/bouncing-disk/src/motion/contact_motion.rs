@@ -6,9 +6,8 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::{
-    Attachment, ChatterPolicy, Constant, ImpactMap, Launch, Orbit, Phase, RestitutionLaw,
-};
+use bouncing_disk_core::map::{Constant, RestitutionLaw};
+use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, Phase};
 
 use crate::error::Error;
 use crate::motion::friction::{Friction, Spent};

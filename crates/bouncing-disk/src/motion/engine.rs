@@ -7,9 +7,9 @@
 
 pub(crate) mod sample;
 
+use bouncing_disk_core::map::{Constant, RestitutionLaw};
 use bouncing_disk_core::{
-    Attachment, ChatterCut, ChatterPolicy, Constant, Impact, ImpactMap, Launch, Orbit, OrbitEvent,
-    RestitutionLaw,
+    Attachment, ChatterCut, ChatterPolicy, Impact, ImpactMap, Launch, Orbit, OrbitEvent,
 };
 
 use crate::error::{Error, moderate};
@@ -82,7 +82,7 @@ impl<L: RestitutionLaw> Engine<L> {
     /// [`Scales::velocity`](crate::Scales::velocity).
     ///
     /// ```
-    /// use bouncing_disk::core::KuwabaraKono;
+    /// use bouncing_disk::core::map::KuwabaraKono;
     /// use bouncing_disk::{Engine, InitialCondition, PAPER_CUT, System};
     ///
     /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.

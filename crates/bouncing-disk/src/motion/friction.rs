@@ -16,9 +16,10 @@
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_core::elementary::{acos, atan2, hypot, sin_cos, wrapped_angle};
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::{acos, atan2, hypot, sin_cos, wrapped_angle};
 use bouncing_disk_core::numerics::roots::falling_root;
-use bouncing_disk_core::{MAX_FLIGHT_DURATION, Phase};
 
 use crate::error::Error;
 use crate::motion::arc::sine_deficit;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
-use bouncing_disk_core::elementary::wrapped_angle;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 /// An instant: `periods` whole periods of the platform after phase 0 of its first period, and a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]

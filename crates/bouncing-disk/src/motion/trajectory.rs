@@ -2,7 +2,8 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::{RestitutionLaw, read_checked};
+use bouncing_disk_core::map::RestitutionLaw;
+use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;

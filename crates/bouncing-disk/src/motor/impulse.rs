@@ -23,8 +23,8 @@
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::cos;
 use bouncing_disk_core::numerics::circular::Concentration;
+use bouncing_disk_core::numerics::elementary::cos;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::roots::bisection;
 use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};

@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::{ImpactMap, Phase, Vibration};
 
 use crate::error::{Error, finite, moderate, moderate_not_negative};

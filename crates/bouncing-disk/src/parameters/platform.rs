@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
-use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::numerics::elementary::sin_cos;
 
 use crate::error::{Error, finite, not_negative, positive};
 

@@ -138,7 +138,7 @@ mod tests {
         let toss = System::pizza_toss();
         // Table I: Gamma from its own numbers, A = c cos(phi_L).
         let expected =
-            0.25 * bouncing_disk_core::elementary::cos(0.55) * 225.0 / (std::f64::consts::PI * 9.8);
+            0.25 * bouncing_disk_core::numerics::elementary::cos(0.55) * 225.0 / (std::f64::consts::PI * 9.8);
         assert!((toss.axial_forcing() - expected).abs() < 1e-14, "{}", toss.axial_forcing());
         let motor = System::motor();
         assert!((motor.platform().peak_angular_speed() - 30.0).abs() < 1e-13);

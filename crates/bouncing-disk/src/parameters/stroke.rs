@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use bouncing_disk_core::elementary::{atan2, hypot, sin_cos};
+use bouncing_disk_core::numerics::elementary::{atan2, hypot, sin_cos};
 
 use crate::error::{Error, check, not_negative, positive};
 use crate::parameters::platform::{Platform, PlatformParameters};

@@ -197,7 +197,9 @@ mod tests {
         let platform = Platform::from_stroke(stroke).unwrap();
         let rim = 0.135 * platform.twist_amplitude();
         assert!((platform.amplitude() * platform.amplitude() + rim * rim - 0.0625).abs() < 1e-15);
-        assert!((rim / platform.amplitude() - bouncing_disk_core::elementary::tan(0.55)).abs() < 1e-15);
+        assert!(
+            (rim / platform.amplitude() - bouncing_disk_core::numerics::elementary::tan(0.55)).abs() < 1e-15
+        );
         assert!(Platform::from_stroke(Stroke { amplitude_angle: FRAC_PI_2, ..stroke }).is_ok());
         let error = Platform::from_stroke(Stroke { amplitude_angle: 1.6, ..stroke }).unwrap_err();
         assert!(error.to_string().contains("amplitude_angle = 1.6"), "{error}");

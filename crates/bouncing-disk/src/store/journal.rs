@@ -6,8 +6,8 @@ use std::io::{self, BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as
 use std::marker::PhantomData;
 use std::path::{Path, PathBuf};
 
-use bouncing_disk_core::PartialResults;
 use bouncing_disk_core::numerics::digest::Digest;
+use bouncing_disk_core::sweep::PartialResults;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};

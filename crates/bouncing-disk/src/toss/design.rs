@@ -9,8 +9,9 @@ mod hand;
 pub(crate) mod robustness;
 mod search;
 
-use bouncing_disk_core::elementary::tan;
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::elementary::tan;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
 use crate::parameters::stroke::Stroke;

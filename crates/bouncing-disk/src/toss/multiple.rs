@@ -4,10 +4,10 @@ use crate::display::numbers;
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, ImpactState, LyapunovEstimate, MAX_PERIOD, Multipliers, Observer, Stability,
-    TangentGrowth, Watch, WorkCount,
-};
+use bouncing_disk_core::chaos::{LyapunovEstimate, TangentGrowth};
+use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, Stability};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer};
 
 use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
@@ -542,7 +542,7 @@ mod tests {
         let watch = Watch::begin(&Unobserved, 0, 1).unwrap();
         let rate = growth_rate(&map, &vec![collision; 20_001], &mut watch.work()).unwrap().unwrap();
         let radius = Multipliers::of(map.refine(&[state]).unwrap().monodromy).spectral_radius();
-        let expected = bouncing_disk_core::elementary::ln(radius);
+        let expected = bouncing_disk_core::numerics::elementary::ln(radius);
         assert!((rate.exponent - expected).abs() < 1e-3, "{rate:?} {expected}");
         assert!((rate.exponent - expected).abs() < 3.0 * rate.standard_error, "{rate:?} {expected}");
     }

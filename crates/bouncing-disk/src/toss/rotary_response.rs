@@ -3,7 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{PeriodicOrbit, Phase};
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::orbits::PeriodicOrbit;
 
 use crate::error::{Error, all_finite, check};
 use crate::motion::impact::{available_impulse, axial_impulse};

@@ -4,7 +4,7 @@ use crate::display::numbers;
 use std::f64::consts::PI;
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::elementary::sin;
+use bouncing_disk_core::numerics::elementary::sin;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 
 use crate::error::Error;
@@ -151,7 +151,7 @@ impl Display for TossPerformance {
 mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
-    use bouncing_disk_core::elementary::{acos, asin, cos};
+    use bouncing_disk_core::numerics::elementary::{acos, asin, cos};
     use proptest::prelude::*;
 
     use super::*;

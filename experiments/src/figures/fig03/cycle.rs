@@ -5,14 +5,14 @@ use bouncing_disk::{
     Engine, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START, Trajectory,
 };
 
-use super::data::ChatteringCycle;
+use super::ChatteringCycle;
 use crate::experiment::{ExperimentError, Quality};
 
 /// A chattering orbit of the single-toss kind (Sec. IV A).
 const AXIAL_FORCING: f64 = 0.45;
 
 pub(super) fn cycle(quality: Quality) -> Result<ChatteringCycle, ExperimentError> {
-    let restitution = crate::paper::value("section4.restitution")?;
+    let restitution = crate::claims::paper::value("section4.restitution")?;
     // The vertical motion does not depend on the rotary one.
     let system =
         ForcingParameters { axial_forcing: AXIAL_FORCING, angular_forcing: 1.0, phase_lag: 0.0, restitution };

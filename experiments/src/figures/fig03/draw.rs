@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
     Stroke, Style, Text, TextBox, TextStyle, Ticks,
 };
 
-use super::data::{Census, ChatteringCycle, Fig03Data};
+use super::{Census, ChatteringCycle, Fig03Data};
 
 const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;

@@ -7,15 +7,15 @@
 
 use std::convert::Infallible;
 
-use bouncing_disk::core::elementary::{asin, sin, sin_cos};
+use bouncing_disk::core::numerics::elementary::{asin, sin, sin_cos};
 use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};
 
-use super::data::{Sprung, SprungFlight, SprungMotor};
+use super::{Sprung, SprungFlight, SprungMotor};
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
-use crate::paper;
 
 /// The change of the preload, from end to end of the travel, for which the deflection is given.
 const SHARE: f64 = 0.01;

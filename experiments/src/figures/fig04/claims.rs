@@ -4,12 +4,12 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::InitialSpin;
 
-use super::data::{Best, Fig04Data, LagCurve, TossPoint};
-use crate::claim::{self, Claim};
-use crate::figures::samples;
-use crate::judging::{LINE_WIDTH, trend};
-use crate::paper::Uncertain;
-use crate::printed::PrintedNumber;
+use super::{Best, Fig04Data, LagCurve, TossPoint};
+use crate::claims::judging::{LINE_WIDTH, trend};
+use crate::claims::paper::Uncertain;
+use crate::claims::printed::PrintedNumber;
+use crate::claims::{self as claim, Claim};
+use crate::figures::numbers;
 
 const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
@@ -52,22 +52,30 @@ pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
 /// Why the optimum of Table I as printed is another one.
 const OTHER_OPTIMUM: &str = "Table I has its optimum at another φ_L";
 
-/// By how much a curve at an angle is lower than its maximum, as a share of what it spans.
-fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
-    let (low, high) = samples::extent(curve.iter().copied());
+/// A curve at an angle, linear between its points.
+fn at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
     let points = || angles.iter().zip(curve);
     let between = points().zip(points().skip(1)).find(|(_, (end, _))| **end >= angle);
-    let there = between
-        .map_or(f64::NAN, |((from, one), (to, other))| one + (other - one) * (angle - from) / (to - from));
-    (high - there) / (high - low)
+    between.map_or(f64::NAN, |((from, one), (to, other))| one + (other - one) * (angle - from) / (to - from))
 }
 
-/// The angles at which a curve is lower than its maximum by no more than a line's width.
-fn accepted(angles: &[f64], curve: &[f64]) -> String {
-    let (low, high) = samples::extent(curve.iter().copied());
+/// By how much a curve at an angle is lower than its maximum, as a share of what it spans.
+fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
+    let (low, high) = numbers::extent(curve.iter().copied());
+    (high - at(angles, curve, angle)) / (high - low)
+}
+
+/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the last, and their share.
+fn accepted(angles: &[f64], curve: &[f64]) -> (String, f64) {
+    let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
-    let (from, to) = samples::extent(as_high.map(|(angle, _)| *angle));
-    format!("places from {} to {} are as high", pi(from), pi(to))
+    let as_high: Vec<f64> = as_high.map(|(angle, _)| *angle).collect();
+    let (from, to) = numbers::extent(as_high.iter().copied());
+    let share = as_high.len() as f64 / angles.len() as f64;
+    (
+        format!("places from {} to {} are as high, {:.0} % of those drawn", pi(from), pi(to), 100.0 * share),
+        share,
+    )
 }
 
 /// The best toss with the parameters of Table I.
@@ -101,7 +109,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
             let printed = PrintedNumber::read(&data.printed.optimal_amplitude_angle_rad);
             let angle = printed.map_or(f64::NAN, |printed| printed.value);
             let (angles, speeds) = (&data.amplitude_angle_rad, &curve.airborne_speed_rad_per_s);
-            claim = claim.at_printed_place(lower_at(angles, speeds, angle)).note(accepted(angles, speeds));
+            let (places, share) = accepted(angles, speeds);
+            claim = claim.at_printed_place(lower_at(angles, speeds, angle), share).note(places);
         }
         if name == "largest_efficiency" {
             claim = claim.note(format!(
@@ -109,7 +118,7 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
                 data.lossless_efficiency_of_fastest,
             ));
         }
-        if claim.verdict() == claim::Verdict::Differs {
+        if claim.verdict == claim::Verdict::Differs {
             claim = claim.note(&reason);
         }
         claims.push(claim.cause(OTHER_OPTIMUM));
@@ -122,8 +131,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
 
 /// An angle is also given as a multiple of π, as it is printed.
 fn in_turns(claim: Claim, computed: f64) -> Claim {
-    if claim.unit() == "rad" {
-        let note = format!("computed {}, printed {}", pi(computed), claim.printed_text());
+    if claim.unit == "rad" {
+        let note = format!("computed {}, printed {}", pi(computed), claim.printed);
         return claim.note(note);
     }
     claim
@@ -185,17 +194,21 @@ fn largest_ratio(data: &Fig04Data, linear: &LagCurve) -> Option<Vec<Claim>> {
     let ratios: Vec<f64> = linear.speed_ratio.iter().map(|ratio| ratio.unwrap_or(f64::NAN)).collect();
     let known: Vec<f64> = ratios.iter().copied().filter(|ratio| !ratio.is_nan()).collect();
     let angles = &data.amplitude_angle_rad[ratios.len() - known.len()..];
+    let (places, share) = accepted(angles, &known);
+    let all = curves(data, InitialSpin::AbsoluteRest);
+    let highest = size(&drawn.largest_speed_ratio);
+    let as_high = all.iter().filter(|curve| highest - size(&curve.largest_speed_ratio) <= LINE_WIDTH).count();
     Some(vec![
-        Claim::printed("section3.largest_speed_ratio", size(&drawn.largest_speed_ratio))
+        Claim::printed("section3.largest_speed_ratio", highest)
             .note(format!("of the curves drawn, θ = nπ/8, that of n = {}", drawn.n)),
         in_turns(
             Claim::printed("section3.amplitude_angle_of_largest_speed_ratio", at_zero.amplitude_angle_rad),
             at_zero.amplitude_angle_rad,
         )
-        .at_printed_place(lower_at(angles, &known, angle.value))
-        .note(accepted(angles, &known)),
+        .at_printed_place(lower_at(angles, &known, angle.value), share)
+        .note(places),
         Claim::printed("section3.phase_lag_of_largest_speed_ratio", drawn.phase_lag_rad)
-            .at_printed_place((size(&drawn.largest_speed_ratio) - size(at_zero)).max(0.0)),
+            .at_printed_place((highest - size(at_zero)).max(0.0), as_high as f64 / all.len() as f64),
     ])
 }
 
@@ -297,7 +310,7 @@ fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
     );
     grid.reading.numbers.iter().enumerate().map(move |(index, number)| {
         let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
-        let claim = Claim::reading(ID, &number.key, quantity, number.computed)
+        let claim = Claim::reading(ID, &number.key, &quantity, number.computed)
             .fitted("a_g, and the number of intervals")
             .note(described(data));
         if index == 0 { claim.note(&evidence) } else { claim }

@@ -3,17 +3,17 @@
 //! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of amplitude angles?
 
 use bouncing_disk::InitialSpin;
-use bouncing_disk::core::elementary::sin;
+use bouncing_disk::core::numerics::elementary::sin;
 
-use super::data::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
+use super::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
+use crate::claims::paper::{SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
 use crate::figures::angle_grid::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
 use crate::figures::toss_case::TossCase;
-use crate::paper::{SectionThree, TableOne};
-use crate::printed::PrintedNumber;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;

@@ -7,8 +7,8 @@ use bouncing_disk_plot::{
     Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::data::{Family, Fig04Data, LagCurve, TossPoint};
-use crate::printed::PrintedNumber;
+use super::{Family, Fig04Data, LagCurve, TossPoint};
+use crate::claims::printed::PrintedNumber;
 
 const HEIGHT: f64 = 480.0;
 const LAST_LAG: f64 = 8.0;
@@ -219,7 +219,7 @@ fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
                 .name(format!(r"$\mu = {}$", curve.friction)),
         );
     }
-    let best = |curve: &super::data::FrictionCurve| {
+    let best = |curve: &super::FrictionCurve| {
         (curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s)
     };
     panel

@@ -4,11 +4,11 @@ use std::convert::Infallible;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::Phase;
-use bouncing_disk::core::elementary::{acos, asin, cos, sin, tan};
+use bouncing_disk::core::numerics::elementary::{acos, asin, cos, sin, tan};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::{InitialSpin, TossPerformance};
 
-use super::data::{
+use super::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve,
     SpeedCurve, TossPoint,
 };
@@ -260,7 +260,7 @@ mod tests {
 
     #[test]
     fn the_largest_ratio_is_one_as_long_as_friction_holds_the_dough_to_the_hands_fastest_moment() {
-        let table = TossCase::from(&crate::paper::table_one().expect("reads"));
+        let table = TossCase::from(&crate::claims::paper::table_one().expect("reads"));
         let held = held_to_separation(&table);
         for initial in INITIAL_STATES {
             for share in [0.1, 0.5, 0.98] {

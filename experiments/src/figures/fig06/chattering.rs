@@ -4,9 +4,8 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{
-    ChatterPolicy, Error, ImpactMap, Launch, Phase, SweepEvent, Unobserved, Vibration, sweep,
-};
+use bouncing_disk::core::sweep::{SweepEvent, sweep};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, Unobserved, Vibration};
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, TossOrbit,
     multi_toss,
@@ -15,8 +14,8 @@ use bouncing_disk::{
 use super::data::{SingleTosses, Slice};
 use super::inputs::{Inputs, Systems};
 use super::slices::slice;
+use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
 
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;

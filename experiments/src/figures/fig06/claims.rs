@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use super::data::Fig06Data;
 use super::{regimes, rotation};
-use crate::catalogue;
-use crate::claim::{self, Claim};
+use crate::claims::catalogue;
+use crate::claims::{self as claim, Claim};
 
 /// The doublings whose Γ is printed.
 const PRINTED_DOUBLINGS: usize = 5;

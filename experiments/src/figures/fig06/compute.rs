@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    Followed, ImpactState, Launch, Unobserved, doubling_cascade, follow_attractor, lyapunov_exponents,
-    orbit_diagram,
-};
+use bouncing_disk::core::chaos::lyapunov_exponents;
+use bouncing_disk::core::orbits::{Followed, doubling_cascade, follow_attractor};
+use bouncing_disk::core::sweep::orbit_diagram;
+use bouncing_disk::core::{ImpactState, Launch, Unobserved};
 use bouncing_disk::{ChatteringCycle, MultiTossSettings, PAPER_CHATTER};
 use rayon::prelude::*;
 
@@ -15,8 +15,8 @@ use super::data::{BestLag, Bouncing, Column, Fig06Data, Merging, SingleTosses, S
 use super::inputs::{Inputs, map, no_orbit};
 use super::slices::followed_slice;
 use super::{contact, dimension, explored, merging, period_one};
+use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::{self, SectionFour};
 use crate::progress::Progress;
 
 /// The range of Γ of the diagram.
@@ -101,7 +101,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
         doublings,
         period_one_threshold,
         phase_at_first_doubling_rad: phase.angle(),
-        multiplier_where_followed_from: bouncing_disk::core::Multipliers::of(first_orbit.monodromy)
+        multiplier_where_followed_from: bouncing_disk::core::orbits::Multipliers::of(first_orbit.monodromy)
             .spectral_radius(),
         merging,
         single_tosses,

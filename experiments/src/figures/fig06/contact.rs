@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 use super::data::{Motion, Transfer};
 use super::inputs::{Inputs, Systems};
+use crate::claims::paper;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
-use crate::paper;
 
 /// Impacts of a long motion.
 const LONG: usize = 4_000;

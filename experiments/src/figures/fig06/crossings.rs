@@ -1,7 +1,7 @@
 //! Where branches of the speed of rotation cross.
 
 use super::data::Slice;
-use crate::figures::circular;
+use crate::figures::numbers;
 
 /// The Γ at which two branches of the period-4 orbit have the same speed in (d), between two slices each.
 pub(super) fn branch_crossings(followed: &[Slice], doublings: &[f64]) -> Vec<f64> {
@@ -19,7 +19,7 @@ pub(super) fn branch_crossings(followed: &[Slice], doublings: &[f64]) -> Vec<f64
             // A round may begin with any of its impacts: the one that continues the branches.
             let apart = |shift: usize| -> f64 {
                 let pairs = last.iter().zip(impacts.iter().cycle().skip(shift));
-                pairs.map(|(a, b)| circular::distance(a[0], b[0]) + (a[1] - b[1]).abs()).sum()
+                pairs.map(|(a, b)| numbers::distance(a[0], b[0]) + (a[1] - b[1]).abs()).sum()
             };
             let shift = (0..impacts.len()).min_by(|a, b| apart(*a).total_cmp(&apart(*b))).unwrap_or_default();
             impacts.rotate_left(shift);

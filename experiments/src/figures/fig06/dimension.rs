@@ -8,11 +8,11 @@ use faer::Mat;
 
 use super::data::{Dimension, TorqueRatio};
 use super::inputs::no_orbit;
+use crate::claims::paper;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::MotorCase;
-use crate::figures::samples::six_decimals;
+use crate::figures::numbers::six_decimals;
 use crate::figures::toss_case::TossCase;
-use crate::paper;
 
 /// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
 /// that it divides are both far below the sixth decimal.

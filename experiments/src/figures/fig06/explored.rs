@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    ImpactState, Launch, Orbit, Phase, Unobserved, follow_attractor, orbit_diagram, survival_times,
-};
+use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
+use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, Unobserved};
 use bouncing_disk::{
     DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
     PhasedImpulse, multi_toss,
@@ -17,8 +17,7 @@ use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, 
 use super::inputs::{Inputs, map, no_orbit};
 use super::merging::starts;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::circular::occupied_arc;
-use crate::figures::samples::six_decimals;
+use crate::figures::numbers::{occupied_arc, six_decimals};
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.

@@ -4,8 +4,8 @@ use bouncing_disk::core::{ImpactMap, Vibration};
 use bouncing_disk::{DimensionlessSystem, ForcingParameters};
 
 use super::data::Twist;
+use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
 
 /// The printed inputs of the diagrams.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,9 @@
 //! The crisis in which the followed attractor is lost to chattering, by bisection on survival.
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved, follow_attractor, survival_times};
+use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::sweep::survival_times;
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved};
 
 use super::data::Merging;
 use super::inputs::{Inputs, map};

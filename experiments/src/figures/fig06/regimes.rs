@@ -1,12 +1,11 @@
 //! What the paper says about chattering and the merging of the attractors in Fig. 6.
 
-use std::f64::consts::PI;
-
 use super::data::{BestLag, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use crate::catalogue;
-use crate::claim::{self, Cases, Claim};
-use crate::figures::circular::occupied_arc;
+use crate::claims::catalogue;
+use crate::claims::judging::trend;
+use crate::claims::{self as claim, Cases, Claim};
+use crate::figures::numbers::occupied_arc;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = chattering(data);
@@ -41,10 +40,7 @@ fn merged(data: &Fig06Data) -> Vec<Claim> {
     let low_cycles = || data.chattering.iter().filter(|slice| slice.axial_forcing <= low);
     let longest_low = low_cycles().filter_map(|slice| slice.platform_periods).max();
     let periods: Vec<u64> = after().filter_map(|slice| slice.platform_periods).collect();
-    let mut sorted = periods.clone();
-    sorted.sort_unstable();
-    let median = sorted.get(sorted.len() / 2).copied().unwrap_or_default();
-    let shortest = sorted.first().copied().unwrap_or_default();
+    let shortest = periods.iter().min().copied().unwrap_or_default();
     let comes_to_rest = |followed: &Slice| {
         data.chattering.iter().any(|slice| same(slice.axial_forcing, followed.axial_forcing))
     };
@@ -68,11 +64,8 @@ fn merged(data: &Fig06Data) -> Vec<Claim> {
             "section4.longer_cycles",
             claim::all(&periods, |own| longest_low.is_some_and(|low| *own > low)),
             format!(
-                "cycles of the chattering orbit up to Γ = {low} take at most {} periods of the platform; the {} beyond the merging take at least {shortest}, \
-                 at the median {median}; {} of them are not longer",
+                "cycles of the chattering orbit up to Γ = {low} take at most {} periods of the platform, those beyond the merging at least {shortest}",
                 longest_low.unwrap_or_default(),
-                periods.len(),
-                periods.iter().filter(|own| longest_low.is_none_or(|low| **own <= low)).count(),
             ),
         ),
         shadow(data),
@@ -90,26 +83,13 @@ fn widening(data: &Fig06Data) -> Claim {
         extent(chaotic.iter().map(|slice| slice.normalised_impact_speed.iter().copied().fold(0.0, f64::max)));
     let sudden = after.arc_cycles - before.arc_cycles > widest - narrowest
         && after.largest_speed - before.largest_speed > fastest - slowest;
-    let union = &explored.before_with_chattering;
     Claim::printed_statement(
         "section4.sudden_widening",
         claim::all(Some(sudden).filter(|_| !chaotic.is_empty()), |sudden| sudden),
         format!(
-            "the orbit on the attractor occupies {:.3} of a period, speeds up to {:.3} and {} cells of the plane at Γ = {:.5}, {:.3}, {:.3} and {} at Γ = {:.5} \
-             ({} impacts each); from the doublings to the crisis its arc grew from {narrowest:.3} to {widest:.3} and its largest speed from {slowest:.3} to \
-             {fastest:.3} only. With the orbit from rest, which is another one before the merging, {:.3} of a period, {:.3} and {} cells just before",
-            before.arc_cycles,
-            before.largest_speed,
-            before.cells,
-            before.axial_forcing,
-            after.arc_cycles,
-            after.largest_speed,
-            after.cells,
-            after.axial_forcing,
-            after.impacts,
-            union.arc_cycles,
-            union.largest_speed,
-            union.cells,
+            "the orbit on the attractor occupies {:.3} of a period and speeds up to {:.3} just before the crisis, {:.3} and {:.3} just after it; from the doublings to the \
+             crisis its arc grew from {narrowest:.3} to {widest:.3} and its largest speed from {slowest:.3} to {fastest:.3} only",
+            before.arc_cycles, before.largest_speed, after.arc_cycles, after.largest_speed,
         ),
     )
 }
@@ -157,26 +137,21 @@ fn speeds(data: &Fig06Data) -> Vec<Claim> {
     let decides = &data.one_impact_decides;
     let at_maximum: Vec<&BestLag> =
         decides.found.iter().filter(|of| of.speed >= super::explored::AT_MAXIMUM).collect();
-    let slices = super::regimes::chaotic(data);
-    let (low_c, high_c) = extent(slices.iter().map(|slice| slice.linear_mean));
-    let (low_d, high_d) = extent(slices.iter().map(|slice| slice.semielliptical_mean));
-    let (slowest_c, _) = extent(period_ones(data).iter().map(|(slice, _)| slice.linear_mean));
     let chaos = Cases::of(data.lyapunov_exponents.iter().map(|(_, growth)| *growth > 0.0));
     vec![
         Claim::printed_statement(
             "section4.route_to_chaos",
             chaos,
             format!(
-                "beyond the doublings the Lyapunov exponent of the followed attractor is positive at {} of {} values of Γ, up to the crisis; the others are periodic windows",
-                chaos.holding, chaos.tried
+                "beyond the doublings the Lyapunov exponent is positive at {} values of Γ",
+                chaos.words()
             ),
         ),
         Claim::printed_statement(
             "section4.chaos_reduces_speed",
             slower(&chaotic),
             format!(
-                "at the best phase lag the mean speed is {} in the chaotic range, and {} in period 1, where only the steps of {}° keep it below ωΦ. At a given lag \
-                 chaos may be faster: in (c) {low_c:.3} to {high_c:.3} ωΦ against {slowest_c:.3} ωΦ at the end of period 1; in (d) {low_d:.3} to {high_d:.3} ωΦ",
+                "at the best phase lag the mean speed is {} in the chaotic range, and {} in period 1, where only the steps of {}° keep it below ωΦ",
                 words(&chaotic),
                 words(&ones),
                 super::explored::LAG_STEP_DEG,
@@ -186,21 +161,11 @@ fn speeds(data: &Fig06Data) -> Vec<Claim> {
             "section4.merged_below_maximum",
             slower(&merged).map(|slower| slower && at_maximum.is_empty()),
             format!(
-                "at the best phase lag the mean speed of a disk from rest is {} from the merging to Γ = {}. Where one impact of its cycle has more than half of the impulse, a motor with \
-                 the lag of this impact comes near to ωΦ, and reaches it for no finite Γ_T: of {} values of Γ from {:.3} to {}, {} reach it to rounding{}",
+                "at the best phase lag the mean speed of a disk from rest is {} beyond the merging; where one impact of its cycle has more than half of the impulse, a motor \
+                 comes near to ωΦ, and reaches it to rounding at {} of {} values of Γ",
                 words(&merged),
-                data.axial_forcing_range.1,
-                decides.tried,
-                decides.axial_forcing_range.0,
-                decides.axial_forcing_range.1,
                 at_maximum.len(),
-                decides.found.first().map_or_else(String::new, |first| format!(
-                    "; the first that comes near is Γ = {:.4}, where with θ = {:.4}π and Γ_T = {:e} the mean speed of a disk that comes to rest on the platform at this speed is {:.4} ωΦ",
-                    first.axial_forcing,
-                    first.lag_rad / PI,
-                    first.angular_forcing,
-                    first.speed
-                )),
+                decides.tried,
             ),
         ),
     ]
@@ -225,37 +190,19 @@ fn rest(data: &Fig06Data) -> Claim {
 
 /// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has the longer cycle.
 fn complexity(data: &Fig06Data) -> Claim {
-    const PARTS: usize = 8;
     // By rising Γ.
     let cycles: Vec<(f64, u64)> = data
         .chattering
         .iter()
         .filter_map(|slice| Some((slice.axial_forcing, slice.platform_periods?)))
         .collect();
-    let (mut longer, mut shorter) = (0_usize, 0_usize);
-    for (index, (_, one)) in cycles.iter().enumerate() {
-        for (_, other) in &cycles[index + 1..] {
-            longer += usize::from(other > one);
-            shorter += usize::from(other < one);
-        }
-    }
-    let parts: Vec<String> = cycles
-        .chunks(cycles.len().div_ceil(PARTS).max(1))
-        .filter_map(|part| {
-            let mut periods: Vec<u64> = part.iter().map(|(_, period)| *period).collect();
-            periods.sort_unstable();
-            Some(format!("{} to Γ = {:.3}", periods.get(periods.len() / 2)?, part.last()?.0))
-        })
-        .collect();
+    let pairs = trend(cycles.iter().map(|(forcing, periods)| (*forcing, *periods as f64)), 1.0);
     Claim::printed_statement(
         "section4.chattering_grows_complex",
-        Cases { holding: longer, tried: longer + shorter },
+        pairs,
         format!(
-            "of {} pairs of Γ with cycles of different length {:.1} % have the longer one at the higher Γ. Not all along, though: median number of \
-             periods of the platform from rest to rest, by Γ: {}",
-            longer + shorter,
-            100.0 * longer as f64 / (longer + shorter) as f64,
-            parts.join(", "),
+            "of all pairs of Γ with cycles of different length the higher Γ has the longer one in {}",
+            pairs.words()
         ),
     )
 }

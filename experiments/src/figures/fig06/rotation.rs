@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::elementary::cos;
+use bouncing_disk::core::numerics::elementary::cos;
 
 use super::data::{Fig06Data, Slice};
-use crate::claim::{self, Cases, Claim};
-use crate::figures::circular;
-pub(super) use crate::figures::samples::extent;
-use crate::judging::trend;
+use crate::claims::judging::trend;
+use crate::claims::{self as claim, Cases, Claim};
+use crate::figures::numbers;
+pub(super) use crate::figures::numbers::extent;
 
 /// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow approach to the
 /// orbit next to a doubling.
@@ -38,8 +38,6 @@ pub(super) fn width(values: &[f64]) -> f64 {
 /// The map and its parameters.
 fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
     let dimension = &data.dimension;
-    let independent = dimension.pivots.iter().filter(|pivot| **pivot > 0.0);
-    let pivots: Vec<String> = independent.map(|pivot| format!("{pivot:.0e}")).collect();
     let ratios: Vec<String> = data
         .torque_ratios
         .iter()
@@ -51,23 +49,11 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
         data.transfers.iter().filter(|of| of.from_rest).map(|of| of.share_in_impacts).collect();
     let mean_from_rest =
         (!from_rest.is_empty()).then(|| from_rest.iter().sum::<f64>() / from_rest.len() as f64);
-    let few = data.transfers.iter().filter(|of| !mostly_in_impacts(of.share_in_impacts));
-    let (lowest, highest) = extent(few.clone().map(|of| of.axial_forcing));
-    let counterexamples = match few.clone().count() {
-        0 => "there is none".to_owned(),
-        count => format!(
-            "there are {count}, {} of them orbits from rest, at Γ = {lowest:.3} to {highest:.3}",
-            few.filter(|of| of.from_rest).count()
-        ),
-    };
     vec![
         Claim::printed("section4.map_parameters", dimension.rank as f64).note(format!(
-            "rank of the derivatives of {} numbers of the next collisions (τ_imp, w_A/(ωA), w_T/(ωΦ)) by the {} inputs {} of a system in \
-             SI units; pivots {}, the others below 1e-6",
+            "rank of the derivatives of {} numbers of the next collisions by the {} inputs of a system in SI units",
             dimension.outcomes,
             dimension.parameters.len(),
-            dimension.parameters.join(", "),
-            pivots.join(", "),
         )),
         Claim::printed_statement(
             "section4.meaning_of_angular_forcing",
@@ -81,20 +67,13 @@ fn map_parameters(data: &Fig06Data) -> Vec<Claim> {
             "section4.transfer_in_impacts",
             mean_from_rest.map_or_else(Cases::default, Cases::of_share),
             format!(
-                "of the sizes of all angular impulses, impacts transfer {:.3} on the mean over the orbits of the disk from rest, {weakest:.3} to {strongest:.3} by orbit \
-                 ({} orbits: the disk from rest and the followed attractor, which never rests on the platform, in the motions (c) and (d), at values of Γ spread evenly). \
-                 The statement is about most of the transfer; orbits with less than half: {counterexamples}. In the motor of Table III impacts transfer {:.3}",
+                "of the sizes of all angular impulses, impacts transfer {:.3} on the mean over the orbits of the disk from rest, {weakest:.3} to {strongest:.3} by orbit; \
+                 in the motor of Table III {:.3}",
                 mean_from_rest.unwrap_or(f64::NAN),
-                data.transfers.len(),
                 data.motor_share_in_impacts.unwrap_or(f64::NAN),
             ),
         ),
     ]
-}
-
-/// Most: more than half.
-fn mostly_in_impacts(share: f64) -> bool {
-    share > 0.5
 }
 
 /// Eq. (16) and what it rests on.
@@ -111,15 +90,14 @@ fn period_one_turns(data: &Fig06Data) -> Vec<Claim> {
         linear.abs().max((slice.semielliptical_mean - cos(phase + lag)).abs())
     };
     let (_, worst) = extent(ones.iter().map(miss));
-    let runs = format!(
-        "{} orbits of one impact in one, two or three periods of the platform, by Γ, θ, Γ_T (0.1 to 100) and the speed at first, {} impacts each",
-        of.orbits, of.impacts_each
-    );
     vec![
         Claim::printed_statement(
             "section4.slip_vanishes",
             claim::all(Some(of.largest_tangential_speed).filter(|_| of.orbits > 0), |slip| slip < SETTLED),
-            format!("{runs}: |w_T| in the last impact is at most {:.0e} ωΦ", of.largest_tangential_speed),
+            format!(
+                "|w_T| in the last of {} impacts is at most {:.0e} ωΦ",
+                of.impacts_each, of.largest_tangential_speed
+            ),
         ),
         Claim::printed_statement(
             "section4.period_one_speed",
@@ -133,29 +111,18 @@ fn period_one_turns(data: &Fig06Data) -> Vec<Claim> {
                     && (scan.speed_at_impact_phase - 1.0).abs() < SETTLED
             }),
             format!(
-                "of {:.0} phase lags over a whole turn the fastest is the one next to −τ_imp, at {} values of Γ; at θ = −τ_imp the speed is \
-                 {slowest:.9} to {fastest:.9} ωΦ",
-                of.lags.first().map_or(f64::NAN, |scan| TAU / scan.lag_step_rad),
-                of.lags.len(),
+                "at θ = −τ_imp the speed is {slowest:.9} to {fastest:.9} ωΦ, and of all lags the fastest is next to it"
             ),
         ),
         Claim::printed_statement(
             "section4.elliptical_not_optimal",
             claim::all(lags(), |scan| scan.speed_of_elliptical < scan.speed_at_impact_phase - SETTLED),
-            format!(
-                "at {} values of Γ in the period-1 window the disk turns with {least:.3} to {most:.3} ωΦ at θ = −π/2, and with ωΦ at θ = −τ_imp",
-                of.lags.len()
-            ),
+            format!("the disk turns with {least:.3} to {most:.3} ωΦ at θ = −π/2, and with ωΦ at θ = −τ_imp"),
         ),
         Claim::printed_statement(
             "section4.impact_phase_not_quarter",
-            claim::all(&ones, |(_, phase)| circular::distance(phase / TAU, 0.25) > STORED),
-            format!(
-                "in period 1 τ_imp/2π runs from {:.4} to {:.4} ({} values of Γ); a quarter would be the crest",
-                low / TAU,
-                high / TAU,
-                ones.len()
-            ),
+            claim::all(&ones, |(_, phase)| numbers::distance(phase / TAU, 0.25) > STORED),
+            format!("in period 1 τ_imp/2π runs from {:.4} to {:.4}", low / TAU, high / TAU),
         ),
     ]
 }
@@ -182,7 +149,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         _ => "no period-1 orbit".to_owned(),
     };
     // What half a unit of the last digit of the printed lag does to the speed.
-    let printed = crate::catalogue::number("section4.semielliptical_phase_lag", 0);
+    let printed = crate::claims::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
     vec![
@@ -222,14 +189,11 @@ fn oscillation(data: &Fig06Data) -> Claim {
         .collect();
     let (_, widest_linear) = extent(beyond.iter().map(|pair| pair.0));
     let (narrowest, widest) = extent(beyond.iter().map(|pair| pair.1));
-    let wider = beyond.iter().filter(|(linear, semielliptical)| linear >= semielliptical).count();
     Claim::printed_statement(
         "section4.angular_forcing_steadies",
         claim::all(&beyond, |(linear, semielliptical)| linear < semielliptical),
         format!(
-            "the angular speeds of one orbit extend over at most {widest_linear:.3} ωΦ in (c) and over {narrowest:.3} to {widest:.3} ωΦ in (d); \
-             at {wider} of {} values of Γ beyond the second doubling, of the followed and of the chattering orbits, over as much in (c) as in (d)",
-            beyond.len()
+            "the angular speeds of one orbit extend over at most {widest_linear:.3} ωΦ in (c) and over {narrowest:.3} to {widest:.3} ωΦ in (d)"
         ),
     )
 }
@@ -263,9 +227,7 @@ fn tracking(data: &Fig06Data) -> Claim {
         "section4.small_angular_forcing_tracks",
         claim::all(&pairs, |(large, small)| small < large),
         format!(
-            "after an impact the disk is off the speed that the platform had in it by at most {most:.0e} ωΦ on the mean in (d), by at least {least:.4} ωΦ \
-             in (c), at {} values of Γ beyond the second doubling",
-            pairs.len()
+            "after an impact the disk is off the speed that the platform had in it by at most {most:.0e} ωΦ on the mean in (d), by at least {least:.4} ωΦ in (c)"
         ),
     )
 }
@@ -276,61 +238,31 @@ fn large_and_small(slice: &Slice) -> Option<[usize; 2]> {
     Some(if one > other { [0, 1] } else { [1, 0] })
 }
 
-/// The two impacts of period 2 against the platform: |w_T| in the larger of them, and the distances of the mean speed from the
-/// platform's speed in the impact of large and in that of small |w_A|, each in words, too.
-#[derive(Default)]
-struct TwoImpacts {
-    misses: Vec<f64>,
-    distances: Vec<(f64, f64)>,
-    words: Vec<String>,
-    weights: Vec<String>,
-}
-
-fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> TwoImpacts {
-    let motions = [
-        (
-            "(c)",
-            data.linear.phase_lag_rad,
-            (|slice| (&slice.linear, slice.linear_mean)) as fn(&Slice) -> (&Vec<f64>, f64),
-        ),
-        ("(d)", data.semielliptical.phase_lag_rad, |slice| {
-            (&slice.semielliptical, slice.semielliptical_mean)
-        }),
-    ];
-    let mut result = TwoImpacts::default();
-    for (name, lag, of) in motions {
-        // The least of the two impacts: Eq. (16) would have to hold in both.
-        let own: Vec<f64> = twos
-            .iter()
-            .map(|(slice, _)| {
-                let pairs = of(slice).0.iter().zip(&slice.impact_phase_cycles);
-                pairs.map(|(speed, phase)| (speed - cos(TAU * phase + lag)).abs()).fold(0.0, f64::max)
-            })
-            .collect();
-        let (least, most) = extent(own.iter().copied());
-        result
-            .words
-            .push(format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in {name}"));
-        result.misses.extend(own);
-        let platform = |slice: &Slice, impact: usize| cos(TAU * slice.impact_phase_cycles[impact] + lag);
-        let own: Vec<(f64, f64)> = twos
-            .iter()
-            .map(|(slice, [large, small])| {
-                let mean = of(slice).1;
-                ((mean - platform(slice, *large)).abs(), (mean - platform(slice, *small)).abs())
-            })
-            .collect();
-        let nearer = own.iter().filter(|(large, small)| large < small).count();
-        let at_end = own.last().map_or((f64::NAN, f64::NAN), |pair| *pair);
-        result.weights.push(format!(
-            "{name}: nearer to that of the large-|w_A| impact at {nearer} of {} values of Γ, at the last by {:.3} against {:.3} ωΦ",
-            own.len(),
-            at_end.0,
-            at_end.1
-        ));
-        result.distances.extend(own);
-    }
-    result
+/// The two impacts of period 2 against the platform, in (c) and (d): |w_T| in the larger of them, and the distances of the mean
+/// speed from the platform's speed in the impact of large and in that of small |w_A|.
+fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> (Vec<f64>, Vec<(f64, f64)>) {
+    let of_motion = |speeds: &[f64], mean: f64, phases: &[f64], lag: f64, order: [usize; 2]| {
+        let platform = |impact: usize| cos(TAU * phases[impact] + lag);
+        // The larger of the two: Eq. (16) would have to hold in both.
+        let miss = (0..2).map(|impact| (speeds[impact] - platform(impact)).abs()).fold(0.0, f64::max);
+        let [large, small] = order.map(|impact| (mean - platform(impact)).abs());
+        (miss, (large, small))
+    };
+    let all = twos.iter().flat_map(|(slice, order)| {
+        let Slice { linear, linear_mean, semielliptical, semielliptical_mean, .. } = slice;
+        let phases = &slice.impact_phase_cycles;
+        [
+            of_motion(linear, *linear_mean, phases, data.linear.phase_lag_rad, *order),
+            of_motion(
+                semielliptical,
+                *semielliptical_mean,
+                phases,
+                data.semielliptical.phase_lag_rad,
+                *order,
+            ),
+        ]
+    });
+    all.unzip()
 }
 
 /// What is said about the region of period 2.
@@ -351,7 +283,8 @@ fn period_two(data: &Fig06Data) -> Vec<Claim> {
         (Some(first), Some(last)) => format!("{first:.4} to {last:.4}"),
         _ => "none".to_owned(),
     };
-    let TwoImpacts { misses, distances, words, weights } = two_impacts(data, &twos);
+    let (misses, distances) = two_impacts(data, &twos);
+    let (least, most) = extent(misses.iter().copied());
     vec![
         Claim::printed_statement(
             "section4.period_two_branches",
@@ -366,18 +299,14 @@ fn period_two(data: &Fig06Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section4.eq16_fails_in_period_two",
             claim::all(&misses, |miss| *miss > STORED),
-            format!(
-                "Eq. (16) rests on w_T = 0 in every impact, and w_T stays: {} at {} values of Γ",
-                words.join(", "),
-                twos.len()
-            ),
+            format!("the larger |w_T| of the two impacts is {least:.1e} to {most:.3} ωΦ in (c) and (d)"),
         ),
         Claim::printed_statement(
             "section4.large_branch_dominates",
             claim::all(&distances, |(large, small)| large < small),
             format!(
-                "distance of the mean speed from the platform's speed in the two impacts; {}",
-                weights.join("; ")
+                "the mean speed against the platform's in the two impacts, at {} values of Γ",
+                twos.len()
             ),
         ),
     ]
@@ -446,7 +375,7 @@ fn nearest_speeds(slice: &Slice) -> Option<(f64, f64)> {
         .min_by(|a, b| (speeds[a.0] - speeds[a.1]).abs().total_cmp(&(speeds[b.0] - speeds[b.1]).abs()))?;
     let phases = &slice.impact_phase_cycles;
     let axial = &slice.normalised_impact_speed;
-    let apart = circular::distance(phases[one], phases[other]).max((axial[one] - axial[other]).abs());
+    let apart = numbers::distance(phases[one], phases[other]).max((axial[one] - axial[other]).abs());
     Some(((speeds[one] - speeds[other]).abs(), apart))
 }
 
@@ -478,7 +407,8 @@ fn three_branches(data: &Fig06Data, period_four: &[&Slice]) -> [Claim; 2] {
             "section4.projection_hides_branch",
             claim::all(&alike, |(gap, apart)| *apart > ONE_BRANCH && apart > gap),
             format!(
-                "where two of the four speeds look alike, their impacts are at least {nearest:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|"
+                "where two of the four speeds look alike, their impacts are at least {nearest:.3} apart in τ_imp/2π or |w_A Γ/(ωA)|; next to the doubling, between these values of Γ, \
+                 both branches of a new pair begin in one impact, and are one without any projection"
             ),
         ),
     ]

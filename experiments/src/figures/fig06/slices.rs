@@ -2,7 +2,8 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{Followed, Unobserved};
+use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::orbits::Followed;
 use bouncing_disk::{
     ChatteringCycle, DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
     multi_toss,
@@ -11,7 +12,7 @@ use bouncing_disk::{
 use super::data::{Slice, Twist};
 use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
-use crate::figures::samples::six_decimals;
+use crate::figures::numbers::six_decimals;
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 pub(super) fn followed_slice(

@@ -1,8 +1,8 @@
 //! What the paper says about Fig. 7.
 
-use super::data::{Fig07Data, Panel, TopShares};
 use super::draw::forcing_text;
-use crate::claim::{self, Claim};
+use super::{Fig07Data, Panel, TopShares};
+use crate::claims::{self as claim, Claim};
 
 const ID: &str = "fig07";
 const SECTION: &str = "Sec. IV B";

@@ -1,12 +1,14 @@
 //! The basins at one forcing.
 
+use bouncing_disk::core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, UNDECIDED};
+use bouncing_disk::core::orbits::Multipliers;
+use bouncing_disk::core::sweep::survival_times;
 use bouncing_disk::core::{
-    Axis, BasinSettings, ChatterPolicy, Grid, ImpactMap, ImpactState, KnownOrbit, Launch, Multipliers,
-    OrbitEvent, Phase, UNDECIDED, Unobserved, Vibration, survival_times,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 
-use super::data::{Other, Panel, Shares, Spot};
-use super::labels::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
+use super::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
+use super::{Other, Panel, Shares, Spot};
 use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};
 

@@ -2,16 +2,16 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::core::{
-    ATTACHED, BasinSettings, ChatterPolicy, FIRST_ORBIT, ImpactMap, KnownOrbit, Launch, Phase, UNDECIDED,
-    Unobserved, follow_attractor, survival_times,
-};
+use bouncing_disk::core::attractors::{ATTACHED, BasinSettings, FIRST_ORBIT, KnownOrbit, UNDECIDED};
+use bouncing_disk::core::orbits::follow_attractor;
+use bouncing_disk::core::sweep::survival_times;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Phase, Unobserved};
 use rayon::prelude::*;
 
-use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
+use super::{Beyond, Easiness, Other, Rest, TopShares, Traced};
+use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
-use crate::paper::SectionFour;
 
 /// Forcings from that of panel (a) to that of (b).
 const ALONG_WINDOW: u32 = 16;

@@ -2,14 +2,15 @@
 
 use std::convert::Infallible;
 
+use bouncing_disk::core::attractors::{BasinSettings, KnownOrbit};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
-use bouncing_disk::core::{BasinSettings, ChatterPolicy, KnownOrbit, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, Unobserved};
 
-use super::data::{CurvePoint, Windows};
-use super::labels::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
 use super::panels::{grid, map, others};
+use super::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
+use super::{CurvePoint, Windows};
+use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
-use crate::paper::SectionFour;
 use crate::progress::{Progress, advancing};
 
 /// Top of the largest window.

@@ -1,11 +1,11 @@
 //! What the paper says about Fig. 10.
 
-use super::data::{Fig10Data, Transient};
-use crate::catalogue;
-use crate::claim::{Cases, Claim, all};
+use super::{Fig10Data, Transient};
+use crate::claims::catalogue;
+use crate::claims::{Cases, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
 use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, perturbation_claim};
-use crate::figures::samples;
+use crate::figures::numbers;
 
 const ID: &str = "fig10";
 
@@ -46,7 +46,7 @@ fn percent(value: f64) -> String {
 
 /// The middle of some numbers, NaN of none: in words, and in comparisons that must fail then.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
-    samples::median(values).unwrap_or(f64::NAN)
+    numbers::median(values).unwrap_or(f64::NAN)
 }
 
 fn transients(data: &Fig10Data) -> Vec<Claim> {
@@ -97,7 +97,7 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
         Claim::printed_statement(
             "section5.frequent_collisions",
             mean_rises(|panel| -panel.impacts_per_s),
-            format!("impacts a millisecond at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}", listed(|panel| panel.impacts_per_s, 1e-3)),
+            format!("impacts a millisecond at 10⁻⁹, 10⁻⁸, 10⁻⁷ m, those of summed chatters not counted: {}", listed(|panel| panel.impacts_per_s, 1e-3)),
         )
         .single_orbits(over(&rises(|motor| -motor.impacts_per_s))),
         long_period(data),

@@ -8,12 +8,12 @@ use bouncing_disk::{
     PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
 };
 
-use super::data::{Alike, Exception, Fig10Data, Reading, Transient};
+use super::{Alike, Exception, Fig10Data, Reading, Transient};
+use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
 use crate::figures::motor_case::{MotorCase, perturbation_table};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
-use crate::paper::{self, STANDARD_GRAVITY};
 use crate::progress::Progress;
 
 /// Relaunch perturbations (units of g/omega) for which the steady speed is compared: from none at all.

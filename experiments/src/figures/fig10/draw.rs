@@ -6,8 +6,8 @@ use bouncing_disk_plot::{
     Ticks,
 };
 
-use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
-use crate::figures::power_of_ten::exponent;
+use super::{Exception, Fig10Data, Reading, Transient, Trial};
+use crate::figures::numbers::exponent;
 
 /// Height of a row.
 const ROW: f64 = 150.0;

@@ -5,16 +5,16 @@
 
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
-use bouncing_disk::core::elementary::acos;
+use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 
-use super::data::{Coexisting, EndOfBouncing};
-use crate::catalogue;
-use crate::claim::Cases;
+use super::{Coexisting, EndOfBouncing};
+use crate::claims::Cases;
+use crate::claims::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::motor_case::{MotorCase, core_error};
+use crate::figures::numbers::Noise;
 use crate::figures::printed_inputs::DRAWN;
-use crate::figures::synthetic::Noise;
 
 /// Seed of the rotors.
 pub(super) const SEED: u64 = 318;

@@ -1,8 +1,8 @@
 //! What the paper says about Fig. 11.
 
-use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};
-use crate::claim::{Cases, Claim, all};
+use super::{Fig11Data, Trend};
+use crate::claims::{Cases, Claim, all};
 
 const ID: &str = "fig11";
 

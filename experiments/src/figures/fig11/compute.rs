@@ -3,18 +3,18 @@
 use bouncing_disk::{Spread, TransientSettings};
 use rayon::prelude::*;
 
-use super::data::{
+use super::{
     Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist, StallAt, Trend,
     trend_mn,
 };
-use crate::claim::Cases;
+use crate::claims::Cases;
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::motor_case::MotorCase;
+use crate::figures::numbers::Noise;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::figures::stall::{Stall, net_share_at_rest};
-use crate::figures::synthetic::Noise;
-use crate::paper;
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g): seven time constants or more.

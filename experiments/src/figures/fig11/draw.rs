@@ -5,8 +5,8 @@ use bouncing_disk_plot::{
     Panel, Scatter, Text, Ticks,
 };
 
-use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
-use crate::figures::power_of_ten::exponent;
+use super::{Curve, Fig11Data, MeasuredMotor, Point};
+use crate::figures::numbers::exponent;
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =

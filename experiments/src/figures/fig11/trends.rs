@@ -1,8 +1,8 @@
 //! The trends of Fig. 11 over the preloads.
 
-use super::data::{Curve, Holes, Point, Trend};
-use crate::claim::Cases;
-use crate::figures::samples;
+use super::{Curve, Holes, Point, Trend};
+use crate::claims::Cases;
+use crate::figures::numbers;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
@@ -114,17 +114,17 @@ pub(super) fn speed(point: &Point) -> f64 {
 
 /// The exponent of what `of` reads against preload.
 fn median_exponent(points: &[&Point], of: fn(&Point) -> Option<f64>) -> Option<f64> {
-    samples::median_exponent(points.iter().filter_map(|point| Some((point.preload_mn, of(point)?))))
+    numbers::median_exponent(points.iter().filter_map(|point| Some((point.preload_mn, of(point)?))))
 }
 
 /// The middle one; zero of none.
 fn median(values: impl Iterator<Item = f64>) -> f64 {
-    samples::median(values).unwrap_or(0.0)
+    numbers::median(values).unwrap_or(0.0)
 }
 
 /// Smallest and largest value; `None` of none.
 pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
-    let (low, high) = samples::extent(values.iter().copied());
+    let (low, high) = numbers::extent(values.iter().copied());
     (!values.is_empty()).then_some([low, high])
 }
 

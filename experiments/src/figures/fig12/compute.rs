@@ -9,13 +9,13 @@ use bouncing_disk::{
 };
 use rayon::prelude::*;
 
-use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
+use super::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;
 use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
+use crate::figures::numbers::StraightLine;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
-use crate::figures::regression::StraightLine;
-use crate::paper;
 use crate::progress::Progress;
 
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.
@@ -313,7 +313,7 @@ fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, Experiment
         speed_rad_per_s: thin(&speeds, top),
         impacts: impacts
             .map(|PhasedImpulse { phase, impulse }| {
-                let level = bouncing_disk::core::elementary::cos(phase + motor.phase_lag_rad);
+                let level = bouncing_disk::core::numerics::elementary::cos(phase + motor.phase_lag_rad);
                 (phase / TAU, impulse / total, level)
             })
             .collect(),

@@ -5,8 +5,8 @@ use bouncing_disk_plot::{
     Panel, Rect, Scatter, Text, Ticks,
 };
 
-use super::data::{Fig12Data, Shown};
-use crate::figures::power_of_ten::exponent;
+use super::{Fig12Data, Shown};
+use crate::figures::numbers::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {
     const HEIGHT: f64 = 430.0;

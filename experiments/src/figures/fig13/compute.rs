@@ -3,21 +3,20 @@
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-use bouncing_disk::core::elementary::{ln, pow};
+use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
 
-use super::data::{
+use super::sweeps::{cosine_fit, trend_change};
+use super::{
     AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep, SweepPoint,
 };
-use super::sweeps::{cosine_fit, trend_change};
-use crate::claim::Cases;
+use crate::claims::Cases;
+use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::{AlikeMotor, alike};
 use crate::figures::motor_case::MotorCase;
+use crate::figures::numbers::{self, StraightLine};
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
-use crate::figures::regression::StraightLine;
-use crate::figures::samples;
-use crate::paper;
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).
@@ -292,7 +291,7 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
         motors.iter().map(|motor| motor.cycle.chattering_flights().unwrap_or(usize::MAX)).collect();
     flights.sort_unstable();
     let share = |most: usize| flights.partition_point(|flights| *flights <= most) as f64 / count;
-    let median = |of: fn(&AlikeMotor) -> Option<f64>| samples::median(motors.iter().filter_map(of));
+    let median = |of: fn(&AlikeMotor) -> Option<f64>| numbers::median(motors.iter().filter_map(of));
     Prevalence {
         restitution,
         share_of_low_period: share_where(&|_, motor| motor.cycle.is_low_period()),

@@ -7,7 +7,7 @@ use bouncing_disk_plot::{
     Scatter, Ticks,
 };
 
-use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
+use super::{Fig13Data, Parameter, Sweep, SweepPoint};
 
 /// Speeds belong to the left scale, stall accelerations to the right one.
 const SPEED: Colour = Colour::BLACK;

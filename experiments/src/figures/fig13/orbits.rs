@@ -2,15 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_8, PI};
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
-use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
-use crate::claim::{Cases, Claim, all};
-use crate::figures::circular::Concentration;
+use super::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
+use crate::claims::judging::trend;
+use crate::claims::{Cases, Claim, all};
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
-use crate::figures::regression::StraightLine;
-use crate::judging::trend;
+use crate::figures::numbers::{Concentration, StraightLine};
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
 const CONSTANT_WITHIN: f64 = 0.1;
@@ -46,7 +45,7 @@ pub(super) fn prevalent(data: &Fig13Data) -> Claim {
         .chain([("a hundredth of the rise time".to_owned(), crossing(data, |entry| entry.share_of_short))])
         .collect();
     let words = definitions.iter().map(|(name, crossing)| format!("{name}: {crossing:.3}"));
-    let verdicts = definitions.iter().map(|(_, crossing)| Claim::printed(KEY, *crossing).verdict());
+    let verdicts = definitions.iter().map(|(_, crossing)| Claim::printed(KEY, *crossing).verdict);
     Claim::printed(KEY, crossing(data, |entry| entry.share_of_low_period))
         .note(format!(
             "the ε at which half of {} single orbits ({}) are of low period, a chattering cycle of at most {LOW_PERIOD_FLIGHTS} flights of more than half a period; with other bounds: {}",

@@ -1,14 +1,13 @@
 //! How steady speed and stall torque depend on the parameters.
 
-use bouncing_disk::core::elementary::ln;
+use bouncing_disk::core::numerics::elementary::ln;
 
-use super::data::{Draw, Fig13Data, Parameter, Sensitivity};
 use super::sweeps::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
 };
-use crate::claim::{Cases, Claim};
-use crate::figures::regression::StraightLine;
-use crate::figures::samples;
+use super::{Draw, Fig13Data, Parameter, Sensitivity};
+use crate::claims::{Cases, Claim};
+use crate::figures::numbers::{self, StraightLine};
 
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;
@@ -62,7 +61,7 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
 
 /// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among them.
 fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
-    samples::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
+    numbers::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
 }
 
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
@@ -151,7 +150,7 @@ fn medians(data: &Fig13Data, of: Change) -> String {
     let words = Parameter::ALL.into_iter().map(|parameter| {
         let draws = data.alike.draws.iter();
         let changes = draws.filter_map(|draw| draw.sensitivity(parameter).and_then(of));
-        format!("{} {:.2}", parameter.symbol(), samples::median(changes).unwrap_or(f64::NAN))
+        format!("{} {:.2}", parameter.symbol(), numbers::median(changes).unwrap_or(f64::NAN))
     });
     words.collect::<Vec<_>>().join(", ")
 }
@@ -186,7 +185,7 @@ fn change_words(changes: &[(Parameter, f64)]) -> String {
 /// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
 fn over_printed_range(data: &Fig13Data, changes: &[(Parameter, f64)]) -> Vec<(Parameter, f64)> {
     let (low, high) = range(data, Parameter::Restitution);
-    let printed = crate::catalogue::number("section5.estimated_restitution", 0);
+    let printed = crate::claims::catalogue::number("section5.estimated_restitution", 0);
     let width = 2.0 * printed.ok().and_then(|printed| printed.uncertainty).unwrap_or(f64::NAN);
     let share = |parameter| if parameter == Parameter::Restitution { width / (high - low) } else { 1.0 };
     changes.iter().map(|&(parameter, change)| (parameter, share(parameter) * change)).collect()

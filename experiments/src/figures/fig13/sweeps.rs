@@ -1,10 +1,10 @@
 //! Quantity off the sweeps of Fig. 13.
 
-use bouncing_disk::core::elementary::{cos, ln};
+use bouncing_disk::core::numerics::elementary::{cos, ln};
 
-use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
-use crate::figures::regression::StraightLine;
-pub(super) use crate::figures::samples::extent;
+use super::{Fig13Data, Parameter, Sweep, SweepPoint};
+use crate::figures::numbers::StraightLine;
+pub(super) use crate::figures::numbers::extent;
 
 pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
     data.sweeps.iter().flat_map(|sweep| &sweep.points)

@@ -1,24 +1,16 @@
 //! `bouncing-disk motor phase-lag`: the phase lag at which the motor turns fastest.
 
-use clap::Args;
-
 use super::settings::OperationArgs;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::Quantities;
+use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The phase lag at which the motor turns fastest
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See \
 docs/designing-a-motor.md.
 
 Example:
-  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5";
-
-/// The phase lag at which the motor turns fastest
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5")]
 pub(crate) struct LagArgs {
     #[command(flatten)]
     operation: OperationArgs,
@@ -38,7 +30,7 @@ pub(super) fn run(args: &LagArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor phase-lag", &job)?,
         text: list.to_text(),
-        table: ready(list.to_table()),
+        table: list.into_csv(),
         data: vec![("best_phase_lag", stored(&best)?)],
         figure: None,
     };

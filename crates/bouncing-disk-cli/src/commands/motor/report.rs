@@ -1,29 +1,17 @@
 //! `bouncing-disk motor report`: what follows from a data sheet, and what the motor does.
 
-use clap::Args;
-use serde::Serialize;
+use crate::commands::prelude::*;
 
-use super::wrote_template;
-use crate::arguments::OutputArgs;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready};
-use crate::output::table::Quantities;
-use crate::parameters::motor::MotorArgs;
-
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// Forcing, regime, largest torque and warnings that follow from the data sheet
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
 meant. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml
   bouncing-disk motor report motor.toml
-  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json";
-
-/// What follows from the data sheet, and what the rotor does
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json")]
 pub(crate) struct ReportArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -31,19 +19,9 @@ pub(crate) struct ReportArgs {
     output: OutputArgs,
 }
 
-#[derive(Serialize)]
-struct Job<'a> {
-    motor: &'a bouncing_disk::Motor,
-}
-
 /// Runs the command.
 pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor, &args.output, context)? {
-        return Ok(());
-    }
-    args.output.check(false, &args.motor.inputs(), None)?;
-    // The warnings are part of the report.
-    let motor = args.motor.motor(true)?;
+    let Some(motor) = args.motor.begin(&args.output, false, context)? else { return Ok(()) };
     let report = motor.report(&context.watch("motor report"))?;
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");
@@ -59,10 +37,10 @@ pub(super) fn run(args: &ReportArgs, context: Context) -> Result<(), Failure> {
         list.push("warning", warning.to_string(), "1");
     }
     let report = Report {
-        provenance: provenance("bouncing-disk motor report", &Job { motor: &motor })?,
+        provenance: provenance("bouncing-disk motor report", &json!({ "motor": motor }))?,
         text: report.to_string(),
-        table: ready(list.to_table()),
         data: vec![("quantities", list.to_json().into())],
+        table: list.into_csv(),
         figure: None,
     };
     report.deliver(&args.output, context.quiet)

@@ -1,15 +1,9 @@
 //! How a steady operation is computed, and of which motor.
 
+use crate::commands::prelude::*;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
-use clap::Args;
+use bouncing_disk::{InputTolerance, Motor, OperatingSettings, Operation};
 use serde::Serialize;
-
-use super::wrote_template;
-use crate::arguments::OutputArgs;
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::parameters::motor::MotorArgs;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -68,6 +62,11 @@ impl SpreadArgs {
     }
 }
 
+/// Prints warnings of values in a data sheet that are legal and yet unlikely to be meant.
+pub(super) fn warn(motor: &Motor, context: Context) {
+    motor.warnings().iter().for_each(|warning| context.note(&format!("warning: {warning}")));
+}
+
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
     let regime = motor.report(&Unobserved)?.regime;
@@ -75,7 +74,17 @@ pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }
 
-/// What a command takes that looks for one operation of a motor.
+/// What became of a motor.
+pub(super) const fn state(operation: &Operation) -> &'static str {
+    match operation {
+        Operation::Steady(_) => "steady",
+        Operation::Unsettled(..) => "unsettled",
+        Operation::Runaway { .. } => "runaway",
+        _ => "unknown",
+    }
+}
+
+/// The arguments of a command that looks for one operation of a motor.
 #[derive(Debug, Clone, Args)]
 pub(super) struct OperationArgs {
     #[command(flatten)]
@@ -96,11 +105,8 @@ pub(super) struct OperationJob {
 impl OperationArgs {
     /// The job, if the result can be written; `None` where the template was asked for, and has been written.
     pub(super) fn job(&self, context: Context) -> Result<Option<OperationJob>, Failure> {
-        if wrote_template(&self.motor, &self.output, context)? {
-            return Ok(None);
-        }
-        self.output.check(false, &self.motor.inputs(), None)?;
-        let motor = self.motor.motor(context.quiet)?;
+        let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
+        warn(&motor, context);
         Ok(Some(OperationJob { motor, settings: self.settings.settings() }))
     }
 }

@@ -1,28 +1,18 @@
 //! `bouncing-disk motor stall`: the load that stops the motor.
 
-use bouncing_disk::InputTolerance;
-use clap::Args;
-use serde::Serialize;
-
 use super::settings::{OperationArgs, OperationJob, SpreadArgs, lock_note};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::Quantities;
+use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The load torque that stops the motor
+#[derive(Debug, Args)]
+#[command(after_help = "\
 The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load \
 (`bouncing-disk fit` has that one). Errors are standard errors at exactly these inputs; the spread is over motors whose \
 preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
 docs/designing-a-motor.md.
 
 Example:
-  bouncing-disk motor stall motor.toml";
-
-/// The load torque that stops the motor
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor stall motor.toml")]
 pub(crate) struct StallArgs {
     #[command(flatten)]
     operation: OperationArgs,
@@ -30,20 +20,13 @@ pub(crate) struct StallArgs {
     spread: SpreadArgs,
 }
 
-#[derive(Serialize)]
-struct Job {
-    #[serde(flatten)]
-    operation: OperationJob,
-    tolerance: Option<InputTolerance>,
-}
-
 /// Runs the command.
 pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
-    let Some(job) = args.operation.job(context)? else { return Ok(()) };
-    let stall = job.motor.stall_load(&job.settings, &context.watch("motor stall"))?;
+    let Some(OperationJob { motor, settings }) = args.operation.job(context)? else { return Ok(()) };
+    let stall = motor.stall_load(&settings, &context.watch("motor stall"))?;
     let tolerance = args.spread.tolerance();
     let watch = context.watch("motor stall: spread");
-    let spread = tolerance.map(|tolerance| job.motor.stall_spread(&job.settings, &tolerance, &watch));
+    let spread = tolerance.map(|tolerance| motor.stall_spread(&settings, &tolerance, &watch));
     let spread = spread.transpose()?.flatten();
     let mut list = Quantities::default();
     list.push("stall_torque", stall.torque.value, "N m");
@@ -60,10 +43,11 @@ pub(super) fn run(args: &StallArgs, context: Context) -> Result<(), Failure> {
     list.push("surely_driven_back_at", stall.bracket[1], "N m");
     list.push("no_load_speed", stall.no_load_speed.value, "rad/s");
     list.push("no_load_speed_error", stall.no_load_speed.standard_error, "rad/s");
+    let job = json!({ "motor": motor, "settings": settings, "tolerance": tolerance });
     let report = Report {
-        provenance: provenance("bouncing-disk motor stall", &Job { operation: job, tolerance })?,
-        text: list.to_text() + &lock_note(&job.motor)?,
-        table: ready(list.to_table()),
+        provenance: provenance("bouncing-disk motor stall", &job)?,
+        text: list.to_text() + &lock_note(&motor)?,
+        table: list.into_csv(),
         data: vec![("stall_load", stored(&stall)?), ("spread", stored(&spread)?)],
         figure: None,
     };

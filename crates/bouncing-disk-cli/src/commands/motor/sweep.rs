@@ -3,31 +3,20 @@
 use std::ops::Range as Rows;
 use std::str::FromStr;
 
-use bouncing_disk::core::PartialResults;
+use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::{
     Motor, MotorField, MotorSweep, MotorSweepRun, Observer, OperatingSettings, Operation, SweepAxis,
     SweepQuantity, operations,
 };
-use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::curve::state;
-use super::settings::SettingsArgs;
-use super::wrote_template;
-use crate::arguments::{GridArgs, OWN, OutputArgs};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
-use crate::output::lines::complain;
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::{Cell, Table};
-use crate::parameters::motor::MotorArgs;
-use crate::pictures;
-use crate::range::Range;
+use super::settings::{SettingsArgs, state, warn};
+use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// A motor over one or two fields of its data sheet
+#[derive(Debug, Args)]
+#[command(after_help = "\
 One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
 load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
 --journal divide and keep these. Fields are those of the data sheet, in its units. See docs/designing-a-motor.md.
@@ -35,11 +24,7 @@ load, friction, phase lag, twist, radii or mass only) are computed on one orbit,
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
   bouncing-disk motor sweep --over preload_force=0.2:0.4:3 --over phase_lag=-1:1:9 --out map.png
-  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal";
-
-/// A motor over one or two fields of its data sheet
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor sweep motor.toml --over amplitude=1e-9:1e-7:50 --journal sweep.journal")]
 pub(crate) struct SweepArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -47,8 +32,8 @@ pub(crate) struct SweepArgs {
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template")]
     over: Vec<Over>,
     /// The quantity of a picture
-    #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed")]
-    picture: Picture,
+    #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
+    picture: SweepQuantity,
     #[command(flatten)]
     settings: SettingsArgs,
     #[command(flatten)]
@@ -76,59 +61,41 @@ impl FromStr for Over {
     }
 }
 
-/// What a picture shows.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum Picture {
-    /// Mean angular speed
-    Speed,
-    /// Load torque times mean speed
-    MechanicalPower,
-    /// Power that the stator puts in
-    InputPower,
-    /// Mechanical power over the power put in
-    Efficiency,
-}
-
-impl From<Picture> for SweepQuantity {
-    fn from(picture: Picture) -> Self {
-        match picture {
-            Picture::Speed => Self::Speed,
-            Picture::MechanicalPower => Self::MechanicalPower,
-            Picture::InputPower => Self::InputPower,
-            Picture::Efficiency => Self::Efficiency,
-        }
-    }
-}
+/// The quantities that a picture can show.
+const PICTURES: Words<SweepQuantity> = &[
+    ("speed", "Mean angular speed", SweepQuantity::Speed),
+    ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
+    ("input-power", "Power that the stator puts in", SweepQuantity::InputPower),
+    ("efficiency", "Mechanical power over the power put in", SweepQuantity::Efficiency),
+];
 
 /// Runs the command.
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor, &args.output, context)? {
-        return Ok(());
-    }
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
+    warn(&motor, context);
     let job = SweepJob {
-        motor: args.motor.motor(context.quiet)?,
+        motor,
         axes: args.over.clone(),
         settings: args.settings.settings(),
-        picture: args.picture,
+        picture: args.picture.name().to_owned(),
         groups: 0,
     };
     let sweep = job.sweep()?;
-    if !context.quiet {
-        sweep.replaced().iter().for_each(|field| complain!("the {field} of the data sheet is left out"));
-    }
+    let replaced = sweep.replaced();
+    replaced.iter().for_each(|field| context.note(&format!("the {field} of the data sheet is left out")));
     let job = SweepJob { groups: sweep.groups().len(), ..job };
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// What a sweep depends on.
+/// The inputs of a sweep.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepJob {
     motor: Motor,
     axes: Vec<Over>,
     settings: OperatingSettings,
-    picture: Picture,
+    /// The name of the quantity.
+    picture: String,
     /// Number of vertical motions, which are the rows.
     groups: usize,
 }
@@ -186,31 +153,32 @@ impl GridJob for SweepJob {
         let mut all = PartialResults::new(rows.len());
         all.extend(rows.into_iter().enumerate());
         let result = MotorSweepRun::from(all).into_result(&sweep)?;
-        let fields: Vec<MotorField> = result.axes().iter().map(|axis| axis.parameter).collect();
-        let mut columns: Vec<_> = fields.iter().map(|field| (field.name(), field.unit())).collect();
-        columns.extend([
-            ("state", "1"),
-            ("speed", "rad/s"),
-            ("error", "rad/s"),
-            ("power", "W"),
-            ("efficiency", "%"),
-        ]);
-        let mut shown = Table::new(&columns);
-        for (values, operation) in result.iter() {
-            let of = |quantity: SweepQuantity| quantity.of(operation);
-            let mut row: Vec<Cell> = values.iter().map(|(_, value)| (*value).into()).collect();
-            row.push(state(operation).into());
-            row.push(of(SweepQuantity::Speed).map(|speed| speed.value).into());
-            row.push(of(SweepQuantity::Speed).map(|speed| speed.standard_error).into());
-            row.push(of(SweepQuantity::MechanicalPower).map(|power| power.value).into());
-            row.push(of(SweepQuantity::Efficiency).map(|share| 100.0 * share.value).into());
-            shown.push(row);
+        type Row = (Vec<f64>, Operation);
+        let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
+        let mut columns = Columns::<Row>::new();
+        for (index, axis) in result.axes().iter().enumerate() {
+            columns = columns.column(axis.parameter.name(), axis.parameter.unit(), move |row| row.0[index]);
         }
-        let quantity = self.picture.into();
+        columns = columns
+            .column("state", "1", |row| state(&row.1))
+            .column("speed", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.value))
+            .column("error", "rad/s", move |row| of(row, SweepQuantity::Speed).map(|own| own.standard_error))
+            .column("power", "W", move |row| of(row, SweepQuantity::MechanicalPower).map(|own| own.value))
+            .column("efficiency", "%", move |row| {
+                of(row, SweepQuantity::Efficiency).map(|own| 100.0 * own.value)
+            });
+        let row = |(values, operation): (Vec<(MotorField, f64)>, &Operation)| {
+            (values.into_iter().map(|(_, value)| value).collect(), *operation)
+        };
+        let rows: Vec<Row> = result.iter().map(row).collect();
+        let csv = result.to_csv();
+        let Some(quantity) = SweepQuantity::ALL.into_iter().find(|own| own.name() == self.picture) else {
+            return Err(Failure::usage(format!("there is no quantity {}", self.picture)));
+        };
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", &self)?,
-            text: shown.to_text(),
-            table: ready(Table::of_csv(result.to_csv())),
+            text: columns.to_text(&rows),
+            table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
             figure: Some(Box::new(move || pictures::sweep::draw(&result, quantity))),
         })

@@ -1,39 +1,28 @@
 //! `bouncing-disk motor transient`: the run-up of a motor from rest.
 
-use bouncing_disk::core::Unobserved;
 use std::ops::Range as Rows;
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
     FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
     TransientMember, TransientSettings, ensemble_members, transients,
 };
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use super::wrote_template;
-use crate::arguments::{GridArgs, OWN, OutputArgs};
+use super::settings::warn;
 use crate::commands::fit::{estimates, refusal};
-use crate::context::Context;
-use crate::failure::Failure;
-use crate::grid::{self, GridJob};
-use crate::output::report::{Report, provenance, ready, stored};
-use crate::output::table::{Quantities, Table};
-use crate::parameters::motor::MotorArgs;
-use crate::pictures;
+use crate::commands::prelude::*;
 
-/// What stands at the end of the help.
-const AFTER: &str = "\
+/// The run-up from rest, of one motor or many, with its fit
+#[derive(Debug, Args)]
+#[command(after_help = "\
 Each member is a run from rest with another starting phase and seed, as in Fig. 10 of the paper; with five members or more \
 their mean is fitted by alpha_ss (1 - exp(-t/t_c)) with 95 % intervals. In .csv a row is an instant and a member, with the \
 columns that `bouncing-disk fit` reads. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor transient --duration 2 --members 5
-  bouncing-disk motor transient motor.toml --members 100 --out run-up.csv --out run-up.png";
-
-/// The run-up from rest, of one motor or many, with its fit
-#[derive(Debug, Args)]
-#[command(after_help = AFTER)]
+  bouncing-disk motor transient motor.toml --members 100 --out run-up.csv --out run-up.png")]
 pub(crate) struct TransientArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -60,11 +49,10 @@ pub(crate) struct TransientArgs {
 
 /// Runs the command.
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure> {
-    if wrote_template(&args.motor, &args.output, context)? {
-        return Ok(());
-    }
+    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
+    warn(&motor, context);
     let job = TransientJob {
-        motor: args.motor.motor(context.quiet)?,
+        motor,
         members: args.members,
         settings: TransientSettings {
             duration: args.duration,
@@ -77,7 +65,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure>
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// What a run-up depends on.
+/// The inputs of a run-up.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TransientJob {
@@ -139,12 +127,14 @@ impl GridJob for TransientJob {
             list.push("time_constant", ensemble.time_constant.mean, "s");
             list.push("stall_acceleration", ensemble.stall_acceleration.mean, "rad/s^2");
         }
-        let mut table = Table::new(&[("time", "s"), ("speed", "rad/s"), ("member", "1")]);
-        for (member, curve) in ensemble.curves.iter().enumerate() {
-            for (time, speed) in curve.times.iter().zip(&curve.speeds) {
-                table.push([(*time).into(), (*speed).into(), (member + 1).into()]);
-            }
-        }
+        let columns = Columns::<(f64, f64, usize)>::new()
+            .column("time", "s", |row| row.0)
+            .column("speed", "rad/s", |row| row.1)
+            .column("member", "1", |row| row.2 + 1);
+        let instants = ensemble.curves.iter().enumerate().flat_map(|(member, curve)| {
+            curve.times.iter().zip(&curve.speeds).map(move |(time, speed)| (*time, *speed, member))
+        });
+        let table = columns.csv_of(instants.collect());
         let text = list.to_text() + &refused.map_or_else(String::new, |refused| format!("{refused}\n"));
         let judged = fit.is_some();
         let fit = fit.and_then(Result::ok);
@@ -154,7 +144,7 @@ impl GridJob for TransientJob {
                 .with_seed(self.settings.seed)
                 .with_chatter_policy(policy),
             text,
-            table: ready(table),
+            table,
             data: vec![
                 ("fit", stored(&fit)?),
                 ("curves", stored(&ensemble.curves)?),

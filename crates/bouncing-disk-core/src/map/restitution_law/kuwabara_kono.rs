@@ -3,8 +3,8 @@
 use core::fmt;
 
 use super::RestitutionLaw;
-use crate::error::{Error, within};
 use crate::numerics::elementary::pow;
+use crate::numerics::error::{Error, within};
 use crate::read_checked;
 
 /// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they
@@ -19,7 +19,7 @@ const NEWTON_STEPS: u32 = 20;
 /// any higher speed. The derivation is in docs/numerics/restitution.md.
 ///
 /// ```
-/// use bouncing_disk_core::{KuwabaraKono, RestitutionLaw};
+/// use bouncing_disk_core::map::{KuwabaraKono, RestitutionLaw};
 ///
 /// // Half of the speed is left at |w_A| = 2 g/omega, more of it at lower speeds.
 /// let law = KuwabaraKono::new(0.5, 2.0)?;

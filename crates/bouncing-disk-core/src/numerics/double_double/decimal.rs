@@ -5,7 +5,7 @@ use core::fmt;
 use core::str::FromStr;
 
 use super::DoubleDouble;
-use crate::error::Error;
+use crate::numerics::error::Error;
 
 /// Every double is a decimal fraction of so many places.
 const EXACT_PLACES: usize = 1_074;

@@ -2,6 +2,7 @@ use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 
 use super::*;
+use crate::numerics::error::Error;
 use crate::numerics::random::SplitMix64;
 
 type High = FBig<HalfEven, 2>;
@@ -42,7 +43,7 @@ fn the_four_operations_and_the_root_have_a_hundred_bits() {
         let root = a.abs().sqrt();
         let square = exact(root) * exact(root);
         assert!(error(a.abs(), &square, a.high) < 1.3e-31, "{a:?}");
-        assert_eq!(root.check(), Ok(()));
+        assert!(root.is_finite() && root.high.to_bits() == (root.high + root.low).to_bits(), "{root:?}");
     }
 }
 
@@ -134,15 +135,5 @@ fn what_is_written_is_read() {
     }
     for text in ["1e281", "1e-251", "1e2147483647", "1e-2147483648"] {
         assert!(matches!(read(text), Err(Error::OutOfRange { .. })), "{text}");
-    }
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn both_parts_are_stored_and_checked() {
-    let x = DoubleDouble::PI;
-    assert_eq!(crate::testing::stored(&x), x);
-    for text in [r#"{"high":1.0,"low":1.0}"#, r#"{"high":1.0,"low":null}"#, r#"{"high":1.0}"#] {
-        assert!(serde_json::from_str::<DoubleDouble>(text).is_err(), "{text}");
     }
 }

@@ -12,17 +12,27 @@ import numpy as np
 import numpy.typing as npt
 
 from bouncing_disk._errors import OutOfRangeError
-from bouncing_disk._sweep.chunks import Assembly, Chunks
-from bouncing_disk._sweep.cluster import check_client
 from bouncing_disk._sweep.errors import SweepFailedError, SweepFolderError
-from bouncing_disk._sweep.files import Damaged, StoredChunk, read_chunk
-from bouncing_disk._sweep.grid import Array, Grid
-from bouncing_disk._sweep.identity import Identity, digest_of, function_name, package_version
+from bouncing_disk._sweep.folder import (
+    Damaged,
+    Identity,
+    Journal,
+    StoredChunk,
+    check_foreign,
+    chunk_path,
+    digest_of,
+    function_name,
+    open_description,
+    package_version,
+    read_axes,
+    read_chunk,
+)
+from bouncing_disk._sweep.grid import Array, Assembly, Chunks, Grid
 from bouncing_disk._sweep.job import Failure, Job, Outcome
-from bouncing_disk._sweep.journal import Journal, check_foreign, chunk_path, open_description, read_axes
 from bouncing_disk._sweep.result import SweepResult
 from bouncing_disk._sweep.runners import (
     Task,
+    check_client,
     distributed_outcomes,
     has_distributed,
     local_client,
@@ -51,63 +61,47 @@ def sweep(
     The results have the same bits for any cluster, as long as those of a point do not depend on the points
     that it is computed with. So it is with every function of this package.
 
-    Parameters
-    ----------
-    function : callable
-        Called with keywords: for each axis an array with its values at the points of a chunk (all of one
-        length, at most `chunk_size`), and the `arguments`. It returns one result for each point: an array
-        whose first axis is that of the points, or a mapping of names to such arrays. Their types may change from
-        point to point: the result has one that holds all, where integers become floats and floats complex
-        numbers. Truth values and texts mix with nothing, nor do integers beyond 2^53 with floats.
-    grid : mapping of str to (n,) array
-        The axes by their names. The points are their Cartesian product, the last axis fastest. An axis
-        without values makes a grid without points, for which the function is not called.
-    client : distributed.Client, "serial" or None
-        The client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
-        ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
-        ``"serial"``, this process. Its workers must have the versions of this package and of NumPy that the
-        caller has.
-    arguments : mapping, optional
-        What the function is called with at every point: numbers, text, arrays, objects of this package.
-    folder : path, optional
-        Where each finished chunk is stored at once, by the process that calls. The same call goes on where an
-        earlier one was ended, on any cluster. The folder of another sweep is refused; a chunk that is damaged
-        is computed again.
-    chunk_size : int, optional
-        Points of a chunk; by default so many that there are 256 chunks, at most 65,536.
-    pointwise : bool
-        Call the function for each point alone: with plain numbers, for a number, an array, or a mapping of
-        them.
-    max_failures : int
-        Give up when more points fail than this.
-    progress : callable, optional
-        Called with the numbers of points that are done and of all points; an exception of it ends the sweep.
+    Args:
+        function: called with keywords: for each axis an array with its values at the points of a chunk (all
+            of one length, at most `chunk_size`), and the `arguments`. It returns one result for each point:
+            an array whose first axis is that of the points, or a mapping of names to such arrays. Their types
+            may change from point to point: the result has one that holds all, where integers become floats
+            and floats complex numbers. Truth values and texts mix with nothing, nor do integers beyond 2^53
+            with floats.
+        grid: the axes by their names. The points are their Cartesian product, the last axis fastest. An axis
+            without values makes a grid without points, for which the function is not called, shape (n,).
+        client: the client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
+            ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
+            ``"serial"``, this process. Its workers must have the versions of this package and of NumPy that
+            the caller has.
+        arguments: what the function is called with at every point: numbers, text, arrays, objects of this
+            package.
+        folder: where each finished chunk is stored at once, by the process that calls. The same call goes on
+            where an earlier one was ended, on any cluster. The folder of another sweep is refused; a chunk
+            that is damaged is computed again.
+        chunk_size: points of a chunk; by default so many that there are 256 chunks, at most 65,536.
+        pointwise: call the function for each point alone: with plain numbers, for a number, an array, or a
+            mapping of them.
+        max_failures: give up when more points fail than this.
+        progress: called with the numbers of points that are done and of all points; an exception of it ends
+            the sweep.
 
-    Returns
-    -------
-    SweepResult
+    Returns:
         The results as one array, with the axes.
 
-    Raises
-    ------
-    SweepFailedError
-        The function raised exceptions. The points are named; all others are computed, kept in the folder, and
-        in the error's `result`. The same call tries the failed points again.
-    SweepFolderError
-        The folder is in use, of another sweep, or cannot be written in.
-    SweepFunctionError
-        The function has no lasting name (with a folder), cannot be sent to workers, or returns no array, or what
-        no type holds.
-    SweepClusterError
-        Workers lack this package, or have other versions of it or of NumPy; nothing has been computed by them.
+    Raises:
+        SweepFailedError: The function raised exceptions. The points are named; all others are computed, kept
+            in the folder, and in the error's `result`. The same call tries the failed points again.
+        SweepFolderError: The folder is in use, of another sweep, or cannot be written in.
+        SweepFunctionError: The function has no lasting name (with a folder), cannot be sent to workers, or
+            returns no array, or what no type holds.
+        SweepClusterError: Workers lack this package, or have other versions of it or of NumPy; nothing has
+            been computed by them.
 
     Notes
-    -----
     An interrupt (Ctrl-C) leaves the finished chunks in the folder. In a script, call this behind
     ``if __name__ == "__main__":``, as everything that starts processes.
 
-    Examples
-    --------
     >>> import bouncing_disk as bd
     >>> def area(width, height):
     ...     return width * height
@@ -253,21 +247,15 @@ def _result(values: Array, grid: Grid, failed: npt.NDArray[np.bool_], job: Job) 
 def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
     """The results that a finished sweep has left in a folder; the function is not needed.
 
-    Parameters
-    ----------
-    folder : path
-        The folder of the sweep.
+    Args:
+        folder: the folder of the sweep.
 
-    Returns
-    -------
-    SweepResult
+    Returns:
         As :func:`sweep` returned it; `arguments` are as they were stored (arrays by their digest). Points
-        that failed are in `failed`.
+            that failed are in `failed`.
 
-    Raises
-    ------
-    SweepFolderError
-        No sweep is there, a chunk is missing or damaged, or a file is of another one.
+    Raises:
+        SweepFolderError: No sweep is there, a chunk is missing or damaged, or a file is of another one.
     """
     path = _lasting_path(folder)
     described = open_description(path)

@@ -47,13 +47,10 @@ class FailedPoint(NamedTuple):
 class SweepFailedError(BouncingDiskError, RuntimeError):
     """The function raised exceptions at points of the grid; the results of all other points are kept.
 
-    Attributes
-    ----------
-    failures : tuple of FailedPoint
-        The points, in the order of the grid.
-    result : SweepResult or None
-        What was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up because
-        more points failed than ``max_failures``.
+    Attributes:
+        failures: the points, in the order of the grid.
+        result: what was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up
+            because more points failed than ``max_failures``.
     """
 
     def __init__(
@@ -77,13 +74,10 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
 class SweepFolderError(BouncingDiskError, RuntimeError):
     """A folder cannot be used for this sweep.
 
-    Attributes
-    ----------
-    folder : str
-        The folder.
-    kind : str
-        Why: ``"in-use"``, ``"another-sweep"``, ``"other-files"``, ``"foreign-chunk"``, ``"damaged"``,
-        ``"newer-format"``, ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
+    Attributes:
+        folder: the folder.
+        kind: why: ``"in-use"``, ``"another-sweep"``, ``"other-files"``, ``"foreign-chunk"``, ``"damaged"``,
+            ``"newer-format"``, ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
     """
 
     def __init__(self, message: str, folder: str, kind: str) -> None:
@@ -95,13 +89,11 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
 class SweepClusterError(BouncingDiskError, RuntimeError):
     """A cluster cannot be used: its workers would not compute what this process would.
 
-    Attributes
-    ----------
-    kind : str
-        Why: ``"versions"`` if this package or NumPy have other versions there or are missing, ``"closed"`` if
-        the client is.
-    workers : dict of str to dict
-        The versions that each worker has which differs, by its address: of ``"bouncing-disk"`` and ``"numpy"``.
+    Attributes:
+        kind: why: ``"versions"`` if this package or NumPy have other versions there or are missing,
+            ``"closed"`` if the client is.
+        workers: the versions that each worker has which differs, by its address: of ``"bouncing-disk"`` and
+            ``"numpy"``.
     """
 
     def __init__(self, message: str, kind: str, workers: Mapping[str, Mapping[str, str]]) -> None:
@@ -118,10 +110,8 @@ class SweepFunctionError(BouncingDiskError, TypeError):
     """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has
     no array.
 
-    Attributes
-    ----------
-    function : str
-        Its name.
+    Attributes:
+        function: its name.
     """
 
     def __init__(self, message: str, function: str) -> None:
@@ -132,12 +122,9 @@ class SweepFunctionError(BouncingDiskError, TypeError):
 class MissingDependencyError(BouncingDiskError, ImportError):
     """An optional package is not installed.
 
-    Attributes
-    ----------
-    package : str
-        The package that is missing.
-    install : str
-        The command that installs it.
+    Attributes:
+        package: the package that is missing.
+        install: the command that installs it.
     """
 
     def __init__(self, message: str, package: str, install: str) -> None:

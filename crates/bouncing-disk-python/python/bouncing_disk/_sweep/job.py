@@ -14,12 +14,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from bouncing_disk._sweep.dtypes import Lossy, converted, joined
 from bouncing_disk._sweep.errors import FailedPoint, SweepFunctionError
-from bouncing_disk._sweep.grid import Array, Grid
-from bouncing_disk._sweep.identity import function_name, versions
-
-__all__ = ["Failure", "Job", "Outcome", "filled"]
+from bouncing_disk._sweep.folder import function_name, versions
+from bouncing_disk._sweep.grid import Array, Grid, Lossy, converted, filled, joined
 
 Points = npt.NDArray[np.int64]
 #: Results, and their places among the points of a chunk.
@@ -200,16 +197,3 @@ def _packed(array: Array) -> Array:
     for name, _ in plain:
         packed[name] = array[name]
     return packed
-
-
-def filled(shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """An array that says nothing yet: NaN where there is such a number, else zeros."""
-    array: Array = np.zeros(shape, dtype)
-    if dtype.names is not None:
-        for name in dtype.names:
-            inner = dtype[name]
-            if inner.base.kind in "fc":
-                array[name] = np.nan
-    elif dtype.kind in "fc":
-        array[...] = np.nan
-    return array

@@ -1,4 +1,4 @@
-"""What a sweep returns."""
+"""What a sweep returns, and its NetCDF files, which have fewer types than NumPy."""
 
 from __future__ import annotations
 
@@ -15,12 +15,66 @@ import numpy.typing as npt
 from bouncing_disk._errors import InvalidError
 from bouncing_disk._sweep.errors import MissingDependencyError
 from bouncing_disk._sweep.grid import Array
-from bouncing_disk._sweep.netcdf import write_netcdf
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["SweepResult"]
+#: What writes NetCDF files, by the name that xarray knows it by, and the packages that it needs.
+_ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
+
+
+def write_netcdf(dataset: Any, path: str | os.PathLike[str]) -> None:
+    """A dataset as a file, written beside its place and renamed into it."""
+    plain = _plain(dataset)
+    engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
+    if engine is None:
+        raise MissingDependencyError.of("netCDF4", "a NetCDF file", "netcdf")
+    beside = os.fspath(path) + ".unfinished"
+    try:
+        plain.to_netcdf(beside, engine=engine)
+        os.replace(beside, path)
+    finally:
+        if os.path.exists(beside):
+            os.unlink(beside)
+
+
+def _plain(dataset: Any) -> Any:
+    """The dataset with the types that NetCDF has: complex numbers in two parts, halves of a float as floats."""
+    whole: dict[str, tuple[tuple[str, ...], Array]] = {}
+    axes = {str(name) for name in dataset.coords}
+    for name, variable in dataset.variables.items():
+        for part, array in _parts(str(name), np.asarray(variable.values)).items():
+            if part in whole:
+                message = (
+                    f"{part!r} is a part of a complex result, and the name of another: rename one of them"
+                )
+                raise InvalidError(message, "doubled-name", {"name": part})
+            whole[part] = (tuple(variable.dims), array)
+            if name in axes:
+                axes.add(part)
+    coordinates = {part: stored for part, stored in whole.items() if part in axes}
+    data = {part: stored for part, stored in whole.items() if part not in axes}
+    return type(dataset)(data, coords=coordinates, attrs=dataset.attrs)
+
+
+def _parts(name: str, array: Array) -> dict[str, Array]:
+    """A variable as those that are stored."""
+    if array.dtype.kind == "c":
+        return _parts(f"{name}_real", array.real) | _parts(f"{name}_imag", array.imag)
+    if array.dtype == np.float16:
+        return {name: array.astype(np.float32)}
+    if array.dtype.kind not in "biufUSO" or array.dtype.itemsize > 8 and array.dtype.kind == "f":
+        message = f"{name!r} is of {array.dtype}, which NetCDF does not have"
+        raise InvalidError(message, "netcdf-type", {"name": name, "dtype": str(array.dtype)})
+    return {name: array}
+
+
+def _is_installed(package: str) -> bool:
+    try:
+        import_module(package)
+    except ImportError:
+        return False
+    return True
 
 
 def _same_bits(one: Array, other: Array) -> bool:
@@ -34,21 +88,15 @@ def _same_bits(one: Array, other: Array) -> bool:
 class SweepResult:
     """The results of a sweep on its grid. NumPy takes it for an array.
 
-    Attributes
-    ----------
-    values : array
-        The results: one axis for each axis of the grid, in its order, and those of one result behind them. A
-        structured array if the function returns a mapping of names.
-    axes : dict of str to (n,) array
-        The axes of the grid.
-    failed : bool array
-        Where the function raised an exception; the shape is that of the grid. `values` is NaN there, or 0.
-    function : str
-        The name of the function.
-    arguments : dict
-        What it was called with at every point.
-    version : str
-        The version of this package.
+    Attributes:
+        values: the results: one axis for each axis of the grid, in its order, and those of one result behind
+            them. A structured array if the function returns a mapping of names.
+        axes: the axes of the grid, shape (n,).
+        failed: where the function raised an exception; the shape is that of the grid. `values` is NaN there,
+            or 0.
+        function: the name of the function.
+        arguments: what it was called with at every point.
+        version: the version of this package.
     """
 
     values: Array
@@ -93,15 +141,11 @@ class SweepResult:
     def to_xarray(self, name: str | None = None) -> xarray.Dataset:
         """The results as a Dataset of xarray, which has the axes as its coordinates.
 
-        Parameters
-        ----------
-        name : str, optional
-            The name of the variable, unless the values are structured; by default that of the function,
-            or "result" if it has none.
+        Args:
+            name: the name of the variable, unless the values are structured; by default that of the function,
+                or "result" if it has none.
 
-        Returns
-        -------
-        xarray.Dataset
+        Returns:
             One variable, or one for each field. Where the function failed, it is what `values` is.
         """
         try:
@@ -143,16 +187,12 @@ class SweepResult:
         NetCDF has no complex numbers: such a variable NAME is stored as two, ``NAME_real`` and ``NAME_imag``,
         and so is a complex axis, beside a dimension without coordinates.
 
-        Parameters
-        ----------
-        path : path
-            The file. It is written beside its place and renamed into it.
-        name : str, optional
-            As in `to_xarray`.
+        Args:
+            path: the file. It is written beside its place and renamed into it.
+            name: as in `to_xarray`.
 
-        Raises
-        ------
-        InvalidError
-            A type that NetCDF does not have, such as ``longdouble``; or two names that become one.
+        Raises:
+            InvalidError: A type that NetCDF does not have, such as ``longdouble``; or two names that become
+                one.
         """
         write_netcdf(self.to_xarray(name), path)

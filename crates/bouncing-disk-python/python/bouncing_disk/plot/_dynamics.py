@@ -1,4 +1,4 @@
-"""The figures of the vertical motion: orbit diagrams (Fig. 6) and basins of attraction (Fig. 7)."""
+"""The vertical motion: orbit diagrams (Fig. 6) and basins of attraction (Fig. 7)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,25 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
-from bouncing_disk.plot._checks import number, out_of_range, whole_number
-from bouncing_disk.plot._style import BLACK, COLOURS, ORANGE, drawn_on, pyplot, style
-from bouncing_disk.plot._words import labelled, legend_above, note, unit_of
+from bouncing_disk.plot._frame import (
+    BLACK,
+    COLOURS,
+    ORANGE,
+    drawn_on,
+    labelled,
+    legend_above,
+    note,
+    number,
+    out_of_range,
+    pyplot,
+    style,
+    unit_of,
+    whole_number,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-__all__ = ["OFF_PERIOD_ONE", "basins", "dot_size", "dots_legend", "forcing_ends", "orbit_diagram"]
 
 #: Size of a point (1/72 inch) of many, of which several make a line, and of few, each of which must be seen.
 _DOT, _LARGE_DOT = 0.6, 2.4
@@ -49,29 +59,16 @@ def orbit_diagram(
     Without a diagram, two starts are followed at each forcing: one a hundredth off the period-1 orbit
     (black), where there is one, and a slow one (grey), which is drawn above it.
 
-    Parameters
-    ----------
-    diagram : OrbitDiagram, or mapping of names to them, optional
-        What is drawn, with a legend if it has names.
-    restitution : float, default 0.5
-        Coefficient of restitution, if none is given.
-    axial_forcing : (float, float), default (0.3, 0.62)
-        Lowest and highest axial forcing parameter Gamma.
-    columns : int, default 600
-        Forcings, one at least.
-    transient, recorded : int, default 3000, 256
-        Impacts that are left out, and drawn, at each of them.
-    quantity : {"phase", "speed"}, default "phase"
-        What is drawn over the forcing: the phase of the impacts in periods, or their normalised speed.
-    ax : Axes, optional
-        Where it is drawn.
+    Args:
+        diagram: what is drawn, with a legend if it has names.
+        restitution: coefficient of restitution, if none is given.
+        axial_forcing: lowest and highest axial forcing parameter Gamma.
+        columns: forcings, one at least.
+        transient, recorded: impacts that are left out, and drawn, at each of them.
+        quantity: what is drawn over the forcing: the phase of the impacts in periods, or their normalised
+            speed.
+        ax: where it is drawn.
 
-    Returns
-    -------
-    (Figure, Axes)
-
-    Examples
-    --------
     >>> from bouncing_disk import plot
     >>> fig, ax = plot.orbit_diagram(restitution=0.6, axial_forcing=(0.26, 0.3), columns=5, transient=200)
     >>> [text.get_text() for text in ax.get_legend().get_texts()]
@@ -192,25 +189,14 @@ def basins(
     """Basins of attraction, as Fig. 7 of the paper: white where the disk comes to rest, dark where it bounces
     for ever.
 
-    Parameters
-    ----------
-    basins : Basins or ImpactMap
-        What is drawn; of a map, the basins of all attractors that :func:`bouncing_disk.attractors` finds.
-    phases, speeds : int, default 600, 400
-        Cells along the impact phase and speed, of a map.
-    speed_range : (float, float), default (0, 3)
-        Lowest and highest normalised speed, of a map.
-    legend : bool, default True
-        Whether the colours are explained above the axes.
-    ax : Axes, optional
-        Where it is drawn.
+    Args:
+        basins: what is drawn; of a map, the basins of all attractors that :func:`bouncing_disk.attractors`
+            finds.
+        phases, speeds: cells along the impact phase and speed, of a map.
+        speed_range: lowest and highest normalised speed, of a map.
+        legend: whether the colours are explained above the axes.
+        ax: where it is drawn.
 
-    Returns
-    -------
-    (Figure, Axes)
-
-    Examples
-    --------
     >>> import bouncing_disk as bd
     >>> from bouncing_disk import plot
     >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
@@ -281,3 +267,5 @@ def _explained(basins: bd.Basins, label: int) -> str:
         impacts, periods = orbit.groups()
         meaning = f"period {impacts}" if impacts == periods else f"period {impacts} in {periods} cycles"
     return f"{meaning} ({100.0 * basins.share(label):.1f} %)"
+
+

@@ -1,4 +1,4 @@
-"""The figures of a motor: its run-up (Figs. 10 to 13) and its torque-speed curve."""
+"""Motors: the run-up (Figs. 10 to 13) and the torque-speed curve."""
 
 from __future__ import annotations
 
@@ -8,15 +8,24 @@ import numpy as np
 import numpy.typing as npt
 
 import bouncing_disk as bd
-from bouncing_disk.plot._checks import whole_number
-from bouncing_disk.plot._style import BLACK, BLUE, GREY, ORANGE, drawn_on, style
-from bouncing_disk.plot._words import labelled, legend_above, note, unit_of, with_error
+from bouncing_disk.plot._frame import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    drawn_on,
+    labelled,
+    legend_above,
+    note,
+    style,
+    unit_of,
+    whole_number,
+    with_error,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-__all__ = ["motor_transient", "torque_speed"]
 
 #: The part of the members that the band holds, in percent of either end.
 _BAND = (10.0, 90.0)
@@ -34,26 +43,14 @@ def motor_transient(
 ) -> tuple[Figure, Axes]:
     """The speed of a motor from rest: one member, the band of four fifths of all, and the fit of their means.
 
-    Parameters
-    ----------
-    runs : TransientEnsemble, Motor or System
-        What is drawn; of a motor, run-ups that are computed.
-    members : int, default 64
-        How many, of a motor.
-    duration : float, optional
-        How long they last (s), of a motor; by default eight of its time constants.
-    intervals : int, default 300
-        Intervals that the speed is averaged over, of a motor.
-    seed : int, default 1
-        Seed of the perturbations, of a motor.
-    member : int, default 0
-        Which member is drawn alone, from 0 on.
-    ax : Axes, optional
-        Where it is drawn.
-
-    Returns
-    -------
-    (Figure, Axes)
+    Args:
+        runs: what is drawn; of a motor, run-ups that are computed.
+        members: how many, of a motor.
+        duration: how long they last (s), of a motor; by default eight of its time constants.
+        intervals: intervals that the speed is averaged over, of a motor.
+        seed: seed of the perturbations, of a motor.
+        member: which member is drawn alone, from 0 on.
+        ax: where it is drawn.
     """
     if isinstance(runs, bd.Motor):
         runs = runs.system
@@ -140,20 +137,14 @@ def torque_speed(
 ) -> tuple[Figure, Axes]:
     """Speed and mechanical power of a motor against its load, with two standard errors.
 
-    Parameters
-    ----------
-    curve : TorqueSpeedCurve or Motor
-        What is drawn; of a motor, a curve that is computed.
-    load_torques : (n,) array_like, optional
-        The loads (N m), of a motor; by default twelve from none to the stall load.
-    relative_error : float, default 0.01
-        Standard error of the speeds that is asked for, relative to the speed without load, of a motor.
-    ax : Axes, optional
-        Where it is drawn. The power has an axis of its own on the right.
+    Args:
+        curve: what is drawn; of a motor, a curve that is computed.
+        load_torques: the loads (N m), of a motor; by default twelve from none to the stall load, shape (n,).
+        relative_error: standard error of the speeds that is asked for, relative to the speed without load, of
+            a motor.
+        ax: where it is drawn. The power has an axis of its own on the right.
 
-    Returns
-    -------
-    (Figure, Axes)
+    Returns:
         The axes of the speed.
     """
     if isinstance(curve, bd.Motor):

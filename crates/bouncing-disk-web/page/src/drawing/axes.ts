@@ -1,75 +1,103 @@
 /** The frame of a picture: where it lies, its ticks, numbers and labels. */
 
-import type { Colours } from "./colours";
+import { minus } from "../numbers";
+import type { Range } from "../protocol";
 import type { Pen } from "./pen";
-import type { Scale } from "./scale";
-import { ticks } from "./ticks";
-import type { Ticks } from "./ticks";
 
 export interface Axis {
   /** With its unit: "load (µN m)". */
   readonly label: string;
-  readonly scale: Scale;
-  /** From the values of the scale to the numbers beside the ticks. */
+  readonly range: Range;
+  /** From the values of the range to the numbers beside the ticks. */
   readonly factor?: number;
   /** The numbers beside a vertical axis have at least the place of this one. */
   readonly widest?: string;
 }
 
-export interface Plot {
+export interface Axes {
+  readonly x: Axis;
+  readonly y: Axis;
+}
+
+export interface Ticks {
+  readonly major: readonly { readonly value: number; readonly label: string }[];
+  readonly minor: readonly number[];
+}
+
+export const NO_TICKS: Ticks = { major: [], minor: [] };
+
+export interface Box {
   readonly left: number;
   readonly top: number;
   readonly width: number;
   readonly height: number;
-  readonly x: Axis;
-  readonly y: Axis;
+}
+
+export interface Plot extends Box, Axes {
   readonly xTicks: Ticks;
   readonly yTicks: Ticks;
   readonly size: number;
 }
 
 /** Finds the margins that numbers and labels need, in a picture of `width` by `height` with letters of `size`. */
-export function layOut(pen: Pen, width: number, height: number, x: Axis, y: Axis, size: number): Plot {
+export function layOut(pen: Pen, width: number, height: number, { x, y }: Axes, size: number): Plot {
   const top = Math.round(size * 0.9);
   const bottom = Math.round(size * 3.4);
   const plotHeight = Math.max(height - top - bottom, 20);
-  const yTicks = ticks(y.scale, Math.max(Math.floor(plotHeight / (size * 3.2)), 2), y.factor);
+  const yTicks = ticks(y.range, Math.max(Math.floor(plotHeight / (size * 3.2)), 2), y.factor);
   const labels = [y.widest ?? "", ...yTicks.major.map((tick) => tick.label)];
   const numbers = Math.max(...labels.map((label) => pen.measure(label, size)), size);
   const left = Math.ceil(numbers + size * 2.5);
   const right = Math.ceil(size * 1.1);
   const plotWidth = Math.max(width - left - right, 20);
-  let xTicks: Ticks = { major: [], minor: [] };
+  let xTicks = NO_TICKS;
   for (let count = Math.max(Math.floor(plotWidth / (size * 5)), 1); count >= 1; count -= 1) {
-    xTicks = ticks(x.scale, count, x.factor);
+    xTicks = ticks(x.range, count, x.factor);
     const widest = Math.max(...xTicks.major.map((tick) => pen.measure(tick.label, size)), 0);
     if (xTicks.major.length * (widest + size) <= plotWidth) break;
   }
   return { left, top, width: plotWidth, height: plotHeight, x, y, xTicks, yTicks, size };
 }
 
-export function pixelX(plot: Plot, value: number): number {
-  return plot.left + plot.width * plot.x.scale.share(value);
+/** Where a value is in a range: 0 at the low end, 1 at the high end. */
+const share = ([low, high]: Range, value: number): number => (value - low) / (high - low || 1);
+
+export const pixelX = (plot: Plot, value: number): number => plot.left + plot.width * share(plot.x.range, value);
+export const pixelY = (plot: Plot, value: number): number => plot.top + plot.height * (1 - share(plot.y.range, value));
+
+export function valueX({ left, width, x: { range } }: Plot, pixel: number): number {
+  return range[0] + ((pixel - left) / width) * (range[1] - range[0] || 1);
 }
 
-export function pixelY(plot: Plot, value: number): number {
-  return plot.top + plot.height * (1 - plot.y.scale.share(value));
+export function valueY({ top, height, y: { range } }: Plot, pixel: number): number {
+  return range[0] + (1 - (pixel - top) / height) * (range[1] - range[0] || 1);
 }
 
-export function valueX(plot: Plot, pixel: number): number {
-  return plot.x.scale.value((pixel - plot.left) / plot.width);
-}
-
-export function valueY(plot: Plot, pixel: number): number {
-  return plot.y.scale.value(1 - (pixel - plot.top) / plot.height);
-}
-
-export function inside(plot: Plot, x: number, y: number): boolean {
+export function inside(plot: Box, x: number, y: number): boolean {
   return x >= plot.left && x <= plot.left + plot.width && y >= plot.top && y <= plot.top + plot.height;
 }
 
+/** Draws nothing outside of a plot. */
+export function clippedTo({ left, top, width, height }: Box, pen: Pen, draw: () => void): void {
+  pen.clipped(left, top, width, height, draw);
+}
+
+/** Two lines of this half length through a point, upright or at 45 degrees. */
+export function crossAt(x: number, y: number, arm: number, upright = false): number[] {
+  return upright
+    ? [x - arm, y, x + arm, y, NaN, NaN, x, y - arm, x, y + arm]
+    : [x - arm, y - arm, x + arm, y + arm, NaN, NaN, x - arm, y + arm, x + arm, y - arm];
+}
+
+/** Two lines through a value, from one side of a plot to the other. */
+export function hairsAt(plot: Plot, [x, y]: readonly [number, number]): number[] {
+  const [across, down] = [pixelX(plot, x), pixelY(plot, y)];
+  const [right, bottom] = [plot.left + plot.width, plot.top + plot.height];
+  return [across, plot.top, across, bottom, NaN, NaN, plot.left, down, right, down];
+}
+
 /** Faint lines behind the data. */
-export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
+export function paintGrid(pen: Pen, plot: Plot): void {
   const points: number[] = [];
   for (const { value } of plot.xTicks.major) {
     const x = placed(pen, pixelX(plot, value));
@@ -79,11 +107,11 @@ export function paintGrid(pen: Pen, plot: Plot, colour: Colours): void {
     const y = placed(pen, pixelY(plot, value));
     points.push(plot.left, y, plot.left + plot.width, y, NaN, NaN);
   }
-  pen.path(points, { stroke: colour("--picture-grid"), width: 1 });
+  pen.path(points, { stroke: "--picture-grid", width: 1 });
 }
 
 /** Frame, ticks inwards on all four sides, numbers and labels. */
-export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
+export function paintAxes(pen: Pen, plot: Plot): void {
   const { size } = plot;
   // Ticks begin on the frame and not a pixel beside it.
   const [left, right] = [placed(pen, plot.left), placed(pen, plot.left + plot.width)];
@@ -104,26 +132,88 @@ export function paintAxes(pen: Pen, plot: Plot, colour: Colours): void {
   for (const value of plot.xTicks.minor) tickX(value, short);
   for (const tick of plot.yTicks.major) tickY(tick.value, long);
   for (const value of plot.yTicks.minor) tickY(value, short);
-  const frame = colour("--picture-frame");
-  pen.path(points, { stroke: frame, width: 1 });
-  pen.rect(left, top, width, height, { stroke: frame, width: 1 });
-  const ink = colour("--picture-text");
+  const frame = { stroke: "--picture-frame", width: 1 };
+  pen.path(points, frame);
+  pen.rect(left, top, width, height, frame);
+  const ink = { colour: "--picture-text", size };
   for (const { value, label } of plot.xTicks.major) {
     // A long number at an end of the axis stays in the picture.
     const half = pen.measure(label, size) / 2;
     const x = Math.max(Math.min(pixelX(plot, value), right + size - half), half);
-    pen.text(label, x, bottom + size * 0.5, { colour: ink, size, anchor: "middle", baseline: "top" });
+    pen.text(label, x, bottom + size * 0.5, { ...ink, anchor: "middle", baseline: "top" });
   }
   for (const { value, label } of plot.yTicks.major) {
-    pen.text(label, left - size * 0.5, pixelY(plot, value), { colour: ink, size, anchor: "end", baseline: "middle" });
+    pen.text(label, left - size * 0.5, pixelY(plot, value), { ...ink, anchor: "end", baseline: "middle" });
   }
-  const middle = left + width / 2;
-  pen.text(plot.x.label, middle, bottom + size * 2, { colour: ink, size, anchor: "middle", baseline: "top" });
-  const edge = size * 1.05;
-  pen.text(plot.y.label, edge, top + height / 2, { colour: ink, size, anchor: "middle", upwards: true });
+  pen.text(plot.x.label, left + width / 2, bottom + size * 2, { ...ink, anchor: "middle", baseline: "top" });
+  pen.text(plot.y.label, size * 1.05, top + height / 2, { ...ink, anchor: "middle", upwards: true });
 }
 
 /** On a screen a line of one pixel fills one row of pixels if it runs through their middle. */
 function placed(pen: Pen, place: number): number {
   return pen.printed ? place : Math.round(place - 0.5) + 0.5;
+}
+
+/** The smallest of 1, 2 and 5 times a power of ten that is not below a positive value. */
+export function roundUp(value: number): number {
+  if (!(value > 0) || !Number.isFinite(value)) return 1;
+  const power = 10 ** Math.floor(Math.log10(value));
+  const lead = value / power;
+  const step = lead <= 1 ? 1 : lead <= 2 ? 2 : lead <= 5 ? 5 : 10;
+  return step * power;
+}
+
+/** A range that has some room on both sides; never empty. */
+export function padded([low, high]: Range, share = 0.05): Range {
+  const room = high > low ? (high - low) * share : Math.abs(low) * 0.1 || 1;
+  return [low - room, high + room];
+}
+
+/** The least and the greatest finite number; null if there is none. */
+export function extent(values: ArrayLike<number>, start = 0, stride = 1): Range | null {
+  let low = Infinity;
+  let high = -Infinity;
+  for (let index = start; index < values.length; index += stride) {
+    const value = values[index] as number;
+    if (value < low) low = value;
+    if (value > high && value < Infinity) high = value;
+  }
+  return low <= high && low > -Infinity ? [low, high] : null;
+}
+
+export function clamp(value: number, low: number, high: number): number {
+  return Math.min(Math.max(value, low), high);
+}
+
+/** At most about `count` labelled ticks. `factor` turns a value into the unit of the label. */
+export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
+  const width = (high - low) * factor;
+  if (!(width > 0)) return NO_TICKS;
+  const raw = width / Math.max(count, 1);
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const lead = raw / power;
+  const [step, parts] = lead <= 1 ? [1, 5] : lead <= 2 ? [2, 4] : lead <= 5 ? [5, 5] : [10, 5];
+  const size = step * power;
+  const decimals = Math.max(0, -Math.floor(Math.log10(size) + 1e-9));
+  const slack = 1e-9;
+  const between = (by: number) => {
+    const first = Math.ceil((low * factor) / by - slack);
+    const last = Math.floor((high * factor) / by + slack);
+    return Array.from({ length: Math.max(last - first + 1, 0) }, (_, index) => first + index);
+  };
+  return {
+    major: between(size).map((index) => ({
+      value: (index * size) / factor,
+      label: tickLabel(index * size, size, decimals),
+    })),
+    minor: between(size / parts)
+      .filter((index) => index % parts !== 0)
+      .map((index) => (index * (size / parts)) / factor),
+  };
+}
+
+function tickLabel(value: number, step: number, decimals: number): string {
+  const bound = Math.abs(value) < step * 1e-6 ? 0 : value;
+  // More decimals than a double has next to 1 are powers of ten of a small number.
+  return minus(decimals <= 17 ? bound.toFixed(decimals) : bound.toPrecision(6));
 }

@@ -1,12 +1,9 @@
 /** Files that people take away: tables, parameters and pictures at the width of a journal's column. */
 
 import type { Offer } from "../contract";
-import { CanvasPen } from "./canvas_pen";
-import type { Colours } from "./colours";
-import { printedColours } from "./colours";
-import { PRINT_FONT, PRINT_WEIGHT } from "./pen";
-import type { Pen } from "./pen";
-import { SvgPen } from "./svg_pen";
+import { element } from "../elements";
+import { clippedTo, layOut, paintAxes, type Axes, type Plot } from "./axes";
+import { CanvasPen, contextOf, SvgPen, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;
@@ -15,39 +12,50 @@ export const TWO_COLUMNS = 504.6;
 export const PRINT_SIZE = 8;
 const PRINT_DOTS_PER_POINT = 600 / 72;
 
-export interface Picture {
+interface Picture {
   readonly name: string;
   readonly title: string;
   readonly width: number;
   readonly height: number;
-  paint(pen: Pen, colour: Colours, width: number, height: number): void;
+  paint(pen: Pen, width: number, height: number): void;
 }
 
 export function pictureOffers(picture: Picture): Offer[] {
+  const { name, title, width, height } = picture;
+  const svg = async () => {
+    const pen = new SvgPen(width, height);
+    picture.paint(pen, width, height);
+    return new Blob([pen.finish(title)], { type: "image/svg+xml" });
+  };
   return [
-    { name: picture.name, kind: "svg", make: () => Promise.resolve(svgOf(picture)) },
-    { name: picture.name, kind: "png", make: () => pngOf(picture) },
+    { name, kind: "svg", make: svg },
+    { name, kind: "png", make: () => pngOf(picture) },
   ];
 }
 
-function svgOf(picture: Picture): Blob {
-  const colour = printedColours();
-  const pen = new SvgPen(picture.width, picture.height);
-  picture.paint(pen, colour, picture.width, picture.height);
-  return new Blob([pen.finish(picture.title, colour("--picture-paper"))], { type: "image/svg+xml" });
-}
+/** A picture that is one plot with its axes. */
+export function plotOffers(
+  { axes, paint, ...picture }: Omit<Picture, "paint"> & { axes: Axes; paint(pen: Pen, plot: Plot): void },
+): Offer[] {
+  return pictureOffers({
+    ...picture,
+    paint(pen, width, height) {
+      const plot = layOut(pen, width, height, axes, PRINT_SIZE);
+      clippedTo(plot, pen, () => paint(pen, plot));
+      paintAxes(pen, plot);
+    },
+  });
+} // prettier-ignore
 
 async function pngOf(picture: Picture): Promise<Blob> {
-  const colour = printedColours();
   const canvas = document.createElement("canvas");
   canvas.width = Math.round(picture.width * PRINT_DOTS_PER_POINT);
   canvas.height = Math.round(picture.height * PRINT_DOTS_PER_POINT);
-  const context = canvas.getContext("2d");
-  if (context === null) throw new Error("this browser gives no canvas to draw on");
-  context.fillStyle = colour("--picture-paper");
-  context.fillRect(0, 0, canvas.width, canvas.height);
+  const context = contextOf(canvas);
+  const pen = new CanvasPen(context, true);
+  pen.rect(0, 0, canvas.width, canvas.height, { fill: "--picture-paper" });
   context.scale(PRINT_DOTS_PER_POINT, PRINT_DOTS_PER_POINT);
-  picture.paint(new CanvasPen(context, PRINT_FONT, PRINT_WEIGHT), colour, picture.width, picture.height);
+  picture.paint(pen, picture.width, picture.height);
   return new Promise((resolve, reject) => {
     canvas.toBlob(
       (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),
@@ -56,74 +64,65 @@ async function pngOf(picture: Picture): Promise<Blob> {
   });
 }
 
-export interface Table {
+type Row = ArrayLike<number | string>;
+
+interface Table {
   readonly name: string;
   /** What it is and what it was computed with. */
   readonly parameters: unknown;
   /** Names with units: "time_s". */
   readonly columns: readonly string[];
   /** Row by row. */
-  rows(): Iterable<ArrayLike<number | string>>;
+  rows(): Iterable<Row>;
 }
 
 export function tableOffers(table: Table): Offer[] {
+  const { name, parameters, columns } = table;
+  const comma = (row: Row) => Array.from(row, csvCell).join(",");
+  const csv = () => written(table, `# ${JSON.stringify(parameters)}\n${comma(columns)}\n`, comma, "\n", "\n", "text/csv");
+  const head = () => `${JSON.stringify({ parameters, columns }).slice(0, -1)},"rows":[\n`;
+  const list = (row: Row) => JSON.stringify(Array.from(row));
+  const json = () => written(table, head(), list, ",\n", "\n]}\n", "application/json");
   return [
-    { name: table.name, kind: "csv", make: () => csvOf(table) },
-    { name: table.name, kind: "json", make: () => jsonOf(table) },
+    { name, kind: "csv", make: csv },
+    { name, kind: "json", make: json },
   ];
-}
-
-/** Rows that are written before the page gets its turn again. */
-const ROWS_AT_ONCE = 4000;
-
-async function csvOf(table: Table): Promise<Blob> {
-  const parts = [
-    `# ${JSON.stringify(table.parameters)}\n`,
-    `${table.columns.map((name) => (name.includes(",") ? `"${name}"` : name)).join(",")}\n`,
-  ];
-  await inChunks(table, (row) => Array.from(row, csvCell).join(","), "\n", parts);
-  parts.push("\n");
-  return new Blob(parts, { type: "text/csv" });
-}
+} // prettier-ignore
 
 function csvCell(value: number | string): string {
   if (typeof value === "number") return Number.isNaN(value) ? "" : String(value);
   return /[",\n]/.test(value) ? `"${value.replace(/"/g, '""')}"` : value;
 }
 
-async function jsonOf(table: Table): Promise<Blob> {
-  const head = JSON.stringify({ parameters: table.parameters, columns: table.columns }).slice(0, -1);
-  const parts = [`${head},"rows":[\n`];
-  await inChunks(table, (row) => JSON.stringify(Array.from(row)), ",\n", parts);
-  parts.push("\n]}\n");
-  return new Blob(parts, { type: "application/json" });
-}
+/** Rows that are written before the page gets its turn again. */
+const ROWS_AT_ONCE = 4000;
 
-async function inChunks(
-  table: Table,
-  write: (row: ArrayLike<number | string>) => string,
-  between: string,
-  parts: string[],
-): Promise<void> {
-  let lines: string[] = [];
-  let first = true;
-  const flush = () => {
-    if (lines.length === 0) return;
-    parts.push((first ? "" : between) + lines.join(between));
-    first = false;
-    lines = [];
-  };
+async function written(
+  table: Table, head: string, line: (row: Row) => string, between: string, end: string, type: string,
+): Promise<Blob> {
+  const parts = [head];
+  let count = 0;
   for (const row of table.rows()) {
-    lines.push(write(row));
-    if (lines.length >= ROWS_AT_ONCE) {
-      flush();
-      await new Promise((resolve) => setTimeout(resolve, 0));
-    }
+    parts.push(count === 0 ? "" : between, line(row));
+    count += 1;
+    if (count % ROWS_AT_ONCE === 0) await new Promise((resolve) => setTimeout(resolve, 0));
   }
-  flush();
-}
+  return new Blob([...parts, end], { type });
+} // prettier-ignore
 
 /** The rows of a flat array. */
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);
+}
+
+export const fileName = ({ name, kind }: Offer): string => `${name.trim().replace(/\s+/g, "-").toLowerCase()}.${kind}`;
+
+/** How long (ms) a browser may take to begin with saving. */
+const PATIENCE = 60_000;
+
+/** Has the browser save a file. */
+export function save(blob: Blob, download: string): void {
+  const href = URL.createObjectURL(blob);
+  element("a", { href, download }).click();
+  setTimeout(() => URL.revokeObjectURL(href), PATIENCE);
 }

@@ -1,8 +1,8 @@
 /** What draws lines, areas and words: on a canvas, or into SVG. Lengths are in CSS pixels or, printed, in points. */
 
-import { parseRichText } from "./rich_text";
-import type { Run } from "./rich_text";
+import { printedColour, themeColour, type Colours } from "./colours";
 
+/** Colours are the names of custom properties of `theme.css`. */
 export interface PathStyle {
   stroke?: string;
   width?: number;
@@ -19,7 +19,6 @@ export interface TextStyle {
   baseline?: "top" | "middle" | "bottom";
   /** Turned by a quarter against the clock. */
   upwards?: boolean;
-  bold?: boolean;
   /** The colour of a margin round the letters. */
   halo?: string;
 }
@@ -27,6 +26,7 @@ export interface TextStyle {
 export interface Pen {
   /** On paper lines stand where they belong, on a screen in the middle of pixels. */
   readonly printed: boolean;
+  readonly colour: Colours;
   /** A polyline through x, y, x, y, ...; NaN lifts the pen. */
   path(points: ArrayLike<number>, style: PathStyle): void;
   circle(x: number, y: number, radius: number, style: PathStyle): void;
@@ -34,61 +34,284 @@ export interface Pen {
   /** Words with *italic* letters and subscripts_{like this}. */
   text(text: string, x: number, y: number, style: TextStyle): void;
   measure(text: string, size: number): number;
-  image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number, smooth: boolean): void;
+  image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
   clipped(x: number, y: number, width: number, height: number, draw: () => void): void;
+  /** Draws on the sheet moved by so much: for pictures below each other, or in a corner. */
+  moved(right: number, down: number, draw: () => void): void;
 }
 
 /** The size of a subscript relative to its line, and how far it hangs below. */
-export const SUBSCRIPT_SIZE = 0.74;
-export const SUBSCRIPT_DROP = 0.22;
+const SUBSCRIPT_SIZE = 0.74;
+const SUBSCRIPT_DROP = 0.22;
 
-/** Where the first line's baseline is, relative to the place asked for. */
-export function baselineShift(baseline: TextStyle["baseline"], size: number): number {
-  return baseline === "top"
-    ? 0.8 * size
-    : baseline === "middle"
-      ? 0.34 * size
-      : baseline === "bottom"
-        ? -0.2 * size
-        : 0;
-}
+/** Where a line's baseline is relative to the place asked for, in sizes of its letters. */
+const BASELINE = { top: 0.8, middle: 0.34, bottom: -0.2 } as const;
+const baselineOf = ({ baseline, size }: TextStyle): number => (baseline === undefined ? 0 : BASELINE[baseline] * size);
 
 /** Lines of print are finer than those of screens. */
-export const PRINT_WEIGHT = 0.6;
+const PRINT_WEIGHT = 0.6;
 
 export const SCREEN_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
 export const PRINT_FONT = '"STIX Two Text", "Times New Roman", Tinos, "Liberation Serif", "DejaVu Serif", serif';
 
-let ruler: CanvasRenderingContext2D | null = null;
-
-export function fontOf(run: Run, size: number, family: string, bold = false): string {
-  const points = run.subscript ? size * SUBSCRIPT_SIZE : size;
-  return `${run.italic ? "italic " : ""}${bold ? "600 " : ""}${points}px ${family}`;
+interface Run {
+  readonly text: string;
+  readonly italic: boolean;
+  readonly subscript: boolean;
 }
+
+/** The little markup of labels: `*tau*` is italic and `_{imp}` a subscript. */
+function runsOf(text: string): Run[] {
+  const runs: Run[] = [];
+  let italic = false;
+  let subscript = false;
+  for (const part of text.split(/(\*|_\{|\})/)) {
+    if (part === "*") italic = !italic;
+    else if (part === "_{") subscript = true;
+    else if (part === "}" && subscript) subscript = false;
+    else if (part !== "") runs.push({ text: part, italic, subscript });
+  }
+  return runs;
+}
+
+/** The same without markup, for plain text. */
+export function plainText(text: string): string {
+  return runsOf(text)
+    .map((run) => run.text)
+    .join("");
+}
+
+function fontOf({ italic, subscript }: Run, size: number, family: string): string {
+  return `${italic ? "italic " : ""}${subscript ? size * SUBSCRIPT_SIZE : size}px ${family}`;
+}
+
+let ruler: CanvasRenderingContext2D | undefined;
 
 export function measureRuns(text: string, size: number, family: string): number {
-  ruler ??= document.createElement("canvas").getContext("2d");
-  if (ruler === null) return 0.55 * size * text.length;
-  let width = 0;
-  for (const run of parseRichText(text)) {
-    ruler.font = fontOf(run, size, family);
-    width += ruler.measureText(run.text).width;
-  }
-  return width;
+  const context = (ruler ??= contextOf(document.createElement("canvas")));
+  return runsOf(text).reduce((width, run) => {
+    context.font = fontOf(run, size, family);
+    return width + context.measureText(run.text).width;
+  }, 0);
 }
 
-/** The same pen with its sheet moved down, or to the right: for pictures below each other, or in a corner. */
-export function shifted(pen: Pen, down: number, right = 0): Pen {
-  const moved = (points: ArrayLike<number>) =>
-    Float64Array.from(points, (value, index) => value + (index % 2 === 1 ? down : right));
-  return {
-    printed: pen.printed,
-    path: (points, style) => pen.path(moved(points), style),
-    circle: (x, y, radius, style) => pen.circle(x + right, y + down, radius, style),
-    rect: (x, y, width, height, style) => pen.rect(x + right, y + down, width, height, style),
-    text: (text, x, y, style) => pen.text(text, x + right, y + down, style),
-    measure: (text, size) => pen.measure(text, size),
-    image: (source, x, y, width, height, smooth) => pen.image(source, x + right, y + down, width, height, smooth),
-    clipped: (x, y, width, height, draw) => pen.clipped(x + right, y + down, width, height, draw),
-  };
+export function contextOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("this browser gives no canvas to draw on");
+  return context;
 }
+
+/** Follows a polyline; `down` is false where the pen has been lifted. */
+function trace(points: ArrayLike<number>, to: (x: number, y: number, down: boolean) => void): void {
+  let down = false;
+  for (let index = 0; index + 1 < points.length; index += 2) {
+    const [x, y] = [points[index] as number, points[index + 1] as number];
+    const lifted = Number.isNaN(x) || Number.isNaN(y);
+    if (!lifted) to(x, y, down);
+    down = !lifted;
+  }
+}
+
+/** Draws on a canvas whose transform is set to CSS pixels, or to points, already. */
+export class CanvasPen implements Pen {
+  readonly colour: Colours;
+  private readonly family: string;
+  /** All widths of lines, and their dashes, times this. */
+  private readonly weight: number;
+
+  constructor(
+    private readonly context: CanvasRenderingContext2D,
+    readonly printed = false,
+  ) {
+    this.colour = printed ? printedColour : themeColour;
+    this.family = printed ? PRINT_FONT : SCREEN_FONT;
+    this.weight = printed ? PRINT_WEIGHT : 1;
+  }
+
+  path(points: ArrayLike<number>, style: PathStyle): void {
+    const { context } = this;
+    context.beginPath();
+    trace(points, (x, y, down) => (down ? context.lineTo(x, y) : context.moveTo(x, y)));
+    if (style.close === true) context.closePath();
+    this.finish(style);
+  }
+
+  circle(x: number, y: number, radius: number, style: PathStyle): void {
+    this.context.beginPath();
+    this.context.arc(x, y, radius, 0, 2 * Math.PI);
+    this.finish(style);
+  }
+
+  rect(x: number, y: number, width: number, height: number, style: PathStyle): void {
+    this.context.beginPath();
+    this.context.rect(x, y, width, height);
+    this.finish(style);
+  }
+
+  text(text: string, x: number, y: number, style: TextStyle): void {
+    const { context } = this;
+    const width = this.measure(text, style.size);
+    context.save();
+    context.translate(x, y);
+    if (style.upwards === true) context.rotate(-Math.PI / 2);
+    context.textAlign = "left";
+    context.textBaseline = "alphabetic";
+    let left = style.anchor === "middle" ? -width / 2 : style.anchor === "end" ? -width : 0;
+    for (const run of runsOf(text)) {
+      context.font = fontOf(run, style.size, this.family);
+      const top = baselineOf(style) + (run.subscript ? SUBSCRIPT_DROP * style.size : 0);
+      if (style.halo !== undefined) {
+        context.lineJoin = "round";
+        context.lineWidth = 3.5;
+        context.strokeStyle = this.colour(style.halo);
+        context.strokeText(run.text, left, top);
+      }
+      context.fillStyle = this.colour(style.colour);
+      context.fillText(run.text, left, top);
+      left += context.measureText(run.text).width;
+    }
+    context.restore();
+  }
+
+  measure(text: string, size: number): number {
+    return measureRuns(text, size, this.family);
+  }
+
+  image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
+    this.context.imageSmoothingEnabled = false;
+    this.context.drawImage(source, x, y, width, height);
+  }
+
+  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+    this.context.save();
+    this.context.beginPath();
+    this.context.rect(x, y, width, height);
+    this.context.clip();
+    draw();
+    this.context.restore();
+  }
+
+  moved(right: number, down: number, draw: () => void): void {
+    this.context.save();
+    this.context.translate(right, down);
+    draw();
+    this.context.restore();
+  }
+
+  private finish({ fill, stroke, width = 1, dash = [], opacity = 1 }: PathStyle): void {
+    const { context, weight } = this;
+    context.globalAlpha = opacity;
+    if (fill !== undefined) {
+      context.fillStyle = this.colour(fill);
+      context.fill();
+    }
+    if (stroke !== undefined) {
+      context.strokeStyle = this.colour(stroke);
+      context.lineWidth = width * weight;
+      context.lineJoin = "round";
+      context.setLineDash(dash.map((length) => length * weight));
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+}
+
+/** Writes SVG with words as text, so that they can be edited and searched. */
+export class SvgPen implements Pen {
+  readonly printed = true;
+  readonly colour = printedColour;
+  private readonly parts: string[] = [];
+  private clips = 0;
+
+  constructor(
+    private readonly width: number,
+    private readonly height: number,
+  ) {}
+
+  path(points: ArrayLike<number>, style: PathStyle): void {
+    let data = "";
+    trace(points, (x, y, down) => (data += `${down ? "L" : "M"}${short(x)} ${short(y)}`));
+    if (data !== "") this.parts.push(`<path d="${data}${style.close === true ? "Z" : ""}"${attributes(style)}/>`);
+  }
+
+  circle(x: number, y: number, radius: number, style: PathStyle): void {
+    this.parts.push(`<circle cx="${short(x)}" cy="${short(y)}" r="${short(radius)}"${attributes(style)}/>`);
+  }
+
+  rect(x: number, y: number, width: number, height: number, style: PathStyle): void {
+    this.parts.push(`<rect ${box(x, y, width, height)}${attributes(style)}/>`);
+  }
+
+  text(text: string, x: number, y: number, style: TextStyle): void {
+    const { size, halo, colour, anchor = "start" } = style;
+    const turn = style.upwards === true ? ` transform="rotate(-90 ${short(x)} ${short(y)})"` : "";
+    const round = ' stroke-width="2.5" stroke-linejoin="round" paint-order="stroke"';
+    const margin = halo === undefined ? "" : ` stroke="${printedColour(halo)}"${round}`;
+    let hung = 0;
+    const runs = runsOf(text).map((run) => {
+      const drop = run.subscript ? SUBSCRIPT_DROP * size : 0;
+      const small = run.subscript ? ` font-size="${short(size * SUBSCRIPT_SIZE)}"` : "";
+      const slant = run.italic ? ' font-style="italic"' : "";
+      const step = drop === hung ? "" : ` dy="${short(drop - hung)}"`;
+      hung = drop;
+      return `<tspan${step}${small}${slant}>${escape(run.text)}</tspan>`;
+    });
+    this.parts.push(
+      `<text x="${short(x)}" y="${short(y + baselineOf(style))}" text-anchor="${anchor}"` +
+        ` fill="${printedColour(colour)}" font-size="${short(size)}"${margin}${turn}` +
+        ` xml:space="preserve">${runs.join("")}</text>`,
+    );
+  }
+
+  measure(text: string, size: number): number {
+    return measureRuns(text, size, PRINT_FONT);
+  }
+
+  image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
+    const form = 'preserveAspectRatio="none" image-rendering="optimizeSpeed"';
+    this.parts.push(`<image ${box(x, y, width, height)} ${form} href="${source.toDataURL("image/png")}"/>`);
+  }
+
+  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+    this.clips += 1;
+    const id = `clip-${this.clips}`;
+    this.parts.push(`<clipPath id="${id}"><rect ${box(x, y, width, height)}/></clipPath><g clip-path="url(#${id})">`);
+    draw();
+    this.parts.push("</g>");
+  }
+
+  moved(right: number, down: number, draw: () => void): void {
+    this.parts.push(`<g transform="translate(${short(right)} ${short(down)})">`);
+    draw();
+    this.parts.push("</g>");
+  }
+
+  /** All of it. A length of 1 is a point, as journals give the widths of their columns. */
+  finish(title: string): string {
+    const [width, height] = [short(this.width), short(this.height)];
+    return (
+      `<svg xmlns="http://www.w3.org/2000/svg" width="${width}pt" height="${height}pt"` +
+      ` viewBox="0 0 ${width} ${height}" font-family="${escape(PRINT_FONT)}" role="img">` +
+      `<title>${escape(title)}</title><rect width="100%" height="100%" fill="${printedColour("--picture-paper")}"/>` +
+      `${this.parts.join("\n")}</svg>\n`
+    );
+  }
+}
+
+function box(x: number, y: number, width: number, height: number): string {
+  return `x="${short(x)}" y="${short(y)}" width="${short(width)}" height="${short(height)}"`;
+}
+
+function attributes({ fill, stroke, width = 1, dash = [], opacity }: PathStyle): string {
+  const area = ` fill="${fill === undefined ? "none" : printedColour(fill)}"`;
+  const clear = opacity === undefined ? "" : ` opacity="${opacity}"`;
+  if (stroke === undefined) return area + clear;
+  const lengths = dash.map((length) => short(length * PRINT_WEIGHT)).join(" ");
+  const dashes = lengths === "" ? "" : ` stroke-dasharray="${lengths}"`;
+  const line = ` stroke="${printedColour(stroke)}" stroke-width="${short(width * PRINT_WEIGHT)}"`;
+  return `${area}${line}${dashes} stroke-linejoin="round"${clear}`;
+}
+
+const short = (value: number): string => String(Math.round(value * 100) / 100);
+
+const escape = (text: string): string => text.replace(/[&<>"']/g, (letter) => `&#${letter.charCodeAt(0)};`);

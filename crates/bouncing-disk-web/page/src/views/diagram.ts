@@ -1,89 +1,71 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import "./views.css";
-
-import type { Context, Offer, Quantity, State, View } from "../contract";
-import type { Axis, Plot } from "../drawing/axes";
-import type { Colours } from "../drawing/colours";
-import { debounced, element, setText } from "../drawing/elements";
-import { confined } from "../drawing/gestures";
-import type { Window2 } from "../drawing/gestures";
-import { plain } from "../drawing/numbers";
+import type { Context, Offer, Quantity, State, View, ViewKind } from "../contract";
+import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
+import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
-import { clamp, linearScale } from "../drawing/scale";
-import { WindowPicture } from "../drawing/window_picture";
-import type { Range } from "../protocol";
-import { BranchLines } from "./diagram/branch_lines";
-import { computeColumns, RECORDED, TRANSIENT } from "./diagram/computation";
-import type { Told, Wanted } from "./diagram/computation";
-import { Description } from "./diagram/description";
+import { confined, WindowPicture, type Window2 } from "../drawing/window";
+import { debounced, element, setText } from "../elements";
+import { plain } from "../numbers";
+import { DIAGRAM_COLUMNS, type Range } from "../protocol";
+import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
+import { impactOf, tellFailure } from "./asking";
+import { BranchLines } from "./diagram/branches";
+import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Told, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
-import { diagramOffers } from "./diagram/offers";
-import { DESCRIBED, QUANTITIES } from "./diagram/quantity";
-import { Verdict } from "./diagram/verdict";
-import { DEFAULT_STATE } from "../state";
-import { tellFailure } from "./failures";
-import { amplitudeOf, axialForcing } from "./forcing";
+import { Description, Verdict } from "./diagram/words";
 
 /** More columns than this no eye tells apart, and a telephone has to compute them. */
 const MOST_COLUMNS = 2048;
 const FORCING_BOUNDS: Range = [1e-3, 1e3];
 
 class DiagramView implements View {
-  readonly name = "diagram";
-  readonly title = "Orbit diagram";
-  readonly description =
-    "The impacts that an orbit repeats, over the axial forcing parameter; zooming computes them anew.";
-  private context!: Context;
-  private picture!: WindowPicture;
-  private verdict!: Verdict;
-  private readonly quantity = element("select", { "aria-label": "Quantity over the forcing" });
-  private readonly branchesBox = element("input", { type: "checkbox" });
+  private readonly picture: WindowPicture;
+  private readonly verdict: Verdict;
+  private readonly branches: BranchLines;
+  private readonly spoken: Description;
+  private readonly quantity: HTMLSelectElement;
+  private readonly branchesBox: HTMLInputElement;
   private readonly alternative = element("p", { class: "alternative" });
   private readonly note = element("p", { class: "remark", hidden: true });
-  private branches!: BranchLines;
-  private spoken!: Description;
   private readonly dots = new Dots();
   private asked = "";
   private done = "";
   /** What was computed, when all is there. */
   private sentence = "";
-  private orbits: Told = { resting: 0, unsettled: 0, leftOut: TRANSIENT };
+  private orbits: Told = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   private told = false;
   private readonly compute = debounced(60, () => void this.fetch());
 
-  mount(host: HTMLElement, context: Context): void {
-    this.context = context;
+  constructor(
+    host: HTMLElement,
+    private readonly context: Context,
+  ) {
     this.verdict = new Verdict(context);
     this.branches = new BranchLines(context);
     this.spoken = new Description(context);
-    this.picture = new WindowPicture(
-      {
-        className: "picture-wide",
-        label: "Orbit diagram.",
-        axes: () => this.axes(),
-        paint: (pen, plot) => this.paint(pen, plot),
-        window: () => ({ x: this.state().diagram.axial_forcing, y: this.dots.range(this.state().diagram) }),
-        move: (window, settled) => this.move(window, settled),
-        reset: () => context.change({ diagram: { axial_forcing: DEFAULT_STATE.diagram.axial_forcing, range: null } }),
-        point: (at) => {
-          if (at !== null) this.verdict.point(at[0], this.state());
-        },
-        pick: ([forcing]) => void this.choose(forcing),
+    this.picture = new WindowPicture({
+      className: "picture-wide",
+      label: "Orbit diagram.",
+      axes: () => this.axes(),
+      paint: (pen, plot) => this.paint(pen, plot),
+      window: () => ({ x: this.diagram.axial_forcing, y: this.dots.range(this.diagram) }),
+      move: (window, settled) => this.move(window, settled),
+      reset: () => context.change({ diagram: { axial_forcing: DEFAULT_STATE.diagram.axial_forcing, range: null } }),
+      point: (at) => {
+        if (at !== null) this.verdict.point(at[0], context.state());
       },
-      context,
-    );
-    for (const name of QUANTITIES) this.quantity.append(element("option", { value: name }, DESCRIBED[name].name));
-    this.quantity.addEventListener("change", () => {
-      context.change({ diagram: { quantity: this.quantity.value as Quantity, range: null } });
+      pick: ([forcing]) => void this.choose(forcing),
     });
-    this.branchesBox.addEventListener("change", () => {
-      context.change({ diagram: { branches: this.branchesBox.checked } });
-    });
+    const options = Object.entries(DESCRIBED).map(([value, { name }]) => element("option", { value }, name));
+    const choose = () => context.change({ diagram: { quantity: this.quantity.value as Quantity, range: null } });
+    this.quantity = element("select", { "aria-label": "Quantity over the forcing", onchange: choose }, ...options);
+    const show = () => context.change({ diagram: { branches: this.branchesBox.checked } });
+    this.branchesBox = element("input", { type: "checkbox", onchange: show });
     const legend = element("p", { class: "legend" });
     legend.innerHTML =
       '<span class="line full"></span> stable, <span class="line dashed"></span> unstable branch; ' +
-      "○ doubling, □ fold, ◇ birth, × graze or vanishing impact. Darker dots (lighter on a dark page): more impacts. " +
+      "○ doubling, □ fold, × graze or vanishing impact. Darker dots (lighter on a dark page): more impacts. " +
       "A click gives the shared system that forcing.";
     host.append(
       element(
@@ -104,12 +86,13 @@ class DiagramView implements View {
   }
 
   show(state: State): void {
-    this.quantity.value = state.diagram.quantity;
-    this.branchesBox.checked = state.diagram.branches;
-    const noRotation = state.diagram.quantity === "angular_speed";
-    this.branchesBox.disabled = noRotation;
-    this.note.hidden = !noRotation;
-    if (noRotation) setText(this.note, noteOf(state));
+    const { quantity, branches } = state.diagram;
+    const rotation = quantity === "angular_speed";
+    this.quantity.value = quantity;
+    this.branchesBox.checked = branches;
+    this.branchesBox.disabled = rotation;
+    this.note.hidden = !rotation;
+    if (rotation) setText(this.note, noteOf(state));
     this.picture.redraw();
     this.compute();
   }
@@ -127,69 +110,84 @@ class DiagramView implements View {
   }
 
   redraw(): void {
-    this.dots.recolour(this.context.colour);
+    this.dots.recolour();
     this.picture.redraw();
     this.compute();
   }
 
   offers(): Offer[] {
-    return diagramOffers({
-      state: this.state(),
-      columns: this.dots.columns,
-      plotAxes: this.axes(),
-      paint: (pen, plot, colour) => this.paintPrinted(pen, plot, colour),
-    });
+    const { system, start, diagram } = this.context.state();
+    const fine = this.dots.columns.filter(({ coarse }) => !coarse);
+    return [
+      ...tableOffers({
+        name: "orbit diagram",
+        parameters: {
+          picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED, patience: PATIENCE,
+        }, // prettier-ignore
+        columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi"],
+        *rows() {
+          for (const { numbers } of fine) yield* rowsOf(numbers, DIAGRAM_COLUMNS.length);
+        },
+      }),
+      ...plotOffers({
+        name: "orbit diagram",
+        title: "Orbit diagram",
+        width: TWO_COLUMNS,
+        height: TWO_COLUMNS * 0.5,
+        axes: this.axes(),
+        paint: (pen, plot) => {
+          this.dots.paintPrinted(pen, plot, this.diagram);
+          this.paintLines(pen, plot);
+        },
+      }),
+    ];
   }
 
-  private state(): State {
-    return this.context.state();
+  private get diagram(): State["diagram"] {
+    return this.context.state().diagram;
   }
 
-  private axes(): { x: Axis; y: Axis } {
-    const { diagram } = this.state();
-    const { label, widest } = DESCRIBED[diagram.quantity];
+  private axes(): Axes {
+    const { label, widest } = DESCRIBED[this.diagram.quantity];
     return {
-      x: { label: "axial forcing parameter Γ = *Aω*²/(π*g*)", scale: linearScale(diagram.axial_forcing) },
-      y: { label, scale: linearScale(this.dots.range(diagram)), widest },
+      x: { label: "axial forcing parameter Γ = *Aω*²/(π*g*)", range: this.diagram.axial_forcing },
+      y: { label, range: this.dots.range(this.diagram), widest },
     };
   }
 
   private move(window: Window2, settled: boolean): void {
-    const { quantity } = this.state().diagram;
-    const { widths, bounds } = DESCRIBED[quantity];
-    const before = this.dots.range(this.state().diagram);
-    const forcing = confined(window.x, [1e-9, 100], FORCING_BOUNDS, this.state().diagram.axial_forcing);
+    const { diagram } = this;
+    const { widths, bounds } = DESCRIBED[diagram.quantity];
+    const before = this.dots.range(diagram);
+    const axial_forcing = confined(window.x, [1e-9, 100], FORCING_BOUNDS, diagram.axial_forcing);
     const range = confined(window.y, widths, bounds, before);
     const same = range[0] === before[0] && range[1] === before[1];
-    this.context.change(
-      { diagram: { axial_forcing: forcing, range: same ? this.state().diagram.range : range } },
-      { settled },
-    );
+    this.context.change({ diagram: { axial_forcing, range: same ? diagram.range : range } }, { settled });
   }
 
   /** Asks for the columns and branches of the present window, unless they are there or on their way. */
   private async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
-    const { system, start, diagram } = this.state();
-    const { impact_phase, normalised_speed } = start;
+    const state = this.context.state();
+    const { system, diagram } = state;
     const wanted = {
-      system: { ...system },
-      start: { impact_phase, normalised_speed },
+      system,
+      start: impactOf(state),
       axial_forcing: diagram.axial_forcing,
       count: clamp(laid.columns, 2, MOST_COLUMNS),
       rotation: diagram.quantity === "angular_speed",
     };
     const key = keyOf(wanted);
     if (key !== this.asked) await this.fetchDots(key, wanted, laid.rows);
-    else if (this.dots.arrange(diagram, laid.rows, this.context.colour)) this.picture.redraw();
+    else if (this.dots.arrange(diagram, laid.rows)) this.picture.redraw();
     // Whoever asked for the columns goes on when they are there.
     if (key !== this.done || key !== this.asked) return;
     // The verdicts come from the other worker, at the same time.
-    const verdicts = this.spoken.fetch(this.state());
+    const verdicts = this.spoken.fetch(this.context.state());
     // That they did not come is told where they are waited for.
     verdicts.catch(() => {});
-    const lines = await this.branches.fetch(this.state());
+    const lines = await this.branches.fetch(this.context.state());
     if (lines === "missing") return;
     if (lines === "came") this.picture.redraw();
     try {
@@ -199,7 +197,8 @@ class DiagramView implements View {
       return;
     }
     if (key !== this.done || key !== this.asked) return;
-    this.describe();
+    const seen = this.spoken.words(this.context.state(), this.dots.count, this.orbits);
+    setText(this.alternative, seen + this.branches.describe(this.context.state()));
     if (lines === "came" || !this.told) this.context.status(this.sentence);
     this.told = true;
   }
@@ -214,17 +213,17 @@ class DiagramView implements View {
     this.context.status("Computing the orbit diagram", "busy");
     try {
       this.orbits = await computeColumns(this.context, wanted, (columns) => {
-        this.dots.take(columns, this.state().diagram, rows, this.context.colour);
+        this.dots.take(columns, this.diagram, rows);
         this.picture.redraw();
       });
       if (this.asked !== key) return;
       this.done = key;
-      this.dots.end(this.state().diagram, rows, this.context.colour);
+      this.dots.end(this.diagram, rows);
       this.picture.redraw();
       const seconds = ((performance.now() - began) / 1000).toFixed(2);
-      const { resting, leftOut } = this.orbits;
+      const { resting, left_out } = this.orbits;
       const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-      const longer = leftOut > TRANSIENT ? `\u2013${leftOut}` : "";
+      const longer = left_out > TRANSIENT ? `\u2013${left_out}` : "";
       const impacts = `${RECORDED} impacts of each after ${TRANSIENT}${longer}`;
       this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
     } catch (error) {
@@ -234,25 +233,20 @@ class DiagramView implements View {
   }
 
   private paint(pen: Pen, plot: Plot): void {
-    this.dots.paint(pen, plot, this.state().diagram.quantity);
-    this.paintLines(pen, plot, this.context.colour);
+    this.dots.paint(pen, plot, this.diagram.quantity);
+    this.paintLines(pen, plot);
   }
 
-  private paintPrinted(pen: Pen, plot: Plot, colour: Colours): void {
-    this.dots.paintPrinted(pen, plot, this.state().diagram, colour);
-    this.paintLines(pen, plot, colour);
-  }
-
-  private paintLines(pen: Pen, plot: Plot, colour: Colours): void {
-    const here = axialForcing(this.state().system);
-    const x = plot.left + plot.width * plot.x.scale.share(here);
-    pen.path([x, plot.top, x, plot.top + plot.height], { stroke: colour("--picture-muted"), width: 1, dash: [2, 3] });
-    this.branches.paint(pen, plot, this.state(), colour);
+  private paintLines(pen: Pen, plot: Plot): void {
+    const state = this.context.state();
+    const x = pixelX(plot, axialForcing(state.system));
+    pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-muted", width: 1, dash: [2, 3] });
+    this.branches.paint(pen, plot, state);
   }
 
   /** Gives the shared system the amplitude of this forcing, if the library takes it. */
   private async choose(forcing: number): Promise<void> {
-    const { system } = this.state();
+    const { system } = this.context.state();
     const amplitude = amplitudeOf(forcing, system);
     try {
       await this.context.client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
@@ -262,11 +256,6 @@ class DiagramView implements View {
     } catch (error) {
       tellFailure(this.context, error);
     }
-  }
-
-  private describe(): void {
-    const seen = this.spoken.words(this.state(), this.dots.count, this.orbits);
-    setText(this.alternative, seen + this.branches.describe(this.state()));
   }
 }
 
@@ -283,4 +272,9 @@ function keyOf({ system, ...others }: Wanted): string {
   return JSON.stringify([others, others.rotation ? rest : system.restitution]);
 }
 
-export const view: View = new DiagramView();
+export const diagram: ViewKind = {
+  name: "diagram",
+  title: "Orbit diagram",
+  description: "The impacts that an orbit repeats, over the axial forcing parameter; zooming computes them anew.",
+  make: (host, context) => new DiagramView(host, context),
+};

@@ -1,31 +1,19 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
-import "./views.css";
-
-import type { Context, Offer, State, Throw, View } from "../contract";
-import { ScreenChart } from "../drawing/chart_screen";
-import { button, element, oncePerFrame, prefersLessMotion, setText } from "../drawing/elements";
-import { Layers } from "../drawing/layers";
-import { plain } from "../drawing/numbers";
-import type { MotionStart } from "../protocol";
-import { tellFailure } from "./failures";
-import { RoundingCaution } from "./rounding";
-import { Controls } from "./toss/controls";
-import { describeMoment } from "./toss/description";
-import { attachKeys } from "./toss/keys";
-import { tossLayout } from "./toss/layout";
-import { tossOffers } from "./toss/offers";
-import { describePath, paintPathInset } from "./toss/path";
-import { Player } from "./toss/player";
-import { Portrait } from "./toss/portrait";
-import { Readings } from "./toss/readings";
-import { Recording } from "./toss/recording";
-import type { Moment } from "./toss/recording";
-import { describeGains, paintScale, paintScene, stageOf } from "./toss/scene";
-import type { Stage } from "./toss/scene";
-import { ThrowForm } from "./toss/throw_form";
-import { attachThrowing, describeThrow } from "./toss/throwing";
-import { traces } from "./toss/traces";
+import type { Context, Offer, State, View, ViewKind } from "../contract";
+import { ScreenChart, layOutChart, paintChart } from "../drawing/chart";
+import { ONE_COLUMN, pictureOffers, plotOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
+import { Layers, type Point } from "../drawing/window";
+import { button, element, oncePerFrame, prefersLessMotion, setText } from "../elements";
+import { plain } from "../numbers";
+import type { FlightStart, MotionJson, MotionStart } from "../protocol";
+import { RoundingCaution, tellFailure } from "./asking";
+import { Controls, Player } from "./toss/player";
+import { paintImpacts, Portrait } from "./toss/portrait";
+import { describeMoment, Readings } from "./toss/readings";
+import { Recording, traces, type Moment } from "./toss/recording";
+import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
+import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
 
 /** The slowest rotor of Fig. 9 takes 40 periods to stop. */
 const FIRST_PERIODS = 48;
@@ -34,11 +22,12 @@ const SAMPLES_PER_PERIOD = 64;
 /** More of the motion is asked for when less than this share of it is still to be shown. */
 const AHEAD = 0.35;
 
+const COLUMNS = [
+  "time_s", "height_m", "angle_rad", "axial_velocity_m_per_s", "angular_speed_rad_per_s", "platform_height_m",
+  "platform_angle_rad", "platform_velocity_m_per_s", "platform_angular_speed_rad_per_s", "mode",
+] as const; // prettier-ignore
+
 class TossView implements View {
-  readonly name = "toss";
-  readonly title = "Toss and bounce";
-  readonly description = "Disk and platform in perspective, with time traces and the phase portrait of the impacts.";
-  private context!: Context;
   private readonly scene = new Layers(
     "picture-scene",
     "Disk and platform in perspective. Space plays or pauses, left and right move in time, Home goes to the start.",
@@ -53,66 +42,76 @@ class TossView implements View {
   private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
-  private portrait!: Portrait;
-  private controls!: Controls;
+  private readonly portrait = new Portrait((at) => this.choose(at));
   private readonly player = new Player(
     () => this.recording?.periods ?? 0,
     () => this.draw(),
+  );
+  private readonly controls = new Controls(
+    this.scene.surface,
+    this.player,
+    () => this.period(),
+    () => this.describe(),
   );
   private recording: Recording | null = null;
   private stage: Stage | null = null;
   private held: { height: number; angle: number } | null = null;
   private asked = "";
-  private throwTold: Throw | null = null;
+  private throwTold: FlightStart | null = null;
   /** Whether the motion was under way when the view was left. */
   private resumes = false;
-  private mounted = false;
   private tracesDrawn = -1;
   private anew = true;
   private readonly draw = oncePerFrame(() => this.paint());
 
-  mount(host: HTMLElement, context: Context): void {
-    this.context = context;
-    this.portrait = new Portrait(context, (phase, speed) => this.choose(phase, speed));
-    this.controls = new Controls(
-      this.player,
-      () => this.period(),
-      () => this.describe(),
-    );
-    attachKeys(
-      this.scene.surface,
-      this.player,
-      () => this.controls.toggle(),
-      () => this.describe(),
-    );
-    attachThrowing(this.scene.surface, {
+  constructor(
+    host: HTMLElement,
+    private readonly context: Context,
+  ) {
+    const throwing = {
       stage: () => this.stage,
       pose: () => this.moment(),
       system: () => context.state().system,
       phase: () => this.phase(),
       slowness: () => this.player.rate * this.period(),
-      hold: (at) => {
+      hold: (at: typeof this.held) => {
         this.held = at;
         if (at !== null) this.player.pause();
         this.draw();
       },
-      start: (thrown) => this.throwDisk(thrown),
-    });
-    const form = new ThrowForm(
-      () => context.state().system,
-      () => this.phase(),
-      (thrown) => this.throwDisk(thrown),
-    );
+      start: (thrown: FlightStart) => {
+        context.announce(describeThrow(thrown));
+        context.change({ thrown });
+      },
+    };
+    attachThrowing(this.scene.surface, throwing);
+    const scene = [this.scene.root, this.gains, this.thrown, this.rounding.root, this.alternative];
+    const charts = [this.heights.root, this.spins.root];
+    const readings = [...this.readings.elements, throwForm(throwing)];
+    const key =
+      "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there.";
+    const portrait = [
+      element("h3", {}, "Impacts"), this.portrait.layers.root, element("p", { class: "remark" }, key),
+    ]; // prettier-ignore
     host.append(
       this.controls.root,
-      tossLayout({
-        scene: [this.scene.root, this.gains, this.thrown, this.rounding.root, this.alternative],
-        traces: [this.heights.root, this.spins.root],
-        readings: [...this.readings.elements, form.root],
-        portrait: this.portrait.layers.root,
-      }),
+      element(
+        "div",
+        { class: "toss" },
+        element(
+          "div",
+          { class: "toss-left" },
+          element("div", {}, ...scene),
+          element("section", { "aria-label": "Time traces" }, ...charts),
+        ),
+        element(
+          "div",
+          { class: "toss-right" },
+          element("section", { class: "panel", "aria-label": "Readings" }, ...readings),
+          element("section", { "aria-label": "Phase portrait" }, ...portrait),
+        ),
+      ),
     );
-    this.mounted = true;
   }
 
   show(state: State): void {
@@ -133,20 +132,59 @@ class TossView implements View {
   }
 
   redraw(): void {
-    if (!this.mounted) return;
     this.tracesDrawn = -1;
     this.anew = true;
     this.draw();
   }
 
   offers(): Offer[] {
-    if (this.recording === null) return [];
-    return tossOffers(
-      this.recording,
-      this.player.now,
-      { system: this.context.state().system, start: this.start() },
-      () => this.portrait.axes(),
-    );
+    const { recording } = this;
+    if (recording === null) return [];
+    const { now } = this.player;
+    const parameters = { system: this.context.state().system, start: this.start(), periods: recording.periods };
+    return [
+      ...tableOffers({ name: "motion", parameters, columns: COLUMNS, rows: () => recording.table() }),
+      ...tableOffers({
+        name: "impacts",
+        parameters,
+        columns: ["time_s", "impact_phase_rad", "normalised_speed"],
+        rows: () => recording.impacts.map(({ time, phase, normalised_speed }) => [time, phase, normalised_speed]),
+      }),
+      ...pictureOffers({
+        name: "time traces",
+        title: "Heights and angular speeds of disk and platform",
+        width: ONE_COLUMN,
+        height: ONE_COLUMN * 1.2,
+        paint(pen, width, height) {
+          const charts = traces(recording, Math.max(now, Math.min(recording.periods, 8)));
+          // One axis of time: both have the place that the longer numbers need.
+          const plots = charts.map((chart) => layOutChart(pen, chart, width, height / 2, PRINT_SIZE));
+          const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
+          const long = (label: string) => pen.measure(label, PRINT_SIZE);
+          const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
+          charts.forEach((chart, index) => {
+            const aligned = { ...chart, y: { ...chart.y, widest } };
+            pen.moved(0, (index * height) / 2, () => paintChart(pen, aligned, width, height / 2, PRINT_SIZE));
+          });
+        },
+      }),
+      ...plotOffers({
+        name: "path of the platform",
+        title: "Path of a point of the platform: height over angle",
+        width: ONE_COLUMN,
+        height: ONE_COLUMN * 0.8,
+        axes: pathAxes(recording.system),
+        paint: (pen, plot) => paintPath(pen, plot, recording),
+      }),
+      ...plotOffers({
+        name: "phase portrait",
+        title: "Phases and speeds of the impacts",
+        width: ONE_COLUMN,
+        height: ONE_COLUMN * 0.8,
+        axes: this.portrait.axes(),
+        paint: (pen, plot) => paintImpacts(pen, plot, recording.impacts, 1.4),
+      }),
+    ];
   }
 
   private start(): MotionStart {
@@ -174,22 +212,15 @@ class TossView implements View {
   /** Asks for a motion of so many periods. Another motion begins anew; more of the same goes on. */
   private async fetch(periods: number): Promise<void> {
     const { system } = this.context.state();
-    const start = this.start();
     const motion = this.motion();
     const same = this.asked.startsWith(motion);
     const key = `${motion} ${periods}`;
     if (same && periods <= Number(this.asked.slice(motion.length))) return;
     this.asked = key;
     try {
-      const response = await this.context.client.ask("toss-motion", {
-        call: "motion",
-        system: { ...system },
-        start,
-        periods,
-        samples_per_period: SAMPLES_PER_PERIOD,
-      });
-      if (this.asked !== key) return;
-      this.take(new Recording(response, (2 * Math.PI) / system.angular_frequency, periods, system), same);
+      const request = { system, start: this.start(), periods, samples_per_period: SAMPLES_PER_PERIOD };
+      const response = await this.context.client.ask<MotionJson>("toss-motion", { call: "motion", ...request });
+      if (this.asked === key) this.take(new Recording(response, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
@@ -223,17 +254,13 @@ class TossView implements View {
 
   private paint(): void {
     const { recording, context, player } = this;
-    if (!this.mounted) return;
     const resized = this.scene.fit();
     const moment = this.moment();
     if (recording === null || moment === null || this.scene.width < 60) return;
-    if (resized || this.stage === null) this.setStage(recording);
-    const { stage } = this;
-    if (stage === null) return;
-    const pen = this.scene.data(context.colour);
-    paintScene(pen, stage, moment, context.colour);
-    paintScale(pen, stage, this.scene.height, context.colour);
-    paintPathInset(pen, recording, moment, context.colour, this.scene.width);
+    if (resized || this.stage === null) this.stage = this.stageOf(recording);
+    const pen = this.scene.data();
+    this.stage.paint(pen, moment);
+    paintPathInset(pen, recording, moment, this.scene.width);
     this.controls.show(recording.periods);
     const impacts = recording.impactsUntil(player.now * recording.period);
     this.readings.show(moment, player.now, impacts, recording);
@@ -253,16 +280,15 @@ class TossView implements View {
     this.describe();
   }
 
-  private setStage(recording: Recording): void {
+  private stageOf(recording: Recording): Stage {
     const { gyration_radius, contact_radius, twist_amplitude } = this.context.state().system;
     // A homogeneous disk of that radius of gyration; friction acts inside of its rim.
     const radius = Math.max(Math.SQRT2 * gyration_radius, contact_radius);
     const heights = recording.extent("height", "platform_height");
-    this.stage = stageOf(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
-    setText(
-      this.gains,
-      `${describeGains(this.stage)} ${describePath(recording.system)} Drag the disk upwards or sideways to throw it.`,
-    );
+    const stage = new Stage(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
+    const words = [stage.describe(), describePath(recording.system), "Drag the disk upwards or sideways to throw it."];
+    setText(this.gains, words.join(" "));
+    return stage;
   }
 
   /** Where the charts stand beside the scene, both are as high as it is. */
@@ -278,28 +304,24 @@ class TossView implements View {
     if (now === this.tracesDrawn) return;
     this.tracesDrawn = now;
     const [heights, spins] = traces(recording, now);
-    this.heights.show(heights, this.context.colour);
-    this.spins.show(spins, this.context.colour);
-  }
-
-  private throwDisk(thrown: Throw): void {
-    this.context.announce(describeThrow(thrown));
-    this.context.change({ thrown });
+    this.heights.show(heights);
+    this.spins.show(spins);
   }
 
   /** That the disk was thrown stays to be read, with the way back to the shared impact. */
-  private tellThrow(thrown: Throw | null): void {
+  private tellThrow(thrown: FlightStart | null): void {
     this.thrown.hidden = thrown === null;
     if (thrown === null || thrown === this.throwTold) return;
     this.throwTold = thrown;
-    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), { class: "quiet" });
+    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), {
+      class: "quiet",
+    });
     this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 
-  private choose(phasePeriods: number, speed: number): void {
-    const start = { impact_phase: phasePeriods * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) };
-    this.context.change({ start });
-    const at = `${plain(phasePeriods, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
+  private choose([phase, speed]: Point): void {
+    this.context.change({ start: { impact_phase: phase * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) } });
+    const at = `${plain(phase, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
     this.context.status(`The motion starts with an impact at ${at}.`);
   }
 
@@ -309,9 +331,13 @@ class TossView implements View {
     const { recording, player } = this;
     if (moment === null || recording === null) return;
     const impacts = recording.impactsUntil(player.now * recording.period);
-    const text = describeMoment(moment, player.now, impacts, recording);
-    setText(this.alternative, player.playing ? "" : text);
+    setText(this.alternative, player.playing ? "" : describeMoment(moment, player.now, impacts, recording));
   }
 }
 
-export const view: View = new TossView();
+export const toss: ViewKind = {
+  name: "toss",
+  title: "Toss and bounce",
+  description: "Disk and platform in perspective, with time traces and the phase portrait of the impacts.",
+  make: (host, context) => new TossView(host, context),
+};

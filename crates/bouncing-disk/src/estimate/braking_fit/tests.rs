@@ -108,12 +108,13 @@ fn curves_that_do_not_brake_straight_are_refused() {
     );
     assert!(matches!(refusal(&ordinary, |time| 5.0 + 20.0 * time), FitRefusal::NotBraking { .. }));
     // Air brakes a fast disk as its speed.
-    let slowing = refusal(&times(400, 0.01), |time| 50.0 * bouncing_disk_core::elementary::exp(-time));
+    let slowing =
+        refusal(&times(400, 0.01), |time| 50.0 * bouncing_disk_core::numerics::elementary::exp(-time));
     assert!(matches!(slowing, FitRefusal::NotStraight { .. } | FitRefusal::Correlated { .. }), "{slowing:?}");
     let mut noise = Noise::new(8);
     let speeds: Vec<f64> = times(400, 0.01)
         .iter()
-        .map(|time| 50.0 * bouncing_disk_core::elementary::exp(-time) + 5.0 * noise.normal())
+        .map(|time| 50.0 * bouncing_disk_core::numerics::elementary::exp(-time) + 5.0 * noise.normal())
         .collect();
     let curved = BrakingFit::new(&times(400, 0.01), &speeds, &ROTOR).expect_err("curved");
     assert!(

@@ -7,7 +7,9 @@ fn run(member: u32, noise: &mut Noise) -> MeasuredRun {
     let times: Vec<f64> = (0..100).map(|i| 0.04 * f64::from(i)).collect();
     let speeds = times
         .iter()
-        .map(|time| 20.0 * (1.0 - bouncing_disk_core::elementary::exp(-time / 0.6)) + noise.normal())
+        .map(|time| {
+            20.0 * (1.0 - bouncing_disk_core::numerics::elementary::exp(-time / 0.6)) + noise.normal()
+        })
         .collect();
     MeasuredRun { member, times, speeds }
 }
@@ -49,7 +51,8 @@ fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
                 |i: u32| 0.3 * crate::testing::golden_spread(1_000 * seed + 100 * u64::from(member + i));
             let times: Vec<f64> = (0..rows).map(|i| step * (f64::from(i) + jitter(i))).collect();
             let steady = 20.0 + 0.3 * noise.normal();
-            let speed = |time: &f64| steady * (1.0 - bouncing_disk_core::elementary::exp(-time / 0.6));
+            let speed =
+                |time: &f64| steady * (1.0 - bouncing_disk_core::numerics::elementary::exp(-time / 0.6));
             let speeds = times.iter().map(|time| speed(time) + 0.5 * noise.normal()).collect();
             MeasuredRun { member, times, speeds }
         });

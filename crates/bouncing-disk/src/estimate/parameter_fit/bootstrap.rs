@@ -1,7 +1,7 @@
 //! Intervals by resampling members and errors of measurement.
 
-use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Error;

@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, InstructionSet, Phase, Progress, Watch};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::sweep::InstructionSet;
+use bouncing_disk_core::{ChatterPolicy, Phase, Progress};
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::Error;

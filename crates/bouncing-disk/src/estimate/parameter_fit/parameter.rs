@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::numerics::elementary::{exp, ln};
 
 use crate::error::{Error, check, finite, positive};
 use crate::motor::data_sheet::Motor;

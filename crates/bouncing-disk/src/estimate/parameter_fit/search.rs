@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use bouncing_disk_core::Watch;
+use bouncing_disk_core::run::Watch;
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt, TerminationReason};
 use nalgebra::storage::Owned;
 use nalgebra::{DMatrix, DVector, Dyn};

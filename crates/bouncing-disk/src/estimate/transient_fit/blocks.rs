@@ -3,8 +3,8 @@
 //! Every block stays where it is, is made as large as its neighbours, and is multiplied by +1 or -1 (a wild bootstrap):
 //! noise may vary along the curve.
 
-use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::estimate::refusal::FitRefusal;

@@ -1,7 +1,7 @@
 //! Resampling the members of an ensemble.
 
-use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::estimate::transient_fit::resamples::Resampled;

@@ -1,7 +1,7 @@
 //! Where in a record a rise begins: rows before the switch-on, or of a dead time, have one speed.
 
-use bouncing_disk_core::WorkCount;
-use bouncing_disk_core::elementary::{exp, ln};
+use bouncing_disk_core::numerics::elementary::{exp, ln};
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::statistics::correlation_time;

@@ -1,7 +1,7 @@
 //! What the fits of resampled curves say of the error of a fit.
 
-use bouncing_disk_core::WorkCount;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::estimate::refusal::FitRefusal;

@@ -1,7 +1,7 @@
 //! Least-squares fits of many curves by their moments with shapes that are computed once.
 
-use bouncing_disk_core::WorkCount;
-use bouncing_disk_core::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::Error;
 use crate::estimate::fit::Start;

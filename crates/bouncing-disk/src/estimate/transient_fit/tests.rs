@@ -83,7 +83,7 @@ fn intervals_of_synthetic_ensembles_cover_the_truth() {
 fn intervals_of_synthetic_measurements_cover_the_truth() {
     let even = |_: f64| 1.0;
     let grows = |time: f64| 0.2 + 0.5 * time;
-    let falls = |time: f64| 0.2 + 4.0 * bouncing_disk_core::elementary::exp(-time / 0.3);
+    let falls = |time: f64| 0.2 + 4.0 * bouncing_disk_core::numerics::elementary::exp(-time / 0.3);
     type Scatter<'s> = &'s dyn Fn(f64) -> f64;
     let cases: [(f64, u32, f64, Scatter<'_>); 7] = [
         (0.0, 60, 4.0, &even),
@@ -139,7 +139,7 @@ fn the_start_of_a_record_does_not_mislead_its_fit() {
             let mut random = Noise::new(31 * seed);
             let rise = |&time: &f64| {
                 let since = (time - zero).max(0.0);
-                OWN[0] - (OWN[0] - speed) * bouncing_disk_core::elementary::exp(-since / OWN[1])
+                OWN[0] - (OWN[0] - speed) * bouncing_disk_core::numerics::elementary::exp(-since / OWN[1])
             };
             let mut run = || times.iter().map(|time| rise(time) + noise * random.normal()).collect();
             let runs: Vec<Vec<f64>> = (0..members).map(|_| run()).collect();
@@ -202,7 +202,7 @@ fn the_grid_finds_the_fits_of_the_search() {
                 let fit = ExponentialFit::new(&times, &curve, &Unobserved).expect("legal");
                 (fit.steady_speed, fit.time_constant)
             };
-            let by_constant = found.log_constant - bouncing_disk_core::elementary::ln(constant);
+            let by_constant = found.log_constant - bouncing_disk_core::numerics::elementary::ln(constant);
             let by_steady = found.steady / steady - 1.0;
             // A ramp has a kink at every point, where the gain has none of a parabola's.
             let tolerance = if is_ramp { 5e-3 } else { 1e-4 };
@@ -309,7 +309,7 @@ fn curves_that_mean_nothing_are_refused_with_the_reason() {
 }
 
 fn sin(x: f64) -> f64 {
-    bouncing_disk_core::elementary::sin(x)
+    bouncing_disk_core::numerics::elementary::sin(x)
 }
 
 #[test]

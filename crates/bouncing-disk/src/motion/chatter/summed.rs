@@ -1,7 +1,8 @@
 //! A chatter in closed form: pieces of many impacts in which the disk slides one way or follows the platform.
 
-use bouncing_disk_core::elementary::sin_cos;
-use bouncing_disk_core::{ChatterSeries, ImpactRange, Launch, Phase, PowerSeries};
+use bouncing_disk_core::chatter::{ChatterSeries, ImpactRange, PowerSeries};
+use bouncing_disk_core::numerics::elementary::sin_cos;
+use bouncing_disk_core::{Launch, Phase};
 
 use crate::motion::chatter::Chatter;
 use crate::motion::impact::friction_impact;

@@ -1,8 +1,9 @@
 use std::convert::Infallible;
 
-use bouncing_disk_core::elementary::pow;
+use bouncing_disk_core::Launch;
+use bouncing_disk_core::chatter::Accumulation;
+use bouncing_disk_core::numerics::elementary::pow;
 use bouncing_disk_core::numerics::roots::bisected_bracket;
-use bouncing_disk_core::{Accumulation, Launch};
 
 use super::*;
 use crate::parameters::dimensionless::DimensionlessParameters;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::elementary::pow;
+use bouncing_disk_core::numerics::elementary::pow;
 use bouncing_disk_core::{ImpactState, Phase, Vibration};
 
 use super::*;

@@ -1,7 +1,8 @@
 //! The engine under laws of restitution that depend on the speed.
 
-use bouncing_disk_core::elementary::pow;
-use bouncing_disk_core::{KuwabaraKono, Phase};
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::map::KuwabaraKono;
+use bouncing_disk_core::numerics::elementary::pow;
 use proptest::prelude::*;
 
 use super::*;

@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use bouncing_disk_core::{Observer, RestitutionLaw, Watch};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::map::RestitutionLaw;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, check, room_for};
 use crate::motion::engine::Engine;

@@ -1,7 +1,7 @@
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_core::elementary::sin_cos;
+use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::{Phase, Vibration};
 use proptest::prelude::*;
 
@@ -55,7 +55,8 @@ fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
     ] {
         for exponent in 1..=40 {
             for speed in [0.104_885_647_927_958_9, 1e-3, 7.0, 100.0] {
-                let excess = friction * bouncing_disk_core::elementary::exp(-0.75 * f64::from(exponent));
+                let excess =
+                    friction * bouncing_disk_core::numerics::elementary::exp(-0.75 * f64::from(exponent));
                 let parameters = DimensionlessParameters {
                     peak_acceleration,
                     twist_speed,

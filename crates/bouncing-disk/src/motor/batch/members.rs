@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Phase, WorkCount};
+use bouncing_disk_core::run::WorkCount;
 
 use crate::error::{Error, check, room_for, within_limit};
 use crate::motor::rotor::transient::{SpeedCurve, TransientSettings};

@@ -1,6 +1,6 @@
 //! The rotary motion of many rotors from impact to impact, in lockstep: as [`Run::step`](crate::motor::rotor::transient::Run::step).
 
-use bouncing_disk_core::{Flights, LaneImpacts, LaneLoop};
+use bouncing_disk_core::sweep::{Flights, LaneImpacts, LaneLoop};
 
 use crate::motor::rotor::Bounce;
 use crate::motor::rotor::transient::{Interval, Run, seconds};

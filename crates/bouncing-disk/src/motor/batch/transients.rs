@@ -2,9 +2,9 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::{
-    ChatterPolicy, Flights, InstructionSet, Launch, Observer, PartialResults, Watch, WorkCount,
-};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::sweep::{Flights, InstructionSet, PartialResults};
+use bouncing_disk_core::{ChatterPolicy, Launch, Observer};
 
 use crate::error::Error;
 use crate::motor::batch::members::TransientMember;

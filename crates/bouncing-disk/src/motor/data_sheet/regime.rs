@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Phase, Watch};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Phase};
 
 use crate::display::rough;
 use crate::error::Error;

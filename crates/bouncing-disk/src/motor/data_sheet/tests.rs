@@ -3,10 +3,9 @@
 use std::f64::consts::{PI, TAU};
 use std::mem::discriminant;
 
-use bouncing_disk_core::elementary::exp;
-use bouncing_disk_core::{
-    ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration, lyapunov_exponents,
-};
+use bouncing_disk_core::chaos::lyapunov_exponents;
+use bouncing_disk_core::numerics::elementary::exp;
+use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration};
 use proptest::prelude::*;
 
 use super::*;

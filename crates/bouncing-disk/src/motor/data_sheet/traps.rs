@@ -7,9 +7,8 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{
-    ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Unobserved, Watch, WorkCount,
-};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent, Unobserved};
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::Observer;
-use bouncing_disk_core::elementary::wrapped_angle;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 use crate::error::Error;
 use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate};

@@ -1,6 +1,6 @@
 //! The energies of the rotors on one vertical motion.
 
-use bouncing_disk_core::LaneLoop;
+use bouncing_disk_core::sweep::LaneLoop;
 
 use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 

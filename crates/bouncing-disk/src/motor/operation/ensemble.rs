@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;

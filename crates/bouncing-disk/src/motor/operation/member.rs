@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{
-    Attachment, ChatterPolicy, Impact, InstructionSet, LaneRunner, OrbitEvent, WorkCount,
-};
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
+use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;

@@ -5,7 +5,8 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, Phase, WorkCount};
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::{ChatterPolicy, Phase};
 
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;

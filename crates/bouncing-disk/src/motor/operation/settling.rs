@@ -62,7 +62,7 @@ pub(crate) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::elementary::exp;
+    use bouncing_disk_core::numerics::elementary::exp;
     use bouncing_disk_core::numerics::random::SplitMix64;
 
     use super::*;

@@ -6,7 +6,7 @@
 
 use std::f64::consts::LN_10;
 
-use bouncing_disk_core::elementary::exp;
+use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress};

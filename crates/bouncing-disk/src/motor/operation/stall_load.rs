@@ -1,7 +1,7 @@
 //! The load that stops a motor, bracketed.
 
 use bouncing_disk_core::Observer;
-use bouncing_disk_core::elementary::hypot;
+use bouncing_disk_core::numerics::elementary::hypot;
 
 use crate::error::Error;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk_core::elementary::{exp, ln_1p};
-use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Vibration, Watch, WorkCount};
+use bouncing_disk_core::numerics::elementary::{exp, ln_1p};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Vibration};
 
 use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;

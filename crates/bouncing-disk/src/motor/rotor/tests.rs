@@ -1,5 +1,5 @@
 use bouncing_disk_core::ImpactState;
-use bouncing_disk_core::elementary::pow;
+use bouncing_disk_core::numerics::elementary::pow;
 
 use super::*;
 use crate::motion::engine::Engine;

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::mean;
-use bouncing_disk_core::{ChatterPolicy, Observer, Phase, Watch, WorkCount, read_checked};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ChatterPolicy, Observer, Phase, read_checked};
 
 use crate::error::{Error, check, finite, moderate_not_negative, positive, room_for};
 use crate::motion::phase_time::PhaseSpan;

@@ -1,6 +1,6 @@
 //! Local sensitivities: by which power of a parameter the steady speed or the stall torque changes (Fig. 13).
 
-use bouncing_disk_core::elementary::{exp, hypot, ln};
+use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 use bouncing_disk_core::{Observer, Progress};

@@ -1,8 +1,9 @@
 //! Elementary effects (Morris) of any function: a cheap ranking of its arguments over ranges.
 
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::run::Watch;
 
 use crate::error::Error;
 use crate::motor::operation::point::Estimate;

@@ -1,8 +1,9 @@
 //! Sobol' indices of any function: which share of its variance, over ranges of its arguments, each argument
 //! has.
 
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{Observer, Watch};
+use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, check, finite};
 use crate::motor::operation::point::Estimate;

@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::{Observer, PartialResults, Progress, Watch};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::sweep::PartialResults;
+use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::Error;
 use crate::motor::operation::of_motor::operations;

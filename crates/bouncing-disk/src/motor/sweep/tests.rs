@@ -261,7 +261,7 @@ fn a_run_of_another_sweep_is_refused() {
     let mut run = MotorSweepRun::new(&one);
     assert_eq!(run.advance(&other, &Unobserved), Err(unfitting("items of a run", 1, 6)));
     // As many groups, of another size.
-    let mut finished = bouncing_disk_core::PartialResults::new(1);
+    let mut finished = bouncing_disk_core::sweep::PartialResults::new(1);
     finished.extend([(0, Vec::new())]);
     let mut run = MotorSweepRun::from(finished);
     let wrong = unfitting("cells of a group of a sweep", 0, 1);

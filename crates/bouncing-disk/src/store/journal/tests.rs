@@ -269,7 +269,8 @@ fn a_process_that_is_killed_goes_on_where_it_was() {
 
 #[test]
 fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
-    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, SweepRun, Vibration, orbit_diagram};
+    use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
+    use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Vibration};
 
     let scratch = Scratch::new("sweep");
     let key = Provenance::new(JOURNAL).with("forcings", &"0.5 to 0.6").expect("storable");

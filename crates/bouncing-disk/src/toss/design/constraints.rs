@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk_core::elementary::acos;
+use bouncing_disk_core::numerics::elementary::acos;
 
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::DiskParameters;

@@ -223,7 +223,7 @@ impl<'a> Inputs<'a> {
                     of(&shifts).map(|value| -value)
                 };
                 let middle =
-                    bouncing_disk_core::numerics::minimum::golden_section(low, high, SECTIONS, &mut along)?;
+                    bouncing_disk_core::numerics::roots::golden_section(low, high, SECTIONS, &mut along)?;
                 let value = -along(middle)?;
                 if value > best {
                     best = value;

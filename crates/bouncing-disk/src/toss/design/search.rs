@@ -1,7 +1,7 @@
 //! The search: a grid over frequency, lag and amplitude angle, then golden sections inside of each other
 //! around its best points (docs/numerics/design.md, "The search").
 
-use bouncing_disk_core::{Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount};
 
 use crate::error::Error;
 use crate::toss::design::constraints::{TossCertificate, TossConstraints};

@@ -1,7 +1,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::{ChatterPolicy, OrbitSearch, Unobserved};
+use bouncing_disk_core::orbits::OrbitSearch;
+use bouncing_disk_core::{ChatterPolicy, Unobserved};
 
 use super::*;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};

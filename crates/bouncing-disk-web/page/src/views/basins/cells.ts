@@ -1,13 +1,14 @@
-/** The cells of one window of starts, coloured by what became of them. */
+/** The cells of one window of starts, coloured by what became of them, and the requests for them: coarse ones first. */
 
-import type { Colours } from "../../drawing/colours";
-import { parseColour, pixelWord } from "../../drawing/colours";
+import type { Context } from "../../contract";
+import { pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import { contextOf } from "../../drawing/pen";
+import type { Window2 } from "../../drawing/window";
+import { element } from "../../elements";
 import type { Range } from "../../protocol";
 
 /** The label of a cell of which no row has come. */
 const UNKNOWN = 255;
-/** What no attractor is called: the undecided ones. */
-const UNDECIDED = 0;
 const CATEGORIES = 8;
 /** Pixels from stripe to stripe of the pattern of undecided cells. */
 const STRIPES = 6;
@@ -20,61 +21,58 @@ export interface Grid {
 }
 
 export class Cells {
-  readonly canvas = document.createElement("canvas");
+  readonly canvas: HTMLCanvasElement;
   private readonly labels: Uint8Array;
 
   /** A cell has `scale` by `scale` pixels, so that the pattern of undecided cells is seen. */
   constructor(
     readonly grid: Grid,
     private readonly scale: number,
+    /** The labels of the attractors, in the order of their colours; cells with others are undecided. */
+    private readonly known: readonly number[],
   ) {
     this.labels = new Uint8Array(grid.phases * grid.speeds).fill(UNKNOWN);
-    this.canvas.width = grid.phases * scale;
-    this.canvas.height = grid.speeds * scale;
+    this.canvas = element("canvas", { width: grid.phases * scale, height: grid.speeds * scale });
   }
 
-  get window(): { x: Range; y: Range } {
+  get window(): Window2 {
     return { x: this.grid.phase_periods, y: this.grid.normalised_speed };
   }
 
-  add(labels: Uint8Array, from: number, known: readonly number[], colour: Colours): void {
+  add(labels: Uint8Array, from: number): void {
     this.labels.set(labels, from * this.grid.phases);
-    this.paint(from, from + labels.length / this.grid.phases, known, colour);
+    this.paint(from, from + labels.length / this.grid.phases, themeColour);
+  }
+
+  repaint(colour: Colours): void {
+    this.paint(0, this.grid.speeds, colour);
   }
 
   /** Colours rows of cells; the lowest speed is at the bottom. */
-  paint(from: number, to: number, known: readonly number[], colour: Colours): void {
-    const { scale, grid, labels } = this;
-    const context = this.canvas.getContext("2d");
-    if (context === null || to <= from) return;
+  private paint(from: number, to: number, colour: Colours): void {
+    const { scale, grid, labels, known } = this;
+    if (to <= from) return;
+    const context = contextOf(this.canvas);
     const width = grid.phases * scale;
     const image = context.createImageData(width, (to - from) * scale);
     const words = new Uint32Array(image.data.buffer);
-    const table = new Uint32Array(256);
-    const undecided = pixelWord(parseColour(colour("--undecided")));
-    const stripe = pixelWord(parseColour(colour("--undecided-line")));
-    table.fill(undecided);
-    known.forEach((label, index) => {
-      table[label] = pixelWord(parseColour(colour(categoryColour(index))));
-    });
+    const wordOf = (name: string) => pixelWord(colour(name));
+    const table = new Uint32Array(256).fill(wordOf("--undecided"));
+    const striped = new Uint8Array(256).fill(1);
+    const stripe = wordOf("--undecided-line");
+    known.forEach((label, index) => (table[label] = wordOf(categoryColour(index))));
     table[UNKNOWN] = 0;
-    const decided = new Uint8Array(256);
-    for (const label of known) decided[label] = 1;
-    decided[UNKNOWN] = 1;
+    for (const label of [...known, UNKNOWN]) striped[label] = 0;
     const top = (grid.speeds - to) * scale;
     for (let y = 0; y < image.height; y += 1) {
       const row = grid.speeds - 1 - Math.floor((top + y) / scale);
       for (let x = 0; x < width; x += 1) {
         const label = labels[row * grid.phases + Math.floor(x / scale)] as number;
-        const isStripe = decided[label] === 0 && (x + top + y) % STRIPES < 2;
+        const isStripe = striped[label] === 1 && (x + top + y) % STRIPES < 2;
         words[y * width + x] = isStripe ? stripe : (table[label] as number);
       }
     }
     context.putImageData(image, 0, top);
-  }
-
-  repaint(known: readonly number[], colour: Colours): void {
-    this.paint(0, this.grid.speeds, known, colour);
   }
 
   /** The label of the cell with this start; null where it is not known or outside. */
@@ -93,9 +91,9 @@ export class Cells {
     for (const label of this.labels) counts[label] = (counts[label] as number) + 1;
     const all = this.labels.length - (counts[UNKNOWN] as number);
     const shares = new Map<number, number>();
-    for (let label = 0; label < UNKNOWN; label += 1) {
-      if (counts[label] !== 0) shares.set(label, (counts[label] as number) / all);
-    }
+    counts.subarray(0, UNKNOWN).forEach((count, label) => {
+      if (count !== 0) shares.set(label, count / all);
+    });
     return shares;
   }
 
@@ -106,18 +104,56 @@ export class Cells {
       const speed = y[0] + ((row + 0.5) / speeds) * (y[1] - y[0]);
       for (let column = 0; column < phases; column += 1) {
         const label = this.labels[row * phases + column] as number;
-        if (label === UNKNOWN) continue;
-        yield [x[0] + ((column + 0.5) / phases) * (x[1] - x[0]), speed, label];
+        if (label !== UNKNOWN) yield [x[0] + ((column + 0.5) / phases) * (x[1] - x[0]), speed, label];
       }
     }
   }
 }
 
-export function isUndecided(label: number, known: readonly number[]): boolean {
-  return label === UNDECIDED || !known.includes(label);
-}
-
 /** Colours repeat only after eight attractors; the first one is mostly the disk at rest. */
 export function categoryColour(index: number): string {
   return `--category-${index < CATEGORIES ? index : 1 + ((index - 1) % (CATEGORIES - 1))}`;
+}
+
+/** A coarse cell stands for so many in both directions. */
+const COARSE = 4;
+const MOST_PHASES = 600;
+const MOST_SPEEDS = 450;
+/** Cells of one request: some ten milliseconds of the worker. */
+const CELLS_AT_ONCE = 12_000;
+
+/** The coarse grid of a plot of so many device pixels, and the fine one. */
+export function gridsOf(
+  window: Pick<Grid, "phase_periods" | "normalised_speed">,
+  columns: number,
+  rows: number,
+): [Grid, Grid] {
+  const phases = Math.max(Math.min(columns, MOST_PHASES), 2);
+  const speeds = Math.max(Math.min(rows, MOST_SPEEDS), 2);
+  const coarse = { phases: Math.ceil(phases / COARSE), speeds: Math.ceil(speeds / COARSE) };
+  return [
+    { ...window, ...coarse },
+    { ...window, phases, speeds },
+  ];
+}
+
+/** Gives the labels of rows of the grids, one grid after the other, to `take`. */
+export async function computeCells(
+  context: Context,
+  map: { readonly axial_forcing: number; readonly restitution: number },
+  grids: readonly Grid[],
+  take: (labels: Uint8Array, grid: number, from: number) => void,
+): Promise<void> {
+  const parts = grids.flatMap((grid, index) => {
+    const step = Math.max(Math.floor(CELLS_AT_ONCE / grid.phases), 1);
+    return Array.from({ length: Math.ceil(grid.speeds / step) }, (_, part) => {
+      const rows = [part * step, Math.min((part + 1) * step, grid.speeds)] as const;
+      return { index, rows, request: { call: "basins", ...map, ...grid, rows } as const };
+    });
+  });
+  const requests = parts.map(({ request }) => request);
+  await context.client.series("basins", requests, ({ bytes }, part) => {
+    const { index, rows } = parts[part] as (typeof parts)[number];
+    take(bytes, index, rows[0]);
+  });
 }

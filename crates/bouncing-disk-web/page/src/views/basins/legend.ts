@@ -1,23 +1,26 @@
-/** The attractors in words, with the shares of the starts that end on them. */
+/** The attractors in words, with the shares of the starts that end on them: on the screen and in print. */
 
-import { element } from "../../drawing/elements";
-import { brief, grouped, percent } from "../../drawing/numbers";
-import type { AttractorsJson } from "../../protocol";
-import { categoryColour, isUndecided } from "./cells";
+import { ONE_COLUMN, PRINT_SIZE } from "../../drawing/files";
+import { measureRuns, PRINT_FONT, type Pen } from "../../drawing/pen";
+import { element, setText } from "../../elements";
+import { brief, grouped, percent } from "../../numbers";
+import type { AttractorJson, AttractorsJson } from "../../protocol";
+import { categoryColour } from "./cells";
 
-type Attractor = AttractorsJson["attractors"][number];
+type Shares = ReadonlyMap<number, number>;
 
 const HINT = "Point at a start to read where it ends.";
 
 export class Legend {
-  readonly root = element("section", { class: "panel", "aria-label": "Attractors" });
+  readonly root: HTMLElement;
   private readonly list = element("ol", { class: "attractors" });
   private readonly pointed = element("p", { class: "pointed", "aria-live": "polite" }, HINT);
   private readonly note = element("p", { class: "remark" });
 
   /** `caution` stands below the list. */
   constructor(caution: HTMLElement) {
-    this.root.append(element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note);
+    const parts = [element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note];
+    this.root = element("section", { class: "panel", "aria-label": "Attractors" }, ...parts);
   }
 
   /** Nothing, where no attractors are known. */
@@ -35,72 +38,55 @@ export class Legend {
   }
 
   /** `shares` are those of the cells of the window; null as long as they are not computed. */
-  show(found: AttractorsJson, shares: ReadonlyMap<number, number> | null): void {
+  show(found: AttractorsJson, shares: Shares | null): void {
     this.dim(false);
     this.note.textContent = describeSample(found);
     const items = found.attractors.map((attractor, index) => {
-      const item = element(
-        "li",
-        {},
-        element("span", { class: "swatch", style: `background:var(${categoryColour(index)})`, "aria-hidden": "true" }),
-        element(
-          "span",
-          {},
-          describe(attractor, found),
-          " ",
-          ...sharesOf(windowShare(attractor, shares), sampleShare(attractor)),
-        ),
-      );
-      return item;
+      const style = `background:var(${categoryColour(index)})`;
+      const words = sharesOf(windowShare(attractor, shares), sampleShare(attractor));
+      return item(element("span", { class: "swatch", style, "aria-hidden": "true" }), describe(attractor, found), words);
     });
-    items.push(
-      element(
-        "li",
-        {},
-        element("span", { class: "swatch undecided", "aria-hidden": "true" }),
-        element(
-          "span",
-          {},
-          "Undecided: not on any of these after the allowed number of impacts. ",
-          ...sharesOf(undecidedShare(found, shares), percent(found.undecided)),
-        ),
-      ),
-    );
+    const undecided = "Undecided: not on any of these after the allowed number of impacts.";
+    const swatch = element("span", { class: "swatch undecided", "aria-hidden": "true" });
+    items.push(item(swatch, undecided, sharesOf(undecidedShare(found, shares), percent(found.undecided))));
     this.list.replaceChildren(...items);
-  }
+  } // prettier-ignore
 
   /** What is under the pointer. */
   point(text: string): void {
-    if (this.pointed.textContent !== text) this.pointed.textContent = text;
+    setText(this.pointed, text);
   }
 }
 
-export function labelsOf(found: AttractorsJson | null): number[] {
-  return found?.attractors.flatMap(({ label }) => (label === null ? [] : [label])) ?? [];
+function item(swatch: HTMLElement, words: string, shares: (HTMLElement | string)[]): HTMLElement {
+  return element("li", {}, swatch, element("span", {}, words, " ", ...shares));
 }
 
-export function describe(attractor: Attractor, found: AttractorsJson): string {
+/** The labels of cells that are decided. */
+export function labelsOf(found: AttractorsJson): number[] {
+  return found.attractors.flatMap(({ label }) => (label === null ? [] : [label]));
+}
+
+export function describe(attractor: AttractorJson, found: AttractorsJson): string {
   const text = attractor.text.replace(/\.$/, "");
-  if (attractor.lasts || attractor.leads_to === null)
-    return attractor.lasts ? `${text}.` : `${text}; it does not last.`;
+  if (attractor.lasts) return `${text}.`;
+  if (attractor.leads_to === null) return `${text}; it does not last.`;
   const target = found.attractors[attractor.leads_to]?.text.replace(/\.$/, "") ?? "another attractor";
   return `${text}; it does not last, and leads to: ${target}.`;
 }
 
 /** The share of the cells of the window; null where it is not known. An attractor that has none of them has 0. */
-export function windowShare({ label }: Attractor, shares: ReadonlyMap<number, number> | null): number | null {
+function windowShare({ label }: AttractorJson, shares: Shares | null): number | null {
   return shares === null || label === null ? null : (shares.get(label) ?? 0);
 }
 
-export function undecidedShare(found: AttractorsJson, shares: ReadonlyMap<number, number> | null): number | null {
+export function undecidedShare(found: AttractorsJson, shares: Shares | null): number | null {
   if (shares === null) return null;
   const known = labelsOf(found);
-  let undecided = 0;
-  for (const [label, share] of shares) if (isUndecided(label, known)) undecided += share;
-  return undecided;
+  return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);
 }
 
-function sampleShare({ share, interval: [low, high] }: Attractor): string {
+function sampleShare({ share, interval: [low, high] }: AttractorJson): string {
   return `${percent(share)} (95 %: ${percent(low)} to ${percent(high)})`;
 }
 
@@ -117,4 +103,77 @@ function describeSample({ starts, fastest_start }: AttractorsJson): string {
     `${grouped(String(starts))} starts spread evenly over all phases and all normalised speeds up to the bound that no ` +
     `attractor exceeds at that phase (${brief(fastest_start, 3)} at most); the intervals are those of a random sample.`
   );
+}
+
+const LEFT = PRINT_SIZE;
+const INDENT = 0.5 * PRINT_SIZE;
+const LINE = 1.3 * PRINT_SIZE;
+const GAP = 0.3 * LINE;
+const SWATCH = 1.2 * PRINT_SIZE;
+const SWATCH_HEIGHT = 0.8 * PRINT_SIZE;
+/** More attractors than this are counted and not listed. */
+const MOST = 12;
+
+/** Below the plot: attractors by their shares of the window, those with the largest first. */
+export function printedLegend(found: AttractorsJson, shares: Shares) {
+  const entry = (swatch: string | null, words: string, share: number | null) => ({
+    swatch,
+    lines: wrapped(`${percent(share ?? 0)}: ${words}`),
+  });
+  const known = found.attractors.map((attractor, index) => ({
+    share: windowShare(attractor, shares) ?? 0,
+    swatch: categoryColour(index),
+    words: describe(attractor, found),
+  }));
+  const sorted = known.sort((one, other) => other.share - one.share);
+  const entries = sorted.slice(0, MOST).map(({ share, swatch, words }) => entry(swatch, words, share));
+  const rest = sorted.slice(MOST);
+  if (rest.length > 0) {
+    const together = rest.reduce((sum, { share }) => sum + share, 0);
+    entries.push(entry(null, `on ${rest.length} other attractors.`, together));
+  }
+  entries.push(entry("--undecided", "undecided.", undecidedShare(found, shares)));
+  const lines = entries.reduce((sum, { lines: { length } }) => sum + length, 0);
+  return {
+    height: (lines + 2) * LINE + GAP * entries.length,
+    paint(pen: Pen, top: number): void {
+      const ink = { colour: "--picture-text", size: PRINT_SIZE, baseline: "top" } as const;
+      let y = top + GAP;
+      pen.text("Shares of the starts in this window by what they end on:", LEFT, y, ink);
+      y += 1.3 * LINE;
+      for (const { swatch, lines } of entries) {
+        const frame = { fill: swatch ?? "", stroke: "--picture-frame", width: 0.6 };
+        if (swatch !== null) pen.rect(LEFT, y, SWATCH, SWATCH_HEIGHT, frame);
+        if (swatch === "--undecided") stripes(pen, y);
+        for (const line of lines) {
+          pen.text(line, LEFT + SWATCH + INDENT, y, ink);
+          y += LINE;
+        }
+        y += GAP;
+      }
+    },
+  };
+}
+
+/** The pattern by which undecided cells are told from others. */
+function stripes(pen: Pen, y: number): void {
+  const points: number[] = [];
+  for (let x = LEFT; x < LEFT + SWATCH - SWATCH_HEIGHT / 2; x += 3)
+    points.push(x, y + SWATCH_HEIGHT, x + SWATCH_HEIGHT / 2, y, NaN, NaN);
+  pen.path(points, { stroke: "--undecided-line", width: 1 });
+}
+
+/** Words in lines that are no longer than the column has room for. */
+function wrapped(text: string): string[] {
+  const room = ONE_COLUMN - 2 * LEFT - SWATCH - INDENT;
+  const lines: string[] = [];
+  let line = "";
+  for (const word of text.split(" ")) {
+    const longer = line === "" ? word : `${line} ${word}`;
+    if (line !== "" && measureRuns(longer, PRINT_SIZE, PRINT_FONT) > room) {
+      lines.push(line);
+      line = word;
+    } else line = longer;
+  }
+  return [...lines, line];
 }

@@ -1,14 +1,70 @@
 /** Branches of periodic orbits over the diagram: full lines where they are stable, dashed ones where not. */
 
-import type { Quantity } from "../../contract";
-import { pixelX, pixelY } from "../../drawing/axes";
-import type { Plot } from "../../drawing/axes";
-import type { Colours } from "../../drawing/colours";
+import type { Context, Quantity, State } from "../../contract";
+import { crossAt, pixelX, pixelY, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
-import { BRANCH_COLUMNS } from "../../protocol";
-import type { BranchesJson, Range } from "../../protocol";
-import { forcingText } from "./forcing_text";
-import { axisValue, columnOf } from "./quantity";
+import { minus } from "../../numbers";
+import { BRANCH_COLUMNS, type BranchesJson, type Range } from "../../protocol";
+import { tellFailure } from "../asking";
+import { axisValue, columnOf } from "./columns";
+
+const SLOT = "diagram-branches";
+
+/** The branches of the present window: asked for, kept, drawn and told. */
+export class BranchLines {
+  private found: (Branches & { readonly restitution: number }) | null = null;
+  private asked = "";
+  private done = "";
+
+  constructor(private readonly context: Context) {}
+
+  /** Asks for those of a state, unless they are there (or none is wanted: ready) or on their way (missing). */
+  async fetch(state: State): Promise<"ready" | "came" | "missing"> {
+    const { restitution } = state.system;
+    const { axial_forcing } = state.diagram;
+    const key = JSON.stringify([restitution, axial_forcing]);
+    if (!isDrawn(state)) return "ready";
+    if (key === this.asked) return key === this.done ? "ready" : "missing";
+    this.asked = key;
+    this.context.status("Continuing the branches", "busy");
+    try {
+      const request = { call: "branches", restitution, axial_forcing } as const;
+      const { json, numbers } = await this.context.client.series<BranchesJson>(SLOT, [request]);
+      this.found = { json, numbers, restitution };
+      this.done = key;
+      return this.asked === key ? "came" : "missing";
+    } catch (error) {
+      if (this.asked === key) this.asked = this.done = "";
+      tellFailure(this.context, error);
+      return "missing";
+    }
+  }
+
+  /** What does not come is asked for when it is wanted again. */
+  cancel(): void {
+    this.context.client.cancel(SLOT);
+    this.asked = this.done;
+  }
+
+  paint(pen: Pen, plot: Plot, state: State): void {
+    const lines = this.of(state);
+    if (lines !== null) paintBranches(pen, plot, lines, state.diagram.quantity);
+  }
+
+  describe(state: State): string {
+    const lines = this.of(state);
+    return lines === null ? "" : ` ${describeBifurcations(lines, state.diagram.axial_forcing)}`;
+  }
+
+  /** Those of another window are the same lines; those of another coefficient of restitution are others. */
+  private of(state: State): Branches | null {
+    return isDrawn(state) && this.found?.restitution === state.system.restitution ? this.found : null;
+  }
+}
+
+function isDrawn({ diagram }: State): boolean {
+  return diagram.branches && diagram.quantity !== "angular_speed";
+}
 
 const WIDTH = BRANCH_COLUMNS.length;
 const STABLE = 4;
@@ -16,18 +72,18 @@ const LINE = 5;
 /** Length of a dash and of a gap. */
 const DASH = 4;
 
-export interface Branches {
+interface Branches {
   readonly json: BranchesJson;
   readonly numbers: Float64Array;
 }
 
-export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity: Quantity, colour: Colours): void {
+function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity: Quantity): void {
   if (quantity === "angular_speed") return;
   const full: number[] = [];
   const dashed: number[] = [];
   const { numbers } = branches;
   const field = columnOf(quantity);
-  const low = plot.y.scale.domain[0];
+  const low = plot.y.range[0];
   let last: { x: number; value: number; line: number } | null = null;
   for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
     const x = pixelX(plot, numbers[row] as number);
@@ -46,9 +102,9 @@ export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity
     }
     last = { x, value, line };
   }
-  pen.path(dashesOf(dashed, plot), { stroke: colour("--branch-unstable"), width: 1 });
-  pen.path(full, { stroke: colour("--branch-stable"), width: 1.5 });
-  paintBifurcations(pen, plot, branches, quantity, colour);
+  pen.path(dashesOf(dashed, plot), { stroke: "--branch-unstable", width: 1 });
+  pen.path(full, { stroke: "--branch-stable", width: 1.5 });
+  paintBifurcations(pen, plot, branches, quantity);
 }
 
 /** Dashes of lines, at places of the picture and not of the line: two that nearly coincide have their gaps in common, and
@@ -78,9 +134,9 @@ function dashesOf(points: readonly number[], plot: Plot): number[] {
 }
 
 /** Each bifurcation is marked at the first impact of its orbit. */
-function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Quantity, colour: Colours): void {
-  const low = plot.y.scale.domain[0];
-  const style = { stroke: colour("--bifurcation"), width: 1.3, fill: colour("--picture-paper") };
+function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Quantity): void {
+  const low = plot.y.range[0];
+  const style = { stroke: "--bifurcation", width: 1.3, fill: "--picture-paper" };
   for (const found of json.bifurcations) {
     const x = pixelX(plot, found.axial_forcing);
     if (x < plot.left || x > plot.left + plot.width) continue;
@@ -88,21 +144,27 @@ function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Q
     const y = pixelY(plot, axisValue(quantity, of, low));
     if (found.kind === "doubling") pen.circle(x, y, 3.5, style);
     else if (found.kind === "fold") pen.rect(x - 3, y - 3, 6, 6, style);
-    else if (found.kind === "birth") pen.path([x, y - 4, x + 4, y, x, y + 4, x - 4, y], { ...style, close: true });
-    else
-      pen.path([x - 3, y - 3, x + 3, y + 3, NaN, NaN, x - 3, y + 3, x + 3, y - 3], {
-        stroke: style.stroke,
-        width: 1.5,
-      });
+    else pen.path(crossAt(x, y, 3), { stroke: style.stroke, width: 1.5 });
   }
 }
 
 /** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
-export function describeBifurcations({ json }: Branches, window: Range): string {
+function describeBifurcations({ json }: Branches, window: Range): string {
   const words = json.bifurcations.map(({ kind, axial_forcing }) => `${kind} at ${forcingText(axial_forcing, window)}`);
   const distinct = [...new Set(words)];
-  if (json.branches.length === 0) return "No branch that can be continued lies in this window.";
+  if (json.branches === 0) return "No branch that can be continued lies in this window.";
   if (distinct.length === 0) return "No bifurcation of the branches lies in this window.";
   const more = distinct.length > 6 ? `, and ${distinct.length - 6} more` : "";
   return `On the branches: ${distinct.slice(0, 6).join(", ")}${more}.`;
+}
+
+/** Four decimals, or three more than the width of the window has zeros. */
+export function forcingText(value: number, [low, high]: Range): string {
+  const needed = 3 - Math.floor(Math.log10(high - low) + 1);
+  return minus(value.toFixed(Math.min(Math.max(4, needed), 17)));
+}
+
+/** The end of a window, without zeros that say nothing. */
+export function endText(value: number, window: Range): string {
+  return forcingText(value, window).replace(/\.?0+$/, "");
 }

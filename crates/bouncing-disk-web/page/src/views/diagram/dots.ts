@@ -1,16 +1,19 @@
 /** The dots of the diagram: the columns that have come, the picture of them, and the last one until it is replaced. */
 
 import type { Quantity, State } from "../../contract";
-import type { Plot } from "../../drawing/axes";
-import type { Colours } from "../../drawing/colours";
-import type { Pen } from "../../drawing/pen";
-import type { Range } from "../../protocol";
-import { AutomaticRange } from "./automatic_range";
-import { RECORDED } from "./computation";
-import type { Columns } from "./computation";
-import { OrbitPicture } from "./orbit_picture";
+import { clamp, extent, padded, type Plot } from "../../drawing/axes";
+import { colourScale, pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import { contextOf, type Pen } from "../../drawing/pen";
+import { paintStretched, type Window2 } from "../../drawing/window";
+import { element } from "../../elements";
+import { DIAGRAM_COLUMNS, type Range } from "../../protocol";
+import { axisValue, COARSE, columnOf, RECORDED, type Columns } from "./columns";
 
 type Diagram = State["diagram"];
+
+const WIDTH = DIAGRAM_COLUMNS.length;
+/** A range that is narrower than this would show rounding. */
+const NARROWEST = 1e-9;
 
 export class Dots {
   /** All answers for the present columns, coarse and fine. */
@@ -22,10 +25,11 @@ export class Dots {
   private drawn = "";
   private shown: OrbitPicture | null = null;
   private previous: OrbitPicture | null = null;
-  private readonly automatic = new AutomaticRange();
+  /** The range of the axis that nobody chose: that of the dots. */
+  private automatic: Range = [0, 1];
 
   range({ range, quantity }: Diagram): Range {
-    return range ?? (quantity === "impact_phase" ? [0, 1] : this.automatic.value);
+    return range ?? (quantity === "impact_phase" ? [0, 1] : this.automatic);
   }
 
   /** Others are on their way; the picture of the last ones stays until they come. */
@@ -37,37 +41,32 @@ export class Dots {
     this.drawn = "";
   }
 
-  take(columns: Columns, diagram: Diagram, rows: number, colour: Colours): void {
+  take(columns: Columns, diagram: Diagram, rows: number): void {
     this.columns.push(columns);
-    if (this.arrange(diagram, rows, colour)) return;
-    this.shown?.add(columns.numbers, columns.from, columns.to, columns.coarse, colour);
+    if (!this.arrange(diagram, rows)) this.shown?.add(columns, themeColour);
   }
 
-  end(diagram: Diagram, rows: number, colour: Colours): void {
+  end(diagram: Diagram, rows: number): void {
     this.complete = true;
     this.previous = null;
-    this.arrange(diagram, rows, colour);
+    this.arrange(diagram, rows);
   }
 
   /** Makes the picture of the present quantity and range with all that has come, unless it is there: true if made. */
-  arrange(diagram: Diagram, rows: number, colour: Colours): boolean {
+  arrange(diagram: Diagram, rows: number): boolean {
     const { quantity } = diagram;
-    if (this.complete) this.automatic.settle(this.columns, quantity);
-    else this.automatic.follow(this.columns, quantity);
-    const range = this.range(diagram);
-    const key = JSON.stringify([this.name, quantity, range, rows]);
+    this.automatic = this.followed(quantity);
+    const key = JSON.stringify([this.name, quantity, this.range(diagram), rows]);
     if (key === this.drawn || this.count === 0) return false;
     if (this.drawn === "" || this.shown?.quantity !== quantity) this.previous = this.complete ? null : this.shown;
-    if (this.previous !== null && this.previous.quantity !== quantity) this.previous = null;
+    if (this.previous?.quantity !== quantity) this.previous = null;
     this.drawn = key;
-    this.shown = new OrbitPicture(diagram.axial_forcing, quantity, range, this.count, rows, RECORDED);
-    this.fill(this.shown, colour);
+    this.shown = this.pictureOf(diagram, this.count, rows, themeColour);
     return true;
   }
 
-  recolour(colour: Colours): void {
-    this.shown?.recolour(colour);
-    this.previous?.recolour(colour);
+  recolour(): void {
+    for (const picture of [this.shown, this.previous]) picture?.recolour(themeColour);
   }
 
   paint(pen: Pen, plot: Plot, quantity: Quantity): void {
@@ -76,16 +75,143 @@ export class Dots {
   }
 
   /** The same dots in the colours of print, finely enough for it. */
-  paintPrinted(pen: Pen, plot: Plot, diagram: Diagram, colour: Colours): void {
+  paintPrinted(pen: Pen, plot: Plot, diagram: Diagram): void {
     const count = Math.max(this.count, 2);
-    const { axial_forcing, quantity } = diagram;
-    const rows = Math.round(count * 0.5);
-    const picture = new OrbitPicture(axial_forcing, quantity, this.range(diagram), count, rows, RECORDED);
-    this.fill(picture, colour);
-    picture.paint(pen, plot);
+    this.pictureOf(diagram, count, Math.round(count * 0.5), pen.colour).paint(pen, plot);
   }
 
-  private fill(picture: OrbitPicture, colour: Colours): void {
-    for (const { numbers, from, to, coarse } of this.columns) picture.add(numbers, from, to, coarse, colour);
+  private pictureOf(diagram: Diagram, count: number, rows: number, colour: Colours): OrbitPicture {
+    const window = { x: diagram.axial_forcing, y: this.range(diagram) };
+    const picture = new OrbitPicture(window, diagram.quantity, count, rows);
+    for (const columns of this.columns) picture.add(columns, colour);
+    return picture;
   }
+
+  /**
+   * The range that the dots ask for, whatever was seen before, when all are there. While they come it changes only as
+   * often as it has to, for each change draws all of them anew.
+   */
+  private followed(quantity: Quantity): Range {
+    const wanted = rangeOf(this.columns, quantity);
+    // Where there is nothing to see: of spins, between those that the platform has.
+    if (this.complete) return wanted ?? (quantity === "angular_speed" ? [-1, 1] : [0, 1]);
+    if (wanted === null) return this.automatic;
+    const [low, high] = this.automatic;
+    const wider = wanted[0] < low || wanted[1] > high;
+    const finer = wanted[1] - wanted[0] < 0.7 * (high - low);
+    return wider || finer ? wanted : this.automatic;
+  }
+}
+
+function rangeOf(columns: readonly Columns[], quantity: Quantity): Range | null {
+  const parts = columns.flatMap(({ numbers }) => extent(numbers, columnOf(quantity), WIDTH) ?? []);
+  const all = extent(parts);
+  if (all === null) return null;
+  const [low, high] = all[1] - all[0] < NARROWEST ? [all[0] - NARROWEST, all[1] + NARROWEST] : all;
+  // An impact speed is none below zero.
+  return quantity === "normalised_speed" ? [0, padded([0, high])[1]] : padded([low, high]);
+}
+
+/** The dots of one window of the orbit diagram, counted in pixels: coarse columns at once, fine ones as they come. */
+class OrbitPicture {
+  private readonly fine: Density;
+  private readonly coarse: Density;
+
+  constructor(
+    private readonly window: Window2,
+    readonly quantity: Quantity,
+    columns: number,
+    rows: number,
+  ) {
+    this.fine = new Density(columns, rows);
+    this.coarse = new Density(Math.ceil(columns / COARSE), rows);
+  }
+
+  /** Counts an answer with the columns `[from, to)`, fine or coarse, and colours them. */
+  add({ numbers, from, to, coarse }: Columns, colour: Colours): void {
+    const density = coarse ? this.coarse : this.fine;
+    const { x, y } = this.window;
+    const field = columnOf(this.quantity);
+    const columnScale = density.width / (x[1] - x[0]);
+    const rowScale = density.height / (y[1] - y[0]);
+    density.filled.fill(1, from, to);
+    for (let row = 0; row + WIDTH <= numbers.length; row += WIDTH) {
+      // The last column is that of the upper end itself; the half keeps rounding from moving a column to its neighbour.
+      const place = ((numbers[row] as number) - x[0]) * columnScale * ((density.width - 1) / density.width);
+      const value = axisValue(this.quantity, numbers[row + field] as number, y[0]);
+      if (Number.isNaN(value)) continue;
+      density.count(clamp(Math.floor(place + 0.5), from, to - 1), Math.floor((y[1] - value) * rowScale));
+    }
+    density.paint(from, to, colour);
+  }
+
+  recolour(colour: Colours): void {
+    for (const density of [this.coarse, this.fine]) density.paint(0, density.width, colour);
+  }
+
+  paint(pen: Pen, plot: Plot): void {
+    for (const { canvas } of [this.coarse, this.fine]) paintStretched(pen, plot, canvas, this.window);
+  }
+}
+
+const SHADES = 64;
+
+/** Dots counted in the pixels of a picture and shown as densities: a cloud of dots costs no more than its pixels. */
+class Density {
+  readonly canvas: HTMLCanvasElement;
+  /** Columns that are taken as empty paper, in which dots are then counted; the others stay transparent. */
+  readonly filled: Uint8Array;
+  private readonly counts: Uint16Array;
+  private readonly image: ImageData;
+  private readonly words: Uint32Array;
+
+  constructor(
+    readonly width: number,
+    readonly height: number,
+  ) {
+    this.canvas = element("canvas", { width, height });
+    this.filled = new Uint8Array(width);
+    this.counts = new Uint16Array(width * height);
+    this.image = new ImageData(width, height);
+    this.words = new Uint32Array(this.image.data.buffer);
+  }
+
+  /** One dot; what is outside is left out. */
+  count(column: number, row: number): void {
+    if (column < 0 || column >= this.width || row < 0 || row >= this.height) return;
+    const index = row * this.width + column;
+    this.counts[index] = (this.counts[index] as number) + 1;
+  }
+
+  /** Colours the columns `[from, to)`. */
+  paint(from: number, to: number, colour: Colours): void {
+    const shades = densityShades(colour);
+    const paper = pixelWord(colour("--picture-paper"));
+    const { width, height, counts, words, filled } = this;
+    // All of an orbit in one pixel has the last colour.
+    const scale = (SHADES - 1) / Math.log1p(RECORDED);
+    for (let row = 0; row < height; row += 1) {
+      for (let index = row * width + from, column = from; column < to; column += 1, index += 1) {
+        if (filled[column] === 0) continue;
+        const count = counts[index] as number;
+        words[index] =
+          count === 0 ? paper : (shades[Math.min(Math.round(Math.log1p(count) * scale), SHADES - 1)] as number);
+      }
+    }
+    contextOf(this.canvas).putImageData(this.image, 0, 0, from, 0, to - from, height);
+  }
+}
+
+let shadesKey = "";
+let shadesNow: Uint32Array = new Uint32Array(SHADES);
+
+/** The words of the shades, made anew only when the theme changes. */
+function densityShades(colour: Colours): Uint32Array {
+  const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
+  const key = stops.join();
+  if (key !== shadesKey) {
+    shadesKey = key;
+    shadesNow = colourScale(stops, SHADES);
+  }
+  return shadesNow;
 }

@@ -1,56 +1,39 @@
-/** The charts of a motor, from what is known so far. */
+/** The charts of a motor, from what is known so far, and its files. */
 
-import type { Chart, Mark } from "../../drawing/chart";
-import { prefixOf } from "../../drawing/numbers";
-import { extent, padded } from "../../drawing/scale";
-import type { Range, StallJson } from "../../protocol";
-import { TRANSIENT_COLUMNS } from "../../protocol";
-import type { Operation, Transient } from "./computation";
+import type { Offer } from "../../contract";
+import { clamp, extent, padded } from "../../drawing/axes";
+import { paintChart, type Chart, type Curve, type Mark } from "../../drawing/chart";
+import { ONE_COLUMN, pictureOffers, PRINT_SIZE, rowsOf, tableOffers } from "../../drawing/files";
+import { prefixOf } from "../../numbers";
+import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
+import { MEMBERS, SEED, type Operation, type Transient } from "./sheet";
+
+const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 
 /** The run-up, and beside it the steady speed under the same load, as soon as it is known. */
 export function transientChart({ json, numbers }: Transient, own: Operation | null): Chart {
-  const width = TRANSIENT_COLUMNS.length;
-  const column = (place: number, factor = 1) =>
-    Float64Array.from(
-      { length: Math.floor(numbers.length / width) },
-      (_, row) => (numbers[row * width + place] ?? NaN) * factor,
-    );
-  const last = column(0)[json.points - 1] ?? 1;
+  const rows = [...rowsOf(numbers, TRANSIENT_COLUMNS.length)];
+  const column = (place: number) => rows.map((row) => row[place] ?? NaN);
+  const [times, speed, error] = [column(0), column(1), column(2)];
+  const last = times[json.points - 1] ?? 1;
   const time = prefixOf(last);
-  const speed = column(1);
-  const error = column(2);
-  const steady = own !== null && own.status === 0 ? own : null;
-  const edges = [
-    ...speed.map((value, row) => value + 2 * (error[row] ?? 0)),
-    ...speed.map((value, row) => value - 2 * (error[row] ?? 0)),
-  ];
-  const around = steady === null ? [] : [-2, 2].map((errors) => steady.speed + errors * finite(steady.speed_error));
-  const range = extent([...edges, 0, ...around]) ?? [0, 1];
-  const constant = json.rise?.form === "exponential" ? json.rise.constant.value : null;
+  const edges = [-2, 2].flatMap((errors) => speed.map((value, row) => value + errors * (error[row] ?? 0)));
+  const curves: Curve[] = [{ label: "run-up", y: speed, error, colour: "--curve-speed" }];
+  if (own?.status === 0) {
+    edges.push(...[-2, 2].map((errors) => own.speed + errors * finite(own.speed_error)));
+    const y = speed.map(() => own.speed);
+    const same = speed.map(() => own.speed_error);
+    curves.push({ label: "steady speed", y, error: same, colour: "--curve-power", dash: [6, 3] });
+  }
+  const constant = json.rise?.form === "exponential" ? json.rise.constant.value : Infinity;
+  const line = { x: constant * time.factor, label: "time constant", colour: "--picture-muted" };
   return {
     title: "Run-up",
-    xLabel: `time (${time.symbol}s)`,
-    yLabel: "mean angular speed (rad/s)",
-    x: column(0, time.factor),
-    xRange: [0, last * time.factor],
-    yRange: padded(range),
-    curves: [
-      { label: "run-up", y: speed, error, colour: "--curve-speed" },
-      ...(steady === null
-        ? []
-        : [
-            {
-              label: "steady speed",
-              y: speed.map(() => steady.speed),
-              error: speed.map(() => steady.speed_error),
-              colour: "--curve-power",
-              dash: [6, 3],
-            },
-          ]),
-    ],
-    ...(constant === null || constant > last
-      ? {}
-      : { lines: [{ x: constant * time.factor, label: "time constant", colour: "--picture-muted" }] }),
+    x: { label: `time (${time.symbol}s)`, range: [0, last * time.factor] },
+    y: { label: "mean angular speed (rad/s)", range: padded(extent([...edges, 0]) ?? [0, 1]) },
+    at: times.map((value) => value * time.factor),
+    curves,
+    lines: constant > last ? [] : [line],
   };
 }
 
@@ -63,8 +46,8 @@ interface Kind {
     colour: string;
     dash?: readonly number[];
   }[];
-  readonly scaled: boolean;
-  readonly factor: number;
+  /** The factor of the numbers; without it they have a prefix of their unit. */
+  readonly factor?: number;
 }
 
 const KINDS: readonly Kind[] = [
@@ -72,7 +55,6 @@ const KINDS: readonly Kind[] = [
     title: "Speed against load",
     label: () => "steady angular speed (rad/s)",
     curves: [{ name: "speed", label: "speed", colour: "--curve-speed" }],
-    scaled: false,
     factor: 1,
   },
   {
@@ -82,14 +64,11 @@ const KINDS: readonly Kind[] = [
       { name: "mechanical_power", label: "to the load", colour: "--curve-power" },
       { name: "input_power", label: "from the stator", colour: "--curve-input", dash: [6, 3] },
     ],
-    scaled: true,
-    factor: 1,
   },
   {
     title: "Efficiency against load",
     label: () => "efficiency (%)",
     curves: [{ name: "efficiency", label: "efficiency", colour: "--curve-efficiency" }],
-    scaled: false,
     factor: 100,
   },
 ];
@@ -101,72 +80,103 @@ export function loadCharts(
   largestTorque: number,
   stall: StallJson | null,
 ): Chart[] {
-  const stop = stall?.torque ?? null;
   const torque = prefixOf(Math.max(Math.abs(loads[0]), Math.abs(loads[1])));
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
-  const x = shown.map(({ load_torque }) => load_torque * torque.factor);
   const span = padded([loads[0] * torque.factor, loads[1] * torque.factor], 0.03);
-  return KINDS.map((kind) => {
-    const values = shown.flatMap((row) => kind.curves.map(({ name }) => row[name]));
+  const x = { label: `load (${torque.symbol}N m)`, range: span };
+  const beyond = largestTorque * torque.factor;
+  const stop = (stall?.torque ?? NaN) * torque.factor;
+  const stopError = finite(stall?.torque_error ?? 0) * torque.factor;
+  return KINDS.map(({ title, label, curves, factor }) => {
+    const values = shown.flatMap((row) => curves.map(({ name }) => row[name]));
     const greatest = Math.max(...values.filter(Number.isFinite).map(Math.abs), 0);
-    const prefix = kind.scaled ? prefixOf(greatest) : { factor: kind.factor, symbol: "" };
-    const edges = shown.flatMap((row) =>
-      kind.curves.flatMap(({ name }) =>
-        [-2, 2].map((errors) => (row[name] + errors * finite(row[`${name}_error`])) * prefix.factor),
-      ),
-    );
+    const prefix = factor === undefined ? prefixOf(greatest) : { factor, symbol: "" };
     // A point that is not settled may have any error; it must not flatten the others.
     const most = 1.6 * greatest * prefix.factor;
-    const range = extent([0, ...edges.map((edge) => Math.min(Math.max(edge, -most), most))]) ?? [0, 1];
-    const [first] = kind.curves;
-    const marks: Mark[] = [];
-    for (const row of shown) {
-      if (row.status === 0 || first === undefined) continue;
-      const value = row[first.name] * prefix.factor;
+    const edges = shown.flatMap((row) =>
+      curves.flatMap(({ name }) =>
+        [-2, 2].map((errors) => clamp((row[name] + errors * finite(row[`${name}_error`])) * prefix.factor, -most, most)),
+      ),
+    ); // prettier-ignore
+    const range = extent([0, ...edges]) ?? [0, 1];
+    const [first] = curves as [Kind["curves"][number]];
+    const marks = shown.filter(({ status }) => status !== 0).map((row): Mark => {
       const runaway = row.status === 2;
-      marks.push({
+      return {
         x: row.load_torque * torque.factor,
-        y: Number.isFinite(value) && !runaway ? value : 0,
+        y: runaway ? 0 : finite(row[first.name] * prefix.factor),
         form: runaway ? "cross" : "circle",
-        label: runaway ? "the load drives the rotor" : "unsettled",
         colour: runaway ? "--warning" : first.colour,
-      });
-    }
-    const beyond = largestTorque * torque.factor;
+      };
+    }); // prettier-ignore
     return {
-      title: kind.title,
-      xLabel: `load (${torque.symbol}N m)`,
-      yLabel: kind.label(prefix.symbol),
+      title,
       x,
-      xRange: span,
       // Without any value but zero there is no scale to take from the numbers.
-      yRange: padded(greatest > 0 ? range : [0, 1], 0.08),
-      curves: kind.curves.map(({ name, ...curve }) => ({
+      y: { label: label(prefix.symbol), range: padded(greatest > 0 ? range : [0, 1], 0.08) },
+      at: shown.map(({ load_torque }) => load_torque * torque.factor),
+      curves: curves.map(({ name, ...curve }) => ({
         ...curve,
         y: shown.map((row) => row[name] * prefix.factor),
         error: shown.map((row) => row[`${name}_error`] * prefix.factor),
         points: true,
       })),
       marks,
-      ...(stop === null
-        ? {}
-        : {
-            lines: [
-              {
-                x: stop * torque.factor,
-                error: finite(stall?.torque_error ?? 0) * torque.factor,
-                label: "stall",
-                colour: "--stall",
-              },
-            ],
-          }),
-      ...(span[1] > beyond * 1.001
-        ? { shade: { range: [beyond, span[1]] as Range, label: "friction cannot hold" } }
-        : {}),
+      lines: Number.isNaN(stop) ? [] : [{ x: stop, error: stopError, label: "stall", colour: "--stall" }],
+      ...(span[1] > beyond * 1.001 ? { shade: { range: [beyond, span[1]], label: "friction cannot hold" } } : {}),
     };
   });
 }
 
-function finite(value: number): number {
-  return Number.isFinite(value) ? value : 0;
+const LOAD_UNITS = [
+  "load_torque_N_m", "speed_rad_per_s", "speed_error_rad_per_s", "mechanical_power_W", "mechanical_power_error_W",
+  "input_power_W", "input_power_error_W", "efficiency", "efficiency_error", "status",
+] as const; // prettier-ignore
+const STATUS = ["steady", "unsettled", "runaway"] as const;
+
+interface MotorParts {
+  readonly sheet: MotorSheet;
+  readonly text: string;
+  readonly transient: Transient | null;
+  readonly operations: readonly Operation[];
+  readonly runUp: Chart | null;
+  readonly curves: readonly Chart[];
+}
+
+export function motorOffers({ sheet, text, transient, operations, runUp, curves }: MotorParts): Offer[] {
+  const written = async () => new Blob([text], { type: "application/json" });
+  const offers: Offer[] = [{ name: "motor data sheet", kind: "json", make: written }];
+  if (transient !== null) {
+    const parameters = { sheet, members: MEMBERS, seed: SEED };
+    const columns = ["time_s", "speed_rad_per_s", "speed_error_rad_per_s"];
+    const rows = () => rowsOf(transient.numbers, TRANSIENT_COLUMNS.length);
+    offers.push(...tableOffers({ name: "motor run-up", parameters, columns, rows }));
+  }
+  if (operations.length > 0) {
+    const cell = (row: Operation, name: (typeof OPERATION_COLUMNS)[number]) =>
+      name === "status" ? (STATUS[row.status] ?? "") : row[name];
+    const rows = () =>
+      operations.map((row) => [...OPERATION_COLUMNS.map((name) => cell(row, name)), row.wanted, row.shortfall ?? ""]);
+    const columns = [...LOAD_UNITS, "relative_error_wanted", "shortfall"];
+    offers.push(...tableOffers({ name: "motor load curve", parameters: { sheet, seed: SEED }, columns, rows }));
+  }
+  if (runUp !== null) offers.push(...stacked("motor run-up", "Run-up of the motor", [runUp]));
+  if (curves.length > 0)
+    offers.push(...stacked("motor load curve", "Speed, power and efficiency against load", curves));
+  return offers;
+}
+
+function stacked(name: string, title: string, charts: readonly Chart[]): Offer[] {
+  const each = ONE_COLUMN * 0.62;
+  return pictureOffers({
+    name,
+    title,
+    width: ONE_COLUMN,
+    height: each * charts.length,
+    paint(pen, width) {
+      charts.forEach((chart, index) => {
+        pen.moved(0, index * each, () => paintChart(pen, chart, width, each, PRINT_SIZE));
+      });
+    },
+  });
 }

@@ -1,4 +1,7 @@
-/** The clock of the animation: how far it is, and how fast it goes. */
+/** The clock of the animation, and its controls: play and pause, slow motion and scrubbing, also by keyboard. */
+
+import { button, element, setText } from "../../elements";
+import { plain } from "../../numbers";
 
 /** A frame that took longer than this was not seen; the motion does not jump ahead. */
 const LONGEST_FRAME = 0.1;
@@ -28,8 +31,7 @@ export class Player {
       const passed = Math.min(Math.max((time - this.last) / 1000, 0), LONGEST_FRAME);
       this.last = time;
       this.frame = requestAnimationFrame(step);
-      this.now = Math.min(this.now + passed * this.rate, this.end());
-      this.tick();
+      this.seek(this.now + passed * this.rate);
     };
     this.frame = requestAnimationFrame(step);
   }
@@ -42,5 +44,83 @@ export class Player {
   seek(periods: number): void {
     this.now = Math.min(Math.max(periods, 0), this.end());
     this.tick();
+  }
+}
+
+/** Platform periods in a second of ours, at both ends of the slider. */
+const SLOWEST = 0.02;
+const FASTEST = 20;
+const STEPS = 200;
+
+export class Controls {
+  readonly root: HTMLElement;
+  private readonly playButton = button("Play", () => this.toggle(), { class: "play" });
+  private readonly place = element("input", {
+    type: "range", min: 0, step: "any", "aria-label": "Time in periods", oninput: () => this.scrub(),
+  }); // prettier-ignore
+  private readonly told = element("output", { class: "speed" });
+
+  /** `period` is that of the platform in seconds; `chosen` is called where another moment stands still. */
+  constructor(
+    surface: HTMLElement,
+    private readonly player: Player,
+    private readonly period: () => number,
+    private readonly chosen: () => void,
+  ) {
+    const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Speed of the animation" });
+    speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));
+    speed.addEventListener("input", () => {
+      player.rate = SLOWEST * (FASTEST / SLOWEST) ** (Number(speed.value) / STEPS);
+      this.show(Number(this.place.max));
+    });
+    this.root = element(
+      "div",
+      { class: "bar controls", role: "group", "aria-label": "Animation" },
+      this.playButton,
+      button("|◀", () => player.seek(0), { "aria-label": "Back to the start", title: "Back to the start (Home)" }),
+      element("label", { class: "grow" }, "Time", this.place),
+      element("label", {}, "Speed", speed),
+      this.told,
+    );
+    surface.addEventListener("keydown", (event) => this.key(event));
+  } // prettier-ignore
+
+  /** Follows the player; `end` is how far one can scrub, in periods. */
+  show(end: number): void {
+    const { player } = this;
+    setText(this.playButton, player.playing ? "Pause" : "Play");
+    if (this.place.max !== String(end)) this.place.max = String(end);
+    if (document.activeElement !== this.place || player.playing) this.place.value = String(player.now);
+    this.place.setAttribute("aria-valuetext", `${player.now.toFixed(2)} periods`);
+    const real = player.rate * this.period();
+    const ratio = real < 1 ? `slowed ${plain(1 / real, 2)} times` : `quickened ${plain(real, 2)} times`;
+    setText(this.told, `${plain(player.rate, 2)} periods/s, ${Math.abs(real - 1) < 0.05 ? "as it is" : ratio}`);
+  }
+
+  private toggle(): void {
+    if (this.player.playing) this.player.pause();
+    else this.player.play();
+    this.show(Number(this.place.max));
+    if (!this.player.playing) this.chosen();
+  }
+
+  private scrub(): void {
+    this.player.pause();
+    this.player.seek(Number(this.place.value));
+    this.show(Number(this.place.max));
+    this.chosen();
+  }
+
+  /** For as long as the picture has the focus. */
+  private key(event: KeyboardEvent): void {
+    const { player } = this;
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (event.key === " ") this.toggle();
+    else if (step !== undefined || event.key === "Home") {
+      if (step !== undefined) player.pause();
+      player.seek(step === undefined ? 0 : player.now + step * (event.shiftKey ? 1 : 1 / 16));
+      this.chosen();
+    } else return;
+    event.preventDefault();
   }
 }

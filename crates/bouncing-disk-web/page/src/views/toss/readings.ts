@@ -1,50 +1,73 @@
-/** The readings beside the scene: the present state, and the energy balance of the motion. */
+/** The readings beside the scene: the present state, also in a sentence, and the energy balance of the motion. */
 
-import { element, Facts, setText } from "../../drawing/elements";
-import { plain, quantity } from "../../drawing/numbers";
-import { ROUNDING } from "./recording";
-import type { Moment, Recording } from "./recording";
+import { element, Facts, setText } from "../../elements";
+import { plain, quantity } from "../../numbers";
+import { ROUNDING, type Moment, type Recording } from "./recording";
 
 const READOUTS = [
   "Mode", "Time", "Height above the platform", "Angular speed", "Impacts so far",
   "Kinetic, axial", "Kinetic, rotary", "Potential",
 ] as const; // prettier-ignore
-const LEDGER = [
-  "Work of the platform", "Lost in restitution", "Lost in friction", "Work against the load", "Stored in the disk",
-] as const; // prettier-ignore
+const LEDGER = {
+  "Work of the platform": "platform_work",
+  "Lost in restitution": "restitution_loss",
+  "Lost in friction": "friction_loss",
+  "Work against the load": "load_work",
+  "Stored in the disk": "stored",
+} as const;
 
 export class Readings {
   private readonly facts = new Facts(READOUTS, "Present state; energies per mass of the disk");
-  private readonly ledger = new Facts(LEDGER, "Energy balance per mass of the disk");
+  private readonly ledger = new Facts(Object.keys(LEDGER), "Energy balance per mass of the disk");
   private readonly ledgerTitle = element("h3", {}, "Energy balance");
   readonly elements = [element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root];
 
   show(moment: Moment, periods: number, impacts: number, recording: Recording): void {
-    const { facts } = this;
     const { preload_acceleration: g, gyration_radius } = recording.system;
     const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
     const spin = recording.settled(moment.angular_speed, "angular_speed", "platform_angular_speed");
     const velocity = recording.settled(moment.axial_velocity, "axial_velocity", "platform_velocity");
     const height = recording.settled(moment.height, "height", "platform_height");
-    facts.set("Mode", moment.mode);
-    facts.set("Time", `${periods.toFixed(2)} periods, ${quantity(moment.time, "s")}`);
-    facts.set("Height above the platform", quantity(Math.max(gap, 0), "m"));
-    facts.set("Angular speed", `${plain(spin, 3)} rad/s`);
-    facts.set("Impacts so far", String(impacts));
-    facts.set("Kinetic, axial", quantity(velocity ** 2 / 2, "J/kg"));
-    facts.set("Kinetic, rotary", quantity((gyration_radius * spin) ** 2 / 2, "J/kg"));
-    facts.set("Potential", quantity(g * height, "J/kg"));
+    const texts = [
+      moment.mode,
+      `${periods.toFixed(2)} periods, ${quantity(moment.time, "s")}`,
+      quantity(Math.max(gap, 0), "m"),
+      `${plain(spin, 3)} rad/s`,
+      String(impacts),
+      quantity(velocity ** 2 / 2, "J/kg"),
+      quantity((gyration_radius * spin) ** 2 / 2, "J/kg"),
+      quantity(g * height, "J/kg"),
+    ];
+    READOUTS.forEach((name, index) => this.facts.set(name, texts[index] ?? ""));
   }
 
   balance({ energy, periods }: Recording): void {
     setText(this.ledgerTitle, `Energy balance of ${periods} periods`);
     // What is below the rounding of the largest of them is nothing.
     const largest = Math.max(...Object.values(energy).map(Math.abs));
-    const told = (value: number) => quantity(Math.abs(value) <= ROUNDING * largest ? 0 : value, "J/kg");
-    this.ledger.set("Work of the platform", told(energy.platform_work));
-    this.ledger.set("Lost in restitution", told(energy.restitution_loss));
-    this.ledger.set("Lost in friction", told(energy.friction_loss));
-    this.ledger.set("Work against the load", told(energy.load_work));
-    this.ledger.set("Stored in the disk", told(energy.stored));
+    for (const [name, part] of Object.entries(LEDGER)) {
+      const value = energy[part];
+      this.ledger.set(name, quantity(Math.abs(value) <= ROUNDING * largest ? 0 : value, "J/kg"));
+    }
   }
+}
+
+/** What a disk does in each mode. */
+const WORDS: Readonly<Record<string, string>> = {
+  flight: "is in flight",
+  sticking: "sticks to the platform",
+  "sliding forward": "slides forward on the platform",
+  "sliding backward": "slides backward on the platform",
+  held: "is held",
+};
+
+/** A moment of the motion in words. */
+export function describeMoment(moment: Moment, periods: number, impacts: number, recording: Recording): string {
+  const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
+  const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);
+  const place = gap > 0 ? `, ${quantity(gap, "m")} above the platform,` : "";
+  return (
+    `After ${periods.toFixed(2)} periods and ${impacts} impacts the disk ${WORDS[moment.mode] ?? moment.mode}${place} ` +
+    `and turns at ${speed(moment.angular_speed)} rad/s; the platform at ${speed(moment.platform_angular_speed)} rad/s.`
+  );
 }

@@ -1,14 +1,18 @@
-/** A motion that the library computed: states at equal times, and what happened in between. */
+/** A motion that the library computed: states at equal times, and what happened in between; and its charts. */
 
-import { EVENT_COLUMNS, MODES, MOTION_COLUMNS } from "../../protocol";
-import type { MotionJson, Response, SystemParameters } from "../../protocol";
+import { extent, padded } from "../../drawing/axes";
+import type { Chart, Curve } from "../../drawing/chart";
+import { prefixOf } from "../../numbers";
+import {
+  EVENT_COLUMNS, MODES, MOTION_COLUMNS, type MotionJson, type Range, type Response, type SystemParameters,
+} from "../../protocol"; // prettier-ignore
 
 const WIDTH = MOTION_COLUMNS.length;
 const EVENT_WIDTH = EVENT_COLUMNS.length;
 /** A sum of some doubles is rounded by so much of the largest of them. */
 export const ROUNDING = 8 * Number.EPSILON;
 
-export type Column = (typeof MOTION_COLUMNS)[number];
+type Column = (typeof MOTION_COLUMNS)[number];
 export type Moment = Record<Column, number> & { readonly mode: string };
 
 export interface Impact {
@@ -20,33 +24,36 @@ export interface Impact {
 
 export class Recording {
   readonly impacts: readonly Impact[];
-  readonly duration: number;
   readonly energy: MotionJson["energy"];
+  private readonly duration: number;
   private readonly samples: Float64Array;
   private readonly modes: Uint8Array;
   private readonly count: number;
-  private readonly extents = new Map<string, readonly [number, number]>();
+  private readonly extents = new Map<string, Range>();
 
   constructor(
-    { json, numbers, bytes }: Response,
-    readonly period: number,
+    { json, numbers, bytes }: Response<MotionJson>,
     readonly periods: number,
     /** What moves. */
     readonly system: Readonly<SystemParameters>,
   ) {
-    const told = json as MotionJson;
-    this.count = told.samples;
-    this.energy = told.energy;
-    this.samples = numbers.subarray(0, told.samples * WIDTH);
-    this.modes = bytes.subarray(0, told.samples);
-    this.duration = this.value(told.samples - 1, 0);
-    const events = numbers.subarray(told.samples * WIDTH);
+    this.count = json.samples;
+    this.energy = json.energy;
+    this.samples = numbers.subarray(0, json.samples * WIDTH);
+    this.modes = bytes.subarray(0, json.samples);
+    this.duration = this.value(json.samples - 1, 0);
+    const events = numbers.subarray(json.samples * WIDTH);
     const impacts: Impact[] = [];
-    for (let event = 0; event < told.events; event += 1) {
+    for (let event = 0; event < json.events; event += 1) {
       const [time = NaN, phase = NaN, speed = NaN] = events.subarray(event * EVENT_WIDTH, event * EVENT_WIDTH + 3);
       if (!Number.isNaN(speed)) impacts.push({ time, phase, normalised_speed: speed });
     }
     this.impacts = impacts;
+  }
+
+  /** Of the platform, in seconds. */
+  get period(): number {
+    return (2 * Math.PI) / this.system.angular_frequency;
   }
 
   /** The state at a time, between two samples on the straight line between them. */
@@ -55,45 +62,31 @@ export class Recording {
     const low = Math.floor(place);
     const high = Math.min(low + 1, this.count - 1);
     const share = place - low;
-    const moment: Record<string, number | string> = { mode: MODES[this.modes[low] ?? 0] ?? "flight" };
-    MOTION_COLUMNS.forEach((name, column) => {
-      moment[name] = this.value(low, column) * (1 - share) + this.value(high, column) * share;
-    });
-    return moment as unknown as Moment;
+    const between = (column: number) => this.value(low, column) * (1 - share) + this.value(high, column) * share;
+    const columns = MOTION_COLUMNS.map((name, column) => [name, between(column)]);
+    return { ...Object.fromEntries(columns), mode: this.mode(low) } as Moment;
   }
 
   /** A column between two times, times first, in these units. */
-  span(name: Column, from: number, to: number, factor: number): Float64Array {
-    const [first, last] = this.rows(from, to);
+  span(name: Column, from: number, to: number, factor = 1): Float64Array {
+    const [first, last] = [Math.floor(this.place(from)), Math.ceil(this.place(to))];
     const column = MOTION_COLUMNS.indexOf(name);
     return Float64Array.from({ length: last - first + 1 }, (_, index) => this.value(first + index, column) * factor);
   }
 
   /** Least and greatest of some columns over all of it. */
-  extent(...names: Column[]): [number, number] {
+  extent(...names: Column[]): Range {
     const key = names.join();
-    const known = this.extents.get(key) ?? this.findExtent(names);
-    this.extents.set(key, known);
-    return [known[0], known[1]];
-  }
-
-  private findExtent(names: readonly Column[]): readonly [number, number] {
-    let low = Infinity;
-    let high = -Infinity;
-    for (const name of names) {
-      const column = MOTION_COLUMNS.indexOf(name);
-      for (let row = column; row < this.samples.length; row += WIDTH) {
-        const value = this.samples[row] as number;
-        if (value < low) low = value;
-        if (value > high) high = value;
-      }
-    }
-    return [low, high];
+    const found = (name: Column) => extent(this.samples, MOTION_COLUMNS.indexOf(name), WIDTH) ?? [];
+    const range = this.extents.get(key) ?? extent(names.flatMap(found)) ?? [0, 0];
+    this.extents.set(key, range);
+    return range;
   }
 
   /** The number itself, or 0 where it is no more than what rounding leaves of the largest of these columns. */
   settled(value: number, ...names: Column[]): number {
-    return Math.abs(value) <= ROUNDING * this.largest(names) ? 0 : value;
+    const largest = Math.max(...this.extent(...names).map(Math.abs));
+    return Math.abs(value) <= ROUNDING * largest ? 0 : value;
   }
 
   /** Impacts before this time. */
@@ -111,13 +104,12 @@ export class Recording {
   /** Row by row, with the mode last. */
   *table(): Iterable<(number | string)[]> {
     for (let row = 0; row < this.count; row += 1) {
-      yield [...this.samples.subarray(row * WIDTH, (row + 1) * WIDTH), MODES[this.modes[row] ?? 0] ?? ""];
+      yield [...this.samples.subarray(row * WIDTH, (row + 1) * WIDTH), this.mode(row)];
     }
   }
 
-  private largest(names: readonly Column[]): number {
-    const [low, high] = this.extent(...names);
-    return Math.max(Math.abs(low), Math.abs(high));
+  private mode(row: number): string {
+    return MODES[this.modes[row] ?? 0] ?? MODES[0];
   }
 
   private value(row: number, column: number): number {
@@ -129,8 +121,38 @@ export class Recording {
     const step = this.duration / Math.max(this.count - 1, 1);
     return Math.min(Math.max(step > 0 ? time / step : 0, 0), this.count - 1);
   }
+}
 
-  private rows(from: number, to: number): [number, number] {
-    return [Math.floor(this.place(from)), Math.ceil(this.place(to))];
-  }
+/** Periods of a chart. */
+const SHOWN = 8;
+
+/** Heights and angular speeds of a recording up to a time in periods, for the last few of these. */
+export function traces(recording: Recording, now: number): [Chart, Chart] {
+  const { period } = recording;
+  const from = Math.max(0, now - SHOWN + 1);
+  const [start, end] = [from * period, now * period];
+  const x = { label: "time (periods of the platform)", range: [from, from + SHOWN] as Range };
+  const at = recording.span("time", start, end, 1 / period);
+  const heights = recording.extent("height", "platform_height");
+  const metre = prefixOf(Math.max(...heights.map(Math.abs)));
+  const curves = (disk: Column, platform: Column, factor: number): Curve[] => [
+    { label: "disk", y: recording.span(disk, start, end, factor), colour: "--disk" },
+    { label: "platform", y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
+  ];
+  return [
+    {
+      title: "Heights",
+      x,
+      y: { label: `height (${metre.symbol}m)`, range: padded([heights[0] * metre.factor, heights[1] * metre.factor]) },
+      at,
+      curves: curves("height", "platform_height", metre.factor),
+    },
+    {
+      title: "Angular speeds",
+      x,
+      y: { label: "angular speed (rad/s)", range: padded(recording.extent("angular_speed", "platform_angular_speed")) },
+      at,
+      curves: curves("angular_speed", "platform_angular_speed", 1),
+    },
+  ];
 }

@@ -1,29 +1,13 @@
-/** Disk and platform in perspective, drawn on a canvas. */
+/** Disk and platform in perspective, and the path of a point of the platform, drawn on a canvas. */
 
-import type { Colours } from "../../drawing/colours";
-import { plain, quantity } from "../../drawing/numbers";
+import { layOut, NO_TICKS, padded, paintAxes, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
-import { roundUp } from "../../drawing/scale";
+import { plain, prefixOf, quantity } from "../../numbers";
+import type { Range, SystemParameters } from "../../protocol";
+import type { Moment, Recording } from "./recording";
 
 /** Where both are: heights in m, angles in rad. */
-export interface Pose {
-  readonly height: number;
-  readonly angle: number;
-  readonly platform_height: number;
-  readonly platform_angle: number;
-}
-
-/** How lengths and angles are enlarged, and where the picture has its middle. */
-export interface Stage {
-  /** Radius of the disk (m) and how many pixels it has. */
-  readonly radius: number;
-  readonly pixels: number;
-  readonly heightGain: number;
-  readonly angleGain: number;
-  readonly centre: readonly [number, number];
-  /** The plane of the middle of the platform's motion, in radii below the centre. */
-  readonly ground: number;
-}
+export type Pose = Pick<Moment, "height" | "angle" | "platform_height" | "platform_angle">;
 
 const ELEVATION = 0.42;
 const DISTANCE = 7;
@@ -31,21 +15,141 @@ const PLATFORM = 1.22;
 const THICKNESS = 0.1;
 const CORNERS = 72;
 
-/** Enlarges small motions until they can be seen: by 1, 2, 5, 10, ... */
-export function stageOf(
-  width: number,
-  height: number,
-  radius: number,
-  heights: readonly [number, number],
-  twist: number,
-): Stage {
-  const span = Math.max(heights[1] - heights[0], 1e-300) / radius;
-  const heightGain = span >= 0.5 && span <= 4 ? 1 : gainOf(1.8 / span);
-  const angleGain = twist >= 0.2 || twist === 0 ? 1 : gainOf(0.5 / twist);
-  const shown = span * heightGain;
-  const pixels = Math.max(Math.min(width / (2 * PLATFORM + 0.7), height / (shown + 1.9)), 10);
-  const middle = (heights[0] * heightGain) / radius + shown / 2;
-  return { radius, pixels, heightGain, angleGain, centre: [width / 2, height / 2], ground: middle - 0.05 };
+/** How lengths and angles are enlarged, and where the picture has its middle. */
+export class Stage {
+  /** How many pixels the radius of the disk has. */
+  readonly pixels: number;
+  /** Small motions are enlarged until they can be seen: by 1, 2, 5, 10, ... */
+  private readonly heightGain: number;
+  private readonly angleGain: number;
+  /** The plane of the middle of the platform's motion, in radii below the centre. */
+  private readonly ground: number;
+
+  constructor(
+    private readonly width: number,
+    private readonly height: number,
+    /** Of the disk (m). */
+    private readonly radius: number,
+    heights: Range,
+    twist: number,
+  ) {
+    const span = Math.max(heights[1] - heights[0], 1e-300) / radius;
+    this.heightGain = span >= 0.5 && span <= 4 ? 1 : gainOf(1.8 / span);
+    this.angleGain = twist >= 0.2 || twist === 0 ? 1 : gainOf(0.5 / twist);
+    const shown = span * this.heightGain;
+    this.pixels = Math.max(Math.min(width / (2 * PLATFORM + 0.7), height / (shown + 1.9)), 10);
+    this.ground = this.radii(heights[0]) + shown / 2 - 0.05;
+  }
+
+  paint(pen: Pen, pose: Pose): void {
+    const platform = this.radii(pose.platform_height);
+    const disk = this.radii(pose.height);
+    const turn = pose.platform_angle * this.angleGain;
+    this.column(pen, platform - THICKNESS);
+    this.cylinder(pen, PLATFORM, platform - THICKNESS, "--platform");
+    this.spokes(pen, platform, turn, PLATFORM, "--platform-side", 6);
+    this.wedge(pen, platform, turn, [0.98, PLATFORM, 0.09], "--platform-mark");
+    pen.path(this.ring(1, platform), { fill: "--platform-side", opacity: 0.45, close: true });
+    this.cylinder(pen, 1, disk, "--disk");
+    const top = disk + THICKNESS;
+    const spin = pose.angle * this.angleGain;
+    this.spokes(pen, top, spin, 1, "--disk-side", 4);
+    this.wedge(pen, top, spin, [0.25, 0.96, 0.07], "--disk-mark");
+    this.paintScale(pen);
+  }
+
+  /** A bar whose length is true on the scale of the heights. */
+  private paintScale(pen: Pen): void {
+    const perMetre = 1 / this.metresOf(1);
+    const length = lower(roundUp((this.height * 0.3) / perMetre));
+    const bottom = this.height - 14;
+    const top = bottom - length * perMetre;
+    const bar = [14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top];
+    pen.path(bar, { stroke: "--picture-text", width: 1.2 });
+    const text = { colour: "--picture-text", size: 12, baseline: "middle", halo: "--picture-paper" } as const;
+    pen.text(quantity(length, "m", 1), 27, (top + bottom) / 2, text);
+  }
+
+  describe(): string {
+    const { heightGain, angleGain } = this;
+    if (heightGain === 1 && angleGain === 1) return "Heights and angles are drawn as they are.";
+    const times = (gain: number) => (gain === 1 ? "as they are" : `${plain(gain, 1)} times as large`);
+    return `Heights are drawn ${times(heightGain)}, angles ${times(angleGain)}.`;
+  }
+
+  /** Where the middle of the disk's upper side is on the canvas. */
+  placeOfDisk(pose: Pose): [number, number] {
+    return this.project(0, 0, this.radii(pose.height) + THICKNESS);
+  }
+
+  /** Metres of height of so many pixels. */
+  metresOf(pixels: number): number {
+    return (pixels * this.radius) / (this.pixels * this.heightGain * Math.cos(ELEVATION));
+  }
+
+  /** Radians of the disk when its rim moves by so many pixels. */
+  radiansOf(pixels: number): number {
+    return pixels / (this.pixels * this.angleGain);
+  }
+
+  private radii(height: number): number {
+    return (height * this.heightGain) / this.radius;
+  }
+
+  /** Lengths in radii; x to the right, y away from us, z up. */
+  private project(x: number, y: number, z: number): [number, number] {
+    const height = z - this.ground;
+    const up = height * Math.cos(ELEVATION) + y * Math.sin(ELEVATION);
+    const depth = y * Math.cos(ELEVATION) - height * Math.sin(ELEVATION);
+    const scale = (this.pixels * DISTANCE) / (DISTANCE + depth);
+    return [this.width / 2 + x * scale, this.height / 2 - up * scale];
+  }
+
+  private onRing(radius: number, angle: number, z: number): [number, number] {
+    return this.project(radius * Math.cos(angle), radius * Math.sin(angle), z);
+  }
+
+  private ring(radius: number, z: number, from = 0, to = 2 * Math.PI): number[] {
+    const angle = (corner: number) => from + ((to - from) * corner) / CORNERS;
+    return Array.from({ length: CORNERS + 1 }, (_, corner) => this.onRing(radius, angle(corner), z)).flat();
+  }
+
+  private cylinder(pen: Pen, radius: number, bottom: number, face: string): void {
+    const top = bottom + THICKNESS;
+    const edge = { stroke: "--picture-frame", width: 0.8, close: true };
+    // The half of the rim that faces us.
+    const rim = [...this.ring(radius, bottom, Math.PI, 2 * Math.PI), ...this.ring(radius, top, 2 * Math.PI, Math.PI)];
+    pen.path(rim, { fill: `${face}-side`, ...edge });
+    pen.path(this.ring(radius, top), { fill: face, ...edge });
+  }
+
+  /** The column that carries the platform. */
+  private column(pen: Pen, top: number): void {
+    const half = 0.16;
+    const low = this.ground - 6;
+    const corners = [[-half, top], [half, top], [half, low], [-half, low]] as const; // prettier-ignore
+    const points = corners.flatMap(([x, z]) => this.project(x, 0, z));
+    pen.path(points, { fill: "--platform-side", opacity: 0.5, close: true });
+  }
+
+  private spokes(pen: Pen, z: number, turn: number, radius: number, stroke: string, count: number): void {
+    const points: number[] = [];
+    for (let spoke = 0; spoke < count; spoke += 1) {
+      const angle = turn + (2 * Math.PI * spoke) / count;
+      points.push(...this.project(0, 0, z), ...this.onRing(radius, angle, z), NaN, NaN);
+    }
+    pen.path(points, { stroke, width: 1 });
+  }
+
+  /** The mark by which a rotation is seen, between two radii and half an angle to either side. */
+  private wedge(pen: Pen, z: number, turn: number, [inner, outer, half]: [number, number, number], fill: string): void {
+    const angle = turn - Math.PI / 2;
+    const corners = [[inner, 0], [outer, -half], [outer, half]] as const; // prettier-ignore
+    pen.path(
+      corners.flatMap(([radius, by]) => this.onRing(radius, angle + by, z)),
+      { fill, close: true },
+    );
+  }
 }
 
 function gainOf(wanted: number): number {
@@ -61,139 +165,64 @@ function lower(value: number): number {
   return lead === 1 ? power / 2 : lead === 2 ? power : 2 * power;
 }
 
-export function paintScene(pen: Pen, stage: Stage, pose: Pose, colour: Colours): void {
-  const platform = (pose.platform_height * stage.heightGain) / stage.radius;
-  const disk = (pose.height * stage.heightGain) / stage.radius;
-  const turn = pose.platform_angle * stage.angleGain;
-  column(pen, stage, platform - THICKNESS, colour);
-  cylinder(
-    pen,
-    stage,
-    PLATFORM,
-    platform - THICKNESS,
-    platform,
-    colour("--platform"),
-    colour("--platform-side"),
-    colour,
+type Platform = Pick<SystemParameters, "amplitude" | "twist_amplitude">;
+
+/** On a narrower scene the inset is a frame without numbers. */
+const NARROW = 480;
+
+/** Angles from this on are told in radians and not in thousandths of them (rad). */
+const LARGE = 0.05;
+
+export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
+  const radian = twist_amplitude >= LARGE ? { factor: 1, symbol: "" } : prefixOf(twist_amplitude);
+  const metre = prefixOf(amplitude);
+  const around = (size: number) => padded([-size, size]);
+  return {
+    x: { label: `angle (${radian.symbol}rad)`, range: around(twist_amplitude), factor: radian.factor },
+    y: { label: `height (${metre.symbol}m)`, range: around(amplitude), factor: metre.factor },
+  };
+}
+
+/** In the upper right corner of the scene, with a dot where the point is now. */
+export function paintPathInset(pen: Pen, recording: Recording, now: Moment, width: number): void {
+  const narrow = width < NARROW;
+  const [wide, high] = narrow ? [84, 84] : [200, 150];
+  const axes = pathAxes(recording.system);
+  const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, ...axes, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
+  pen.moved(width - wide - 2, 2, () => {
+    const laid = () => layOut(pen, wide, high, { ...axes, y: { ...axes.y, widest: "−0000" } }, 11);
+    const plot = narrow ? bare : withAmplitudes(laid(), recording.system);
+    pen.rect(0, 0, wide, high, { fill: "--picture-paper", opacity: 0.8 });
+    paintPath(pen, plot, recording);
+    const mark = { fill: "--platform-mark", stroke: "--picture-paper", width: 1 };
+    pen.circle(pixelX(plot, now.platform_angle), pixelY(plot, now.platform_height), 4, mark);
+    if (narrow) pen.rect(plot.left, plot.top, plot.width, plot.height, { stroke: "--picture-frame", width: 1 });
+    else paintAxes(pen, plot);
+  });
+} // prettier-ignore
+
+/** Few numbers have room: those of the amplitudes say most. */
+function withAmplitudes(plot: Plot, { amplitude, twist_amplitude }: Platform): Plot {
+  const numbers = (size: number, factor = 1) => ({
+    major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
+    minor: [],
+  });
+  return { ...plot, xTicks: numbers(twist_amplitude, plot.x.factor), yTicks: numbers(amplitude, plot.y.factor) };
+}
+
+export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
+  const angles = recording.span("platform_angle", 0, recording.period);
+  const heights = recording.span("platform_height", 0, recording.period);
+  const points: number[] = [];
+  angles.forEach((angle, index) => points.push(pixelX(plot, angle), pixelY(plot, heights[index] as number)));
+  pen.path(points, { stroke: "--platform-line", width: 1.6, close: true });
+}
+
+/** The picture in words. */
+export function describePath({ amplitude, twist_amplitude }: Platform): string {
+  const wide = twist_amplitude >= LARGE ? `${plain(twist_amplitude, 3)} rad` : quantity(twist_amplitude, "rad");
+  return (
+    "In the corner: the path of a point of the platform, its height over its angle, " +
+    `to ${wide} and ${quantity(amplitude, "m")} on both sides.`
   );
-  spokes(pen, stage, platform, turn, PLATFORM, colour("--platform-side"), 6);
-  wedge(pen, stage, platform, turn, 0.98, PLATFORM, 0.09, colour("--platform-mark"));
-  pen.path(ring(stage, 1, platform), { fill: colour("--platform-side"), opacity: 0.45, close: true });
-  cylinder(pen, stage, 1, disk, disk + THICKNESS, colour("--disk"), colour("--disk-side"), colour);
-  const top = disk + THICKNESS;
-  const spin = pose.angle * stage.angleGain;
-  spokes(pen, stage, top, spin, 1, colour("--disk-side"), 4);
-  wedge(pen, stage, top, spin, 0.25, 0.96, 0.07, colour("--disk-mark"));
-}
-
-/** A bar whose length is true on the scale of the heights, and how both scales are enlarged. */
-export function paintScale(pen: Pen, stage: Stage, height: number, colour: Colours): void {
-  const perMetre = (stage.pixels * stage.heightGain * Math.cos(ELEVATION)) / stage.radius;
-  const length = lower(roundUp((height * 0.3) / perMetre));
-  const bottom = height - 14;
-  const top = bottom - length * perMetre;
-  const ink = { stroke: colour("--picture-text"), width: 1.2 };
-  pen.path([14, bottom, 22, bottom, NaN, NaN, 14, top, 22, top, NaN, NaN, 18, bottom, 18, top], ink);
-  const text = {
-    colour: colour("--picture-text"),
-    size: 12,
-    baseline: "middle",
-    halo: colour("--picture-paper"),
-  } as const;
-  pen.text(quantity(length, "m", 1), 27, (top + bottom) / 2, text);
-}
-
-export function describeGains({ heightGain, angleGain }: Stage): string {
-  if (heightGain === 1 && angleGain === 1) return "Heights and angles are drawn as they are.";
-  const times = (gain: number) => (gain === 1 ? "as they are" : `${plain(gain, 1)} times as large`);
-  return `Heights are drawn ${times(heightGain)}, angles ${times(angleGain)}.`;
-}
-
-/** Where the middle of the disk's upper side is on the canvas. */
-export function diskPlace(stage: Stage, pose: Pose): [number, number] {
-  return project(stage, 0, 0, (pose.height * stage.heightGain) / stage.radius + THICKNESS);
-}
-
-/** Metres of height of so many pixels. */
-export function metresOf(stage: Stage, pixels: number): number {
-  return (pixels * stage.radius) / (stage.pixels * stage.heightGain * Math.cos(ELEVATION));
-}
-
-/** Radians of the disk when its rim moves by so many pixels. */
-export function radiansOf(stage: Stage, pixels: number): number {
-  return pixels / (stage.pixels * stage.angleGain);
-}
-
-/** Lengths in radii; x to the right, y away from us, z up. */
-function project(stage: Stage, x: number, y: number, z: number): [number, number] {
-  const height = z - stage.ground;
-  const up = height * Math.cos(ELEVATION) + y * Math.sin(ELEVATION);
-  const depth = y * Math.cos(ELEVATION) - height * Math.sin(ELEVATION);
-  const scale = (stage.pixels * DISTANCE) / (DISTANCE + depth);
-  return [stage.centre[0] + x * scale, stage.centre[1] - up * scale];
-}
-
-function ring(stage: Stage, radius: number, z: number, from = 0, to = 2 * Math.PI): number[] {
-  const points: number[] = [];
-  for (let corner = 0; corner <= CORNERS; corner += 1) {
-    const angle = from + ((to - from) * corner) / CORNERS;
-    points.push(...project(stage, radius * Math.cos(angle), radius * Math.sin(angle), z));
-  }
-  return points;
-}
-
-function cylinder(
-  pen: Pen,
-  stage: Stage,
-  radius: number,
-  bottom: number,
-  top: number,
-  face: string,
-  side: string,
-  colour: Colours,
-): void {
-  const edge = { stroke: colour("--picture-frame"), width: 0.8 };
-  // The half of the rim that faces us.
-  const lower = ring(stage, radius, bottom, Math.PI, 2 * Math.PI);
-  const upper = ring(stage, radius, top, 2 * Math.PI, Math.PI);
-  pen.path([...lower, ...upper], { fill: side, ...edge, close: true });
-  pen.path(ring(stage, radius, top), { fill: face, ...edge, close: true });
-}
-
-/** The column that carries the platform. */
-function column(pen: Pen, stage: Stage, top: number, colour: Colours): void {
-  const half = 0.16;
-  const low = stage.ground - 6;
-  const points = [
-    ...project(stage, -half, 0, top), ...project(stage, half, 0, top),
-    ...project(stage, half, 0, low), ...project(stage, -half, 0, low),
-  ]; // prettier-ignore
-  pen.path(points, { fill: colour("--platform-side"), opacity: 0.5, close: true });
-}
-
-function spokes(pen: Pen, stage: Stage, z: number, turn: number, radius: number, stroke: string, count: number): void {
-  const points: number[] = [];
-  for (let spoke = 0; spoke < count; spoke += 1) {
-    const angle = turn + (2 * Math.PI * spoke) / count;
-    points.push(...project(stage, 0, 0, z));
-    points.push(...project(stage, radius * Math.cos(angle), radius * Math.sin(angle), z), NaN, NaN);
-  }
-  pen.path(points, { stroke, width: 1 });
-}
-
-/** The mark by which a rotation is seen. */
-function wedge(
-  pen: Pen,
-  stage: Stage,
-  z: number,
-  turn: number,
-  inner: number,
-  outer: number,
-  half: number,
-  fill: string,
-): void {
-  const angle = turn - Math.PI / 2;
-  const at = (radius: number, by: number) =>
-    project(stage, radius * Math.cos(angle + by), radius * Math.sin(angle + by), z);
-  pen.path([...at(inner, 0), ...at(outer, -half), ...at(outer, half)], { fill, close: true });
 }

@@ -1,17 +1,18 @@
-/** Throwing the disk by dragging it. */
+/** Throwing the disk: by dragging it, or by three numbers. */
 
-import type { Throw } from "../../contract";
-import { quantity, plain } from "../../drawing/numbers";
-import { clamp } from "../../drawing/scale";
-import type { SystemParameters } from "../../protocol";
-import { diskPlace, metresOf, radiansOf } from "./scene";
+import { clamp } from "../../drawing/axes";
+import { button, element } from "../../elements";
+import { plain, quantity, typed } from "../../numbers";
+import type { FlightStart, SystemParameters } from "../../protocol";
 import type { Pose, Stage } from "./scene";
 
 /** The longest flight that a throw may make, in periods. */
 const LONGEST_FLIGHT = 12;
 const LONGEST_PAUSE = 150;
+/** Angular speeds beyond this are refused by the library. */
+const FASTEST = 1e6;
 
-export interface ThrowHost {
+interface ThrowHost {
   stage(): Stage | null;
   pose(): Pose | null;
   system(): Readonly<SystemParameters>;
@@ -20,31 +21,34 @@ export interface ThrowHost {
   slowness(): number;
   /** The disk is held at this height (m) and angle while it is dragged; null: let go. */
   hold(at: { height: number; angle: number } | null): void;
-  start(thrown: Throw): void;
+  start(thrown: FlightStart): void;
 }
 
-interface Held {
+interface Place {
   readonly x: number;
   readonly y: number;
-  readonly pose: Pose;
-  trail: { x: number; y: number; time: number }[];
+  readonly time: number;
 }
 
 /** Makes the disk on a canvas something that can be dragged. */
 export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
-  let held: Held | null = null;
-  const place = (event: PointerEvent) => {
+  let held: { from: Place; pose: Pose; trail: Place[] } | null = null;
+  const place = (event: PointerEvent): Place => {
     const box = surface.getBoundingClientRect();
     return { x: event.clientX - box.left, y: event.clientY - box.top, time: event.timeStamp };
   };
+  const heldAt = (stage: Stage, { from, pose }: NonNullable<typeof held>, at: Place) => ({
+    height: Math.max(pose.height + stage.metresOf(from.y - at.y), pose.platform_height),
+    angle: pose.angle + stage.radiansOf(at.x - from.x),
+  });
   surface.addEventListener("pointerdown", (event) => {
     const stage = host.stage();
     const pose = host.pose();
     if (stage === null || pose === null || event.button > 0) return;
-    const at = place(event);
-    const [x, y] = diskPlace(stage, pose);
-    if (Math.abs(at.x - x) > stage.pixels || Math.abs(at.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
-    held = { x: at.x, y: at.y, pose, trail: [at] };
+    const from = place(event);
+    const [x, y] = stage.placeOfDisk(pose);
+    if (Math.abs(from.x - x) > stage.pixels || Math.abs(from.y - y) > Math.max(0.6 * stage.pixels, 24)) return;
+    held = { from, pose, trail: [from] };
     surface.setPointerCapture(event.pointerId);
     event.preventDefault();
   });
@@ -58,26 +62,26 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
     if (held === null || stage === null) return;
     const at = place(event);
     held.trail = [...held.trail.filter(({ time }) => at.time - time < LONGEST_PAUSE), at];
-    host.hold(heldAt(held, stage, at));
+    host.hold(heldAt(stage, held, at));
   });
   surface.addEventListener("pointerup", (event) => {
     const stage = host.stage();
     if (held === null || stage === null) return;
     const at = place(event);
-    const known = held;
+    const { from, pose, trail } = held;
+    const { height } = heldAt(stage, held, at);
     held = null;
     host.hold(null);
-    if (Math.hypot(at.x - known.x, at.y - known.y) < 4) return;
-    const [first = at] = known.trail.filter(({ time }) => at.time - time < LONGEST_PAUSE);
+    if (Math.hypot(at.x - from.x, at.y - from.y) < 4) return;
+    const [first = at] = trail.filter(({ time }) => at.time - time < LONGEST_PAUSE);
     const seconds = Math.max((at.time - first.time) / 1000, 1e-3) * host.slowness();
     const moving = at.time > first.time;
-    const { height } = heldAt(known, stage, at);
     host.start(
       bounded(host.system(), {
         phase: host.phase(),
-        gap: height - known.pose.platform_height,
-        relative_velocity: moving ? metresOf(stage, first.y - at.y) / seconds : 0,
-        angular_speed: moving ? radiansOf(stage, at.x - first.x) / seconds : 0,
+        gap: height - pose.platform_height,
+        relative_velocity: moving ? stage.metresOf(first.y - at.y) / seconds : 0,
+        angular_speed: moving ? stage.radiansOf(at.x - first.x) / seconds : 0,
       }),
     );
   });
@@ -87,16 +91,8 @@ export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   });
 }
 
-function heldAt({ x, y, pose }: Held, stage: Stage, at: { x: number; y: number }): { height: number; angle: number } {
-  return {
-    height: Math.max(pose.height + metresOf(stage, y - at.y), pose.platform_height),
-    angle: pose.angle + radiansOf(stage, at.x - x),
-  };
-}
-
 /** A throw that comes down again within some periods. */
-export function bounded(system: Readonly<SystemParameters>, thrown: Throw): Throw {
-  const { angular_frequency, preload_acceleration: g } = system;
+function bounded({ angular_frequency, preload_acceleration: g }: SystemParameters, thrown: FlightStart): FlightStart {
   const time = (LONGEST_FLIGHT * 2 * Math.PI) / angular_frequency;
   const gap = clamp(thrown.gap, 0, (g * time ** 2) / 8);
   const fastest = (g * time) / 4;
@@ -104,10 +100,67 @@ export function bounded(system: Readonly<SystemParameters>, thrown: Throw): Thro
   return { ...thrown, gap, relative_velocity };
 }
 
-export function describeThrow({ gap, relative_velocity, angular_speed }: Throw): string {
+export function describeThrow({ gap, relative_velocity, angular_speed }: FlightStart): string {
   const way = relative_velocity < 0 ? "downwards" : "upwards";
   return (
     `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} ` +
     `relative to it, turning at ${plain(angular_speed, 3)} rad/s.`
   );
+}
+
+/** Three numbers and a button: a throw without a pointer. */
+export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "phase" | "start">): HTMLElement {
+  const gap = new Entry("Height above the platform (mm)", "100");
+  const velocity = new Entry("Relative velocity upwards (mm/s)", "500");
+  const spin = new Entry("Angular speed (rad/s)", "5");
+  const problem = element("p", { class: "error", role: "alert", hidden: true });
+  /** A number that no throw can have is refused with the range of those that one can. */
+  const throwIt = () => {
+    const thrown = {
+      phase: phase(),
+      gap: gap.value / 1000,
+      relative_velocity: velocity.value / 1000,
+      angular_speed: spin.value,
+    };
+    const highest = bounded(system(), { ...thrown, gap: Infinity }).gap;
+    const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
+    // From the platform itself the disk can only leave upwards.
+    const slowest = thrown.gap > 0 ? -fastest : 0;
+    const speeds = `${quantity(slowest, "m/s")} to ${quantity(fastest, "m/s")}`;
+    const wrong = [
+      gap.refuse(0, highest * 1000, `0 to ${quantity(highest, "m")}`),
+      velocity.refuse(slowest * 1000, fastest * 1000, speeds),
+      spin.refuse(-FASTEST, FASTEST, `−${FASTEST} to ${FASTEST} rad/s`),
+    ].filter((text) => text !== null);
+    problem.textContent = wrong.join(" ");
+    problem.hidden = wrong.length === 0;
+    if (wrong.length === 0) start(bounded(system(), thrown));
+  };
+  const rows = [gap, velocity, spin].map(({ row }) => row);
+  const fields = element("div", { class: "fields" }, ...rows, problem, button("Throw", throwIt));
+  return element("details", { class: "throw" }, element("summary", {}, "Throw by numbers"), fields);
+}
+
+class Entry {
+  readonly row: HTMLElement;
+  private readonly input: HTMLInputElement;
+
+  constructor(
+    private readonly label: string,
+    value: string,
+  ) {
+    this.input = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", value });
+    this.row = element("label", {}, label, this.input);
+  }
+
+  get value(): number {
+    return typed(this.input.value, false) ?? NaN;
+  }
+
+  /** What is wrong with the number, or null. */
+  refuse(low: number, high: number, range: string): string | null {
+    const legal = this.value >= low && this.value <= high;
+    this.input.setAttribute("aria-invalid", String(!legal));
+    return legal ? null : `${this.label}: "${this.input.value.slice(0, 24)}" is refused, it has to be from ${range}.`;
+  }
 }

@@ -1,8 +1,8 @@
 //! The speed transients of many rotors on one vertical motion.
 
-use bouncing_disk_core::{
-    Impact, InstructionSet, LaneLoop, LaneRunner, OrbitEvent, Phase, Unobserved, Watch, WorkCount,
-};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::sweep::{InstructionSet, LaneLoop, LaneRunner};
+use bouncing_disk_core::{Impact, OrbitEvent, Phase, Unobserved};
 
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;

@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use bouncing_disk_core::elementary::hypot;
+use bouncing_disk_core::numerics::elementary::hypot;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};

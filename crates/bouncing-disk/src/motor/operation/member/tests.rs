@@ -1,4 +1,5 @@
-use bouncing_disk_core::{Unobserved, Watch};
+use bouncing_disk_core::Unobserved;
+use bouncing_disk_core::run::Watch;
 
 use super::*;
 use crate::System;

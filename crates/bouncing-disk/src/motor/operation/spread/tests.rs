@@ -128,9 +128,9 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let (mut low, mut high) = (-1.0_f64, 1.0_f64);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        let angle = bouncing_disk_core::elementary::acos(middle);
+        let angle = bouncing_disk_core::numerics::elementary::acos(middle);
         let share = (angle
-            + peak * (1.0 - middle * middle).sqrt() * bouncing_disk_core::elementary::sin(lag))
+            + peak * (1.0 - middle * middle).sqrt() * bouncing_disk_core::numerics::elementary::sin(lag))
             / std::f64::consts::PI;
         if share > 0.5 { low = middle } else { high = middle }
     }
@@ -139,7 +139,7 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     assert!(point.speed.standard_error < 1e-9 * expected && point.energy_residual < 1e-9, "{point:?}");
     let stall = motor.stall_load(&settings, &Unobserved).expect("it turns");
     // S(0) of the same normal force.
-    let share = 2.0 * peak * bouncing_disk_core::elementary::sin(lag) / std::f64::consts::PI;
+    let share = 2.0 * peak * bouncing_disk_core::numerics::elementary::sin(lag) / std::f64::consts::PI;
     assert!((stall.share - share).abs() < 2e-3, "{stall:?} {share}");
     // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a deviation of
     // 1 %/sqrt(3).

@@ -1,7 +1,7 @@
 use bouncing_disk_core::Unobserved;
 use std::f64::consts::PI;
 
-use bouncing_disk_core::elementary::sin;
+use bouncing_disk_core::numerics::elementary::sin;
 
 use super::*;
 use crate::motor::sensitivity::morris::{ElementaryEffects, elementary_effects};

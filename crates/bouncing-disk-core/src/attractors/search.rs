@@ -1,0 +1,379 @@
+//! The attractors of a map without being told, and basins from them (docs/numerics/dynamics.md, "Attractors").
+
+mod basins;
+pub(crate) mod cells;
+mod find;
+mod follow;
+pub(crate) mod over_forcing;
+pub(crate) mod settings;
+mod starts;
+
+use crate::attractors::basin::{KnownOrbit, Label};
+use crate::attractors::verdict::{RestCycle, UndecidedReason};
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, finite, not_negative, within};
+use crate::numerics::fraction::Fraction;
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::read_checked;
+use crate::run::Observer;
+use cells::VisitedCells;
+use settings::AttractorSearch;
+
+/// Most attractors but for the disk at rest: as many as labels tell apart.
+const MOST_ATTRACTORS: usize = 250;
+
+/// What a disk does that has come to rest on the platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAfterRest"))]
+#[non_exhaustive]
+pub enum AfterRest {
+    /// It stays for ever: the platform never falls away (P <= 1).
+    StaysForEver,
+    /// It separates, in always the same way, and comes to rest again.
+    RestsAgain(RestCycle),
+    /// It separates and never comes to rest again: the rest is no attractor but lies in the basin of the one
+    /// with this number in [`Attractors::all`], and so do all starts that come to rest.
+    LeadsTo(usize),
+}
+
+read_checked!(enum AfterRest as UncheckedAfterRest {
+    StaysForEver,
+    RestsAgain(cycle: RestCycle),
+    LeadsTo(attractor: usize),
+});
+
+impl AfterRest {
+    /// The number of the attractor that the rest leads to, in [`Attractors::all`]; `None` where it lasts.
+    #[must_use]
+    pub const fn leads_to(&self) -> Option<usize> {
+        match self {
+            Self::LeadsTo(attractor) => Some(*attractor),
+            Self::StaysForEver | Self::RestsAgain(_) => None,
+        }
+    }
+
+    /// What it is made of has been checked when it was read; the number is checked by [`Attractors`].
+    const fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::LeadsTo(0) => {
+                Err(Error::Unfitting { what: "attractor that a rest leads to", found: 0, expected: 1 })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Where one orbit on an attractor that is not periodic has been.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecurrence"))]
+pub struct Recurrence {
+    /// The cells that it has visited in the second half of its impacts.
+    pub cells: VisitedCells,
+    /// Impacts that it was followed for without coming to rest.
+    pub impacts: u64,
+    /// Its last impact.
+    pub state: ImpactState,
+}
+
+read_checked!(Recurrence as UncheckedRecurrence {
+    cells: VisitedCells,
+    impacts: u64,
+    state: ImpactState,
+});
+
+impl Recurrence {
+    /// Checks what is read: an orbit has been somewhere.
+    fn check(&self) -> Result<(), Error> {
+        let (cells, impacts) = (self.cells.visited().len() as f64, self.impacts as f64);
+        within("visited cells", cells, 1.0, f64::MAX, "at least 1")?;
+        within("impacts of an orbit", impacts, 1.0, f64::MAX, "at least 1").map(|_| ())
+    }
+}
+
+/// What an attractor is.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedKind"))]
+#[non_exhaustive]
+pub enum AttractorKind {
+    /// The disk comes to rest on the platform. Every map has starts that do; the others are told apart by
+    /// what follows.
+    Rest(AfterRest),
+    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
+    /// none, as next to a graze.
+    Periodic(KnownOrbit),
+    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits are born: it
+    /// attracts from one side, or rounding decides whether it does. Starts come nearer to it without end in sight
+    /// and stay undecided in basins.
+    Marginal(PeriodicOrbit),
+    /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)).
+    Chaotic {
+        /// The largest Lyapunov exponent per impact.
+        exponent: f64,
+        /// Its standard error, by batch means.
+        standard_error: f64,
+        /// Where it has been.
+        recurrence: Recurrence,
+    },
+    /// A set that orbits stay on and of which nothing else is certain: a period longer than the longest one, or
+    /// a motion without period whose perturbations neither grow nor shrink.
+    Unclassified {
+        /// Why it is neither periodic nor chaotic.
+        reason: UndecidedReason,
+        /// Where it has been.
+        recurrence: Recurrence,
+    },
+}
+
+read_checked!(enum AttractorKind as UncheckedKind {
+    Rest(after: AfterRest),
+    Periodic(known: KnownOrbit),
+    Marginal(orbit: PeriodicOrbit),
+    Chaotic { exponent: f64, standard_error: f64, recurrence: Recurrence },
+    Unclassified { reason: UndecidedReason, recurrence: Recurrence },
+});
+
+impl AttractorKind {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        if let Self::Chaotic { exponent, standard_error, .. } = self {
+            finite("exponent", *exponent)?;
+            not_negative("standard error of an exponent", *standard_error)?;
+        }
+        Ok(())
+    }
+
+    /// Where an attractor has been that is known by its cells.
+    #[must_use]
+    pub const fn recurrence(&self) -> Option<&Recurrence> {
+        match self {
+            Self::Chaotic { recurrence, .. } | Self::Unclassified { recurrence, .. } => Some(recurrence),
+            Self::Rest(_) | Self::Periodic(_) | Self::Marginal(_) => None,
+        }
+    }
+
+    /// The cycle of a disk that comes to rest again and again: [`RestCycle::is_exact`] says whether its numbers are
+    /// those of exact arithmetic or rounding has chosen them.
+    #[must_use]
+    pub const fn rest_cycle(&self) -> Option<&RestCycle> {
+        match self {
+            Self::Rest(AfterRest::RestsAgain(cycle)) => Some(cycle),
+            _ => None,
+        }
+    }
+
+    /// Whether the motion lasts: not that of a disk which rests and never does so again.
+    #[must_use]
+    pub const fn lasts(&self) -> bool {
+        !matches!(self, Self::Rest(AfterRest::LeadsTo(_)))
+    }
+}
+
+/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given applies to
+/// the exponent.
+impl core::fmt::Display for AttractorKind {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let digits = formatter.precision().unwrap_or(4);
+        match self {
+            Self::Rest(AfterRest::StaysForEver) => formatter.write_str("comes to rest for ever"),
+            Self::Rest(AfterRest::RestsAgain(cycle)) if cycle.is_exact() => {
+                write!(
+                    formatter,
+                    "comes to rest again and again: platform periods {}",
+                    cycle.platform_periods
+                )
+            }
+            Self::Rest(AfterRest::RestsAgain(_)) => {
+                formatter.write_str("comes to rest again and again, in a cycle that rounding chooses")
+            }
+            Self::Rest(AfterRest::LeadsTo(other)) => {
+                write!(formatter, "comes to rest, then attractor {other}")
+            }
+            Self::Periodic(known) => {
+                let (impacts, periods) = (known.orbit().period(), known.orbit().platform_periods);
+                write!(formatter, "periodic orbit: impacts {impacts}, platform periods {periods}")
+            }
+            Self::Marginal(orbit) => {
+                let (impacts, periods) = (orbit.period(), orbit.platform_periods);
+                write!(formatter, "marginal periodic orbit: impacts {impacts}, platform periods {periods}")
+            }
+            Self::Chaotic { exponent, .. } => {
+                write!(formatter, "chaotic: exponent {exponent:.digits$} per impact")
+            }
+            Self::Unclassified { reason, .. } => write!(formatter, "not classified: {reason:.digits$}"),
+        }
+    }
+}
+
+/// An attractor, and how many starts have ended on it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Attractor {
+    /// What it is.
+    pub kind: AttractorKind,
+    /// How many of the starts ended on it: none where it was a candidate. Its interval is that of the basin's
+    /// share of the trapping region.
+    pub starts: Fraction,
+}
+
+/// The attractors of a map: the disk at rest, and all others that were found.
+///
+/// Their numbers are those of [`Self::all`]: the disk at rest has 0; then come the periodic ones by impacts,
+/// platform periods and falling speed, the marginal ones in the same order, then all others as they were found.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttractors"))]
+pub struct Attractors {
+    map: ImpactMap,
+    search: AttractorSearch,
+    all: Vec<Attractor>,
+}
+
+read_checked!(Attractors as UncheckedAttractors {
+    map: ImpactMap,
+    search: AttractorSearch,
+    all: Vec<Attractor>,
+});
+
+impl Attractors {
+    /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there are
+    /// labels, and of no more starts than there were.
+    fn check(&self) -> Result<(), Error> {
+        let refuse = |what, found: usize, expected: usize| {
+            Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
+        };
+        let count = self.all.len();
+        if count == 0 || count > MOST_ATTRACTORS + 1 {
+            return refuse("attractors", count, MOST_ATTRACTORS + 1);
+        }
+        let rank = |attractor: &Attractor| match attractor.kind {
+            AttractorKind::Rest(_) => 0,
+            AttractorKind::Periodic(_) => 1,
+            AttractorKind::Marginal(_) => 2,
+            AttractorKind::Chaotic { .. } | AttractorKind::Unclassified { .. } => 3_usize,
+        };
+        let rests = self.all.iter().filter(|attractor| rank(attractor) == 0).count();
+        if rests != 1 {
+            return refuse("attractors at rest", rests, 1);
+        }
+        if let Some(late) = self.all.windows(2).position(|pair| rank(&pair[0]) > rank(&pair[1])) {
+            return refuse("attractor out of order", late + 1, late);
+        }
+        if let AttractorKind::Rest(AfterRest::LeadsTo(target)) = self.all[0].kind
+            && target >= count
+        {
+            return refuse("attractor that a rest leads to", target, count - 1);
+        }
+        let starts = u64::from(self.search.starts());
+        if let Some(other) = self.all.iter().find(|attractor| attractor.starts.of() != starts) {
+            return refuse("starts of an attractor", other.starts.of() as usize, starts as usize);
+        }
+        let ended = self.all.iter().map(|attractor| attractor.starts.count()).fold(0, u64::saturating_add);
+        if ended > starts {
+            return refuse("starts that ended on attractors", ended as usize, starts as usize);
+        }
+        Ok(())
+    }
+
+    /// The map.
+    #[must_use]
+    pub const fn map(&self) -> &ImpactMap {
+        &self.map
+    }
+
+    /// How they were looked for.
+    #[must_use]
+    pub const fn search(&self) -> &AttractorSearch {
+        &self.search
+    }
+
+    /// The disk at rest, which is number 0, and all other attractors.
+    #[must_use]
+    pub fn all(&self) -> &[Attractor] {
+        &self.all
+    }
+
+    /// The attractors that last, with their numbers.
+    pub fn lasting(&self) -> impl Iterator<Item = (usize, &Attractor)> {
+        self.all.iter().enumerate().filter(|(_, attractor)| attractor.kind.lasts())
+    }
+
+    /// The starts that ended on none of them: whose period was seen and not found again.
+    #[must_use]
+    pub fn undecided(&self) -> Fraction {
+        let starts = u64::from(self.search.starts());
+        let ended = self.all.iter().map(|attractor| attractor.starts.count()).sum();
+        Fraction::new(starts.saturating_sub(ended), starts).unwrap_or_default()
+    }
+
+    /// The label of the attractor with this number in [`Self::basins`]: [`ATTACHED`](crate::attractors::ATTACHED) of the
+    /// disk at rest, then from [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT) on; `None` if there is no such attractor.
+    #[must_use]
+    pub fn label(&self, number: usize) -> Option<Label> {
+        (number < self.all.len()).then(|| label_of(number))
+    }
+
+    /// The attractor with this label.
+    #[must_use]
+    pub fn labelled(&self, label: Label) -> Option<&Attractor> {
+        self.all.get(usize::from(label).checked_sub(1)?)
+    }
+
+    /// The periodic attractors, as the basins of known orbits take them: number 1, 2, ...
+    pub fn known(&self) -> impl Iterator<Item = &KnownOrbit> {
+        self.all.iter().filter_map(|attractor| match &attractor.kind {
+            AttractorKind::Periodic(known) => Some(known),
+            _ => None,
+        })
+    }
+}
+
+/// The label of the attractor with a number that exists: at most 251.
+const fn label_of(number: usize) -> Label {
+    number as Label + 1
+}
+
+impl ImpactMap {
+    /// The attractors, found without any known orbit.
+    ///
+    /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no attractor
+    /// can leave, so that no window can miss one. Each is followed until it rests, or is seen to come ever
+    /// nearer to a periodic orbit, which is then refined; of those that do neither, one is followed for
+    /// long, and the others that come back to the cells that it has visited are on the same attractor.
+    /// Periodic orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
+    ///
+    /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
+    /// finds are there in any case, however small their basins.
+    ///
+    /// What is not proven: an attractor whose basin no start has hit is missed, and its share is then below the
+    /// upper end of the [interval](Fraction::interval) of none of the starts; and an orbit that has not come to
+    /// rest for [`AttractorSearch::impacts`] may yet.
+    ///
+    /// The items of `observer` are the starts, each of which counts when it has been looked at and when its
+    /// attractor is known.
+    ///
+    /// ```
+    /// use bouncing_disk_core::attractors::{AttractorKind, AttractorSearch};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    ///
+    /// // Where the paper has two attractors there are three: rest, period 1, and an orbit of four impacts.
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.486)?, 0.5)?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+    /// let periods: Vec<usize> = found.known().map(|known| known.orbit().period()).collect();
+    /// assert_eq!((found.all().len(), periods), (3, vec![1, 4]));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for more than 250 attractors beside the disk at rest; those of
+    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn attractors(&self, search: &AttractorSearch, observer: &dyn Observer) -> Result<Attractors, Error> {
+        find::find(self, search, observer)
+    }
+}
+
+#[cfg(test)]
+mod tests;

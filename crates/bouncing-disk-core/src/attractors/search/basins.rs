@@ -1,0 +1,288 @@
+//! Basins of the attractors that were found.
+
+use core::ops::{ControlFlow, Range};
+
+use super::cells::VisitedCells;
+use super::follow::SHARE_IN_CELLS;
+use super::{Attractors, label_of};
+use crate::attractors::basin::{
+    ATTACHED, BasinRun, BasinSettings, Basins, Grid, KnownOrbit, Label, UNDECIDED,
+};
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::Error;
+use crate::run::{Observer, Progress, Unobserved};
+use crate::sweep::{SweepEvent, sweep};
+
+/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
+/// that were allowed.
+const COMPARED: u32 = 256;
+
+/// Starts that are followed at a time, for their memory.
+const AT_ONCE: usize = 1 << 14;
+
+/// What labels a start.
+struct Labels<'a> {
+    map: &'a ImpactMap,
+    known: Vec<KnownOrbit>,
+    cells: Vec<(Label, &'a VisitedCells)>,
+    settings: BasinSettings,
+}
+
+/// A start on its way to its label.
+struct OnItsWay {
+    impacts: u32,
+    /// Impacts in the cells of each attractor that has any.
+    hits: Vec<u32>,
+    label: Option<Label>,
+}
+
+impl<'a> Labels<'a> {
+    fn new(attractors: &'a Attractors, settings: BasinSettings) -> Self {
+        let recurrences = attractors.recurrences();
+        Self {
+            map: &attractors.map,
+            known: attractors.known().cloned().collect(),
+            cells: recurrences.map(|(number, own)| (label_of(number), &own.cells)).collect(),
+            settings,
+        }
+    }
+
+    /// Impacts after which a start is left.
+    fn allowed(&self) -> u32 {
+        let compared = if self.cells.is_empty() { 0 } else { COMPARED };
+        self.settings.max_impacts.saturating_add(compared)
+    }
+
+    fn see(&self, own: &mut OnItsWay, event: &SweepEvent) -> ControlFlow<()> {
+        let SweepEvent::Impact(impact) = event else {
+            own.label = Some(ATTACHED);
+            return ControlFlow::Break(());
+        };
+        own.impacts += 1;
+        own.label = self.map.settles(impact.state, &self.known, self.settings.policy);
+        if own.label.is_some() {
+            return ControlFlow::Break(());
+        }
+        if own.impacts > self.settings.max_impacts {
+            for (hits, (_, cells)) in own.hits.iter_mut().zip(&self.cells) {
+                *hits += u32::from(cells.contains(impact.state));
+            }
+        }
+        if own.impacts >= self.allowed() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The label of a start that has been followed: that of the attractor whose cells hold most of the last
+    /// impacts, if it is half of them.
+    fn label(&self, own: &OnItsWay) -> Label {
+        if let Some(label) = own.label {
+            return label;
+        }
+        let enough = (SHARE_IN_CELLS * f64::from(COMPARED)) as u32;
+        let counted = own.hits.iter().zip(&self.cells).filter(|(hits, _)| **hits >= enough);
+        let most = counted.fold(
+            (0, UNDECIDED),
+            |most, (hits, (label, _))| {
+                if *hits > most.0 { (*hits, *label) } else { most }
+            },
+        );
+        most.1
+    }
+
+    /// The labels of starts, in their order.
+    fn of(&self, starts: &[ImpactState], observer: &dyn Observer) -> Result<Vec<Label>, Error> {
+        let mut labels = Vec::with_capacity(starts.len());
+        let mut open = Vec::new();
+        for start in starts {
+            match self.map.settles(*start, &self.known, self.settings.policy) {
+                Some(label) => labels.push(label),
+                None => {
+                    open.push(labels.len());
+                    labels.push(UNDECIDED);
+                }
+            }
+        }
+        if self.allowed() == 0 {
+            return Ok(labels);
+        }
+        let orbits: Vec<_> =
+            open.iter().map(|index| self.map.orbit(starts[*index], self.settings.policy)).collect();
+        let followed = sweep(
+            &orbits,
+            |_| OnItsWay { impacts: 0, hits: vec![0; self.cells.len()], label: None },
+            |own, event| self.see(own, event),
+            observer,
+        )?;
+        for (index, own) in open.into_iter().zip(&followed) {
+            // An orbit that ends without an event has not left the platform.
+            let left = own.label.is_none() && own.impacts < self.allowed();
+            labels[index] = if left { ATTACHED } else { self.label(own) };
+        }
+        Ok(labels)
+    }
+
+    /// Labels the cells of a grid with these indices.
+    fn label_cells(
+        &self,
+        grid: &Grid,
+        labels: &mut [Label],
+        open: &[usize],
+        rows: &Rows<'_>,
+    ) -> Result<(), Error> {
+        let columns = grid.phase().cells();
+        for part in open.chunks(AT_ONCE) {
+            let starts = part.iter().map(|index| start_of(grid, index / columns, index % columns));
+            let starts = starts.collect::<Result<Vec<_>, _>>()?;
+            let found = self.of(&starts, rows).map_err(|error| match error {
+                Error::Stopped { .. } => Error::Stopped { done: rows.done, total: rows.total },
+                other => other,
+            })?;
+            for (index, label) in part.iter().zip(found) {
+                labels[*index] = label;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The start of a cell.
+fn start_of(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, Error> {
+    ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
+}
+
+/// Tells the observer of all rows of the progress of some of their starts: which are finished before.
+struct Rows<'o> {
+    observer: &'o dyn Observer,
+    done: u64,
+    total: u64,
+}
+
+impl Observer for Rows<'_> {
+    fn observe(&self, _: Progress) -> ControlFlow<()> {
+        self.observer.observe(Progress { done: self.done, total: self.total })
+    }
+}
+
+impl Attractors {
+    /// The label of one start: that of the attractor it ends on ([`Self::label`]), or [`UNDECIDED`].
+    ///
+    /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`]. A start that is
+    /// undecided after [`BasinSettings::max_impacts`] is compared with the attractors that are known by their
+    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of them.
+    ///
+    /// # Errors
+    /// Those of [`ImpactMap::basin_label`].
+    pub fn basin_label(&self, start: ImpactState, settings: BasinSettings) -> Result<Label, Error> {
+        let labels = Labels::new(self, settings).of(&[start], &Unobserved)?;
+        Ok(labels.first().copied().unwrap_or(UNDECIDED))
+    }
+
+    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it is
+    /// the same in every window and for every number of threads.
+    ///
+    /// The items of `observer` are the rows, each of which counts twice where there are attractors that are
+    /// known by their cells.
+    ///
+    /// ```
+    /// use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, FIRST_ORBIT, Grid};
+    /// use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    ///
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+    /// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 3.0, 60)?)?;
+    /// let basins = found.basins(grid, BasinSettings::default(), &Unobserved)?;
+    /// let (low, high) = basins.share(FIRST_ORBIT).interval();
+    /// assert!(low > 0.1 && high < 0.5);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`ImpactMap::basins`].
+    pub fn basins(
+        &self,
+        grid: Grid,
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Basins, Error> {
+        let labelling = Labels::new(self, settings);
+        let rows = grid.speed().cells() as u64;
+        if labelling.cells.is_empty() {
+            return self.map.basins(grid, &labelling.known, settings, observer);
+        }
+        let whole = |progress: Progress| observer.observe(Progress { total: 2 * rows, ..progress });
+        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
+        run.advance(&whole).map_err(|error| match error {
+            Error::Stopped { done, .. } => Error::Stopped { done, total: 2 * rows },
+            other => other,
+        })?;
+        let mut labels = run.into_basins()?.into_labels();
+        let open = (0..labels.len()).filter(|index| labels[*index] == UNDECIDED).collect::<Vec<_>>();
+        let second = Rows { observer, done: rows, total: 2 * rows };
+        labelling.label_cells(&grid, &mut labels, &open, &second)?;
+        // Whatever it says, there is nothing left to stop.
+        let _ = observer.observe(Progress { done: 2 * rows, total: 2 * rows });
+        Basins::of_labels(labels, grid.phase().cells())
+    }
+
+    /// Some rows of [`Self::basins`], with the very same labels. A grid that takes long is computed some rows at a
+    /// time, on one machine or many, and put together by [`Basins::stacked`].
+    ///
+    /// The items of `observer` are these rows, each of which counts twice where there are attractors that
+    /// are known by their cells.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Basins, Grid};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+    /// let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
+    /// let (grid, settings) = (Grid::new(Axis::new(0.0, 1.0, 20)?, Axis::new(0.0, 3.0, 20)?)?, BasinSettings::default());
+    /// let parts = [found.basins_of_rows(grid, 0..7, settings, &Unobserved)?, found.basins_of_rows(grid, 7..20, settings, &Unobserved)?];
+    /// assert_eq!(Basins::stacked(parts)?, found.basins(grid, settings, &Unobserved)?);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Unfitting`] for rows that the grid has not, or none; those of [`Self::basins`].
+    pub fn basins_of_rows(
+        &self,
+        grid: Grid,
+        rows: Range<usize>,
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Basins, Error> {
+        let (width, height) = (grid.phase().cells(), grid.speed().cells());
+        let unfitting = |what, found: usize, expected: usize| {
+            Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
+        };
+        if rows.end > height {
+            return unfitting("end of the rows of a grid", rows.end, height);
+        }
+        if rows.start >= rows.end {
+            return unfitting("first row of rows of a grid", rows.start, rows.end.saturating_sub(1));
+        }
+        let labelling = Labels::new(self, settings);
+        let count = rows.len() as u64;
+        let recurrent = !labelling.cells.is_empty();
+        // Each row counts twice where undecided starts are compared with cells.
+        let total = if recurrent { 2 * count } else { count };
+        let elsewhere = (height - rows.len()) as u64;
+        let own = |progress: Progress| {
+            observer.observe(Progress { done: progress.done.saturating_sub(elsewhere), total })
+        };
+        let mut run = BasinRun::new(self.map, grid, &labelling.known, settings)?;
+        run.advance_rows(rows.clone(), &own).map_err(|error| match error {
+            Error::Stopped { done, .. } => Error::Stopped { done: done.saturating_sub(elsewhere), total },
+            other => other,
+        })?;
+        let mut labels = run.into_labels();
+        let cells = rows.start * width..rows.end * width;
+        if recurrent {
+            let open: Vec<_> = cells.clone().filter(|index| labels[*index] == UNDECIDED).collect();
+            labelling.label_cells(&grid, &mut labels, &open, &Rows { observer, done: count, total })?;
+            // Whatever it says, there is nothing left to stop.
+            let _ = observer.observe(Progress { done: total, total });
+        }
+        labels.truncate(cells.end);
+        labels.drain(..cells.start);
+        Basins::of_labels(labels, width)
+    }
+}

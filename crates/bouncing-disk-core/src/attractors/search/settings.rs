@@ -1,0 +1,173 @@
+//! How attractors are looked for.
+
+use super::cells::VisitedCells;
+use crate::attractors::verdict::VerdictSettings;
+use crate::numerics::error::{Error, within};
+use crate::orbits::periodic::MAX_PERIOD;
+use crate::orbits::periodic::search::OrbitSearch;
+use crate::read_checked;
+
+/// How attractors are looked for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
+///
+/// ```
+/// use bouncing_disk_core::attractors::AttractorSearch;
+///
+/// let search = AttractorSearch::default().with_starts(4_000)?.with_orbits(None);
+/// assert_eq!(search.starts(), 4_000);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSearch"))]
+pub struct AttractorSearch {
+    starts: u32,
+    transient: u64,
+    impacts: u64,
+    longest_period: usize,
+    side: u32,
+    orbits: Option<OrbitSearch>,
+}
+
+read_checked!(AttractorSearch as UncheckedSearch {
+    starts: u32,
+    transient: u64,
+    impacts: u64,
+    longest_period: usize,
+    side: u32,
+    orbits: Option<OrbitSearch>,
+});
+
+/// The search that is told at each number.
+impl Default for AttractorSearch {
+    fn default() -> Self {
+        Self {
+            starts: 1_024,
+            transient: 2_000,
+            impacts: 100_000,
+            longest_period: 256,
+            side: 256,
+            orbits: OrbitSearch::new(2, 64).and_then(|search| search.with_starts(48, 48)).ok(),
+        }
+    }
+}
+
+impl AttractorSearch {
+    /// Most starts.
+    pub const MAX_STARTS: u32 = 1 << 18;
+
+    /// Most impacts.
+    pub const MAX_IMPACTS: u64 = 1 << 40;
+
+    /// The same from so many starts in [0, 2^18], spread evenly over the trapping region. Default 1,024: of
+    /// these an attractor whose basin has a share of 1 % of the region is missed once in 30,000 at most, if
+    /// they were random. Without any there are only the candidates.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number.
+    pub fn with_starts(self, starts: u32) -> Result<Self, Error> {
+        let search = Self { starts, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// The same with these numbers of impacts: `transient` in [1, 2^40] that are not looked at (default
+    /// 2,000), and then `impacts` in [64, 2^40], over which one orbit of each attractor that is not periodic
+    /// is followed (default 100,000). All other starts are followed for twice the transient at most.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for either number.
+    pub fn with_impacts(self, transient: u64, impacts: u64) -> Result<Self, Error> {
+        let search = Self { transient, impacts, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// The same with this longest period of an attractor (impacts, in [1, 4096]; default 256).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number.
+    pub fn with_longest_period(self, longest_period: usize) -> Result<Self, Error> {
+        let search = Self { longest_period, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// The same with so many cells in [8, 4096] along both axes of the grid by which attractors are told apart
+    /// that are not periodic. Default 256.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the number.
+    pub fn with_cells(self, side: u32) -> Result<Self, Error> {
+        let search = Self { side, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// The same with this search for periodic orbits, the attracting ones of which are candidates however
+    /// small their basins; `None` for those of one impact alone, whose closed form costs nothing. Default:
+    /// two impacts and 64 periods of the platform, from 48 x 48 starts.
+    #[must_use]
+    pub const fn with_orbits(self, orbits: Option<OrbitSearch>) -> Self {
+        Self { orbits, ..self }
+    }
+
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        let most = Self::MAX_IMPACTS as f64;
+        within("starts", self.starts.into(), 0.0, Self::MAX_STARTS.into(), "[0, 262144]")?;
+        within("transient", self.transient as f64, 1.0, most, "[1, 1099511627776] impacts")?;
+        within("impacts", self.impacts as f64, 64.0, most, "[64, 1099511627776]")?;
+        let longest = self.longest_period as f64;
+        within("longest period", longest, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let (least, most) = VisitedCells::SIDES;
+        within("cells along an axis", self.side.into(), least.into(), most.into(), "[8, 4096]")?;
+        Ok(())
+    }
+
+    /// Starts.
+    #[must_use]
+    pub const fn starts(&self) -> u32 {
+        self.starts
+    }
+
+    /// Impacts that are not looked at.
+    #[must_use]
+    pub const fn transient(&self) -> u64 {
+        self.transient
+    }
+
+    /// Impacts over which an orbit of an attractor that is not periodic is followed.
+    #[must_use]
+    pub const fn impacts(&self) -> u64 {
+        self.impacts
+    }
+
+    /// The longest period, in impacts.
+    #[must_use]
+    pub const fn longest_period(&self) -> usize {
+        self.longest_period
+    }
+
+    /// Cells along each axis.
+    #[must_use]
+    pub const fn cells(&self) -> u32 {
+        self.side
+    }
+
+    /// The search for candidates.
+    #[must_use]
+    pub const fn orbits(&self) -> Option<OrbitSearch> {
+        self.orbits
+    }
+
+    /// How every start is followed at first.
+    pub(super) fn first_look(&self) -> VerdictSettings {
+        VerdictSettings { transient: self.transient, impacts: self.transient.max(64), ..self.long_look() }
+    }
+
+    /// How one start of each attractor is followed that is not found at first.
+    pub(super) fn long_look(&self) -> VerdictSettings {
+        VerdictSettings {
+            transient: self.transient,
+            impacts: self.impacts,
+            longest_period: self.longest_period,
+            ..VerdictSettings::default()
+        }
+    }
+}

@@ -1,0 +1,470 @@
+//! What an orbit of the impact map does for good: a verdict with its evidence, for one start or for many in
+//! lockstep.
+
+mod display;
+mod proof;
+mod returns;
+pub(crate) mod witness;
+
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::numerics::error::{Error, finite, not_negative, within};
+use crate::orbits::periodic::{MAX_PERIOD, Multipliers};
+use crate::read_checked;
+use crate::run::{Observer, Progress, Unobserved};
+use crate::sweep::SweepRun;
+use crate::sweep::lyapunov::LyapunovEstimate;
+use witness::Witness;
+
+/// Orbits of [`each_verdict`] that are under way together, at some 2 kB each: so many that the last of them,
+/// which leave lanes empty, do not count.
+const TOGETHER: usize = 1 << 14;
+
+/// What an orbit does for good, and the evidence. Impacts and rests are judged by
+/// [`ChatterPolicy::Complete`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedVerdict"))]
+#[non_exhaustive]
+pub enum Verdict {
+    /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
+    /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
+    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no impact of it chatters
+    /// to rest.
+    Periodic {
+        /// Impacts of one period of the orbit.
+        impacts: u64,
+        /// Periods of the platform that it takes, at least 1.
+        platform_periods: u64,
+        /// Its Floquet multipliers.
+        multipliers: Multipliers,
+        /// One of its impacts, from which all others follow.
+        state: ImpactState,
+        /// How near the followed orbit was to it (rad; a radian counts as much as the speed P).
+        distance: f64,
+        /// Impacts after which that was seen.
+        after: u64,
+        /// How often the disk came to rest on the way, 0 or 1: the basin of a start with a rest is that of
+        /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
+        rests: u64,
+    },
+    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
+    /// the exponent can explain ([`LyapunovEstimate::grows`]), over so many impacts that dissipation has had
+    /// its effect ([`ImpactMap::transient_impacts`]). Over a finite number of impacts nobody can tell an
+    /// attractor from a longer transient.
+    Chaotic {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error: scatter, drift and rounding.
+        standard_error: f64,
+        /// Impacts that it was measured over, after the transient.
+        impacts: u64,
+        /// Periods of the platform that these took.
+        platform_periods: u64,
+        /// How often the disk came to rest before, 0 or 1.
+        rests: u64,
+    },
+    /// The disk comes to rest on the platform, separates, and comes to rest again: as it separates in always
+    /// the same way, this repeats for ever, and no perturbation survives the rest.
+    Chattering {
+        /// What repeats.
+        cycle: RestCycle,
+        /// Impacts before the first rest.
+        after: u64,
+    },
+    /// The disk has come to rest on a platform that never falls away (P <= 1).
+    AtRest {
+        /// Phase at which it comes to rest.
+        phase: Phase,
+        /// Impacts before, without those that are summed.
+        after: u64,
+    },
+    /// The impacts that were allowed tell nothing for certain.
+    Undecided {
+        /// Why.
+        reason: UndecidedReason,
+        /// How often the disk came to rest before, 0 or 1.
+        rests: u64,
+    },
+}
+
+/// One round of a disk that comes to rest again and again: from one separation to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCycle"))]
+pub struct RestCycle {
+    /// Impacts, without those that are summed.
+    pub impacts: u64,
+    /// Periods of the platform, at least 1.
+    pub platform_periods: u64,
+    /// Flights that last longer than half a period of the platform. The short ones of a chatter get shorter
+    /// without end: their number says how they are summed rather than what the disk does.
+    pub long_flights: u64,
+    /// How far rounding may have carried the impacts of the round away from those of exact arithmetic (rad
+    /// and g/omega), to first order; 1 where it is 1 or more.
+    pub rounding_error: f64,
+    /// Whether the numbers above are those of exact arithmetic.
+    pub trust: CycleTrust,
+}
+
+/// Whether a [`RestCycle`] is the one of exact arithmetic.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrust"))]
+#[non_exhaustive]
+pub enum CycleTrust {
+    /// Rounding stays far below what would change a flight.
+    Exact,
+    /// The round is so long that rounding has grown to the size of the motion: another program finds another
+    /// cycle. What is true of all of them are statistics, such as the growth between two rests.
+    ChosenByRounding {
+        /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
+        /// impact of the round to the rest; `None` where one of them grazes.
+        exponent: Option<f64>,
+        /// Its standard error; `None` of fewer than 16 flights.
+        standard_error: Option<f64>,
+    },
+}
+
+/// Why there is no verdict.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
+#[non_exhaustive]
+pub enum UndecidedReason {
+    /// The exponent is no farther from zero than neutral motion and its error explain
+    /// ([`LyapunovEstimate::threshold`]), and no period up to the longest one was proved.
+    ExponentNearZero {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+    },
+    /// Perturbations shrink, but no period up to the longest one was proved: a longer one, or one that is
+    /// approached too slowly.
+    NoPeriodFound {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+    },
+    /// The orbit stays at a periodic one that does not attract for certain: the larger modulus of its
+    /// multipliers is 1 within their error, or above, where the start was on it to the last bits.
+    OnPeriodicOrbit {
+        /// Impacts of one period of the orbit.
+        impacts: u64,
+        /// Periods of the platform that it takes, at least 1.
+        platform_periods: u64,
+        /// Its Floquet multipliers.
+        multipliers: Multipliers,
+        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
+        multiplier_error: f64,
+        /// One of its impacts.
+        state: ImpactState,
+    },
+    /// Perturbations grow, but the orbit was not followed long enough for dissipation to end a transient.
+    TransientMayLast {
+        /// The largest exponent per impact.
+        exponent: f64,
+        /// Its standard error.
+        standard_error: f64,
+        /// Impacts, with those of the transient, that it would take ([`ImpactMap::transient_impacts`]).
+        needed: f64,
+    },
+    /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
+    Grazing {
+        /// Impacts up to this one.
+        impacts: u64,
+        /// Its phase.
+        phase: Phase,
+    },
+}
+
+read_checked!(enum Verdict as UncheckedVerdict {
+    Periodic {
+        impacts: u64, platform_periods: u64, multipliers: Multipliers, state: ImpactState, distance: f64,
+        after: u64, rests: u64,
+    },
+    Chaotic { exponent: f64, standard_error: f64, impacts: u64, platform_periods: u64, rests: u64 },
+    Chattering { cycle: RestCycle, after: u64 },
+    AtRest { phase: Phase, after: u64 },
+    Undecided { reason: UndecidedReason, rests: u64 },
+});
+
+read_checked!(RestCycle as UncheckedCycle {
+    impacts: u64,
+    platform_periods: u64,
+    long_flights: u64,
+    rounding_error: f64,
+    trust: CycleTrust,
+});
+
+read_checked!(enum CycleTrust as UncheckedTrust {
+    Exact,
+    ChosenByRounding { exponent: Option<f64>, standard_error: Option<f64> },
+});
+
+read_checked!(enum UndecidedReason as UncheckedReason {
+    ExponentNearZero { exponent: f64, standard_error: f64 },
+    NoPeriodFound { exponent: f64, standard_error: f64 },
+    OnPeriodicOrbit {
+        impacts: u64, platform_periods: u64, multipliers: Multipliers, multiplier_error: f64,
+        state: ImpactState,
+    },
+    TransientMayLast { exponent: f64, standard_error: f64, needed: f64 },
+    Grazing { impacts: u64, phase: Phase },
+});
+
+/// Checks a count that is at least one.
+fn at_least_one(field: &'static str, count: u64) -> Result<(), Error> {
+    within(field, count as f64, 1.0, f64::MAX, "at least 1").map(|_| ())
+}
+
+fn check_exponent(exponent: f64, standard_error: f64) -> Result<(), Error> {
+    finite("exponent", exponent)?;
+    not_negative("standard error of an exponent", standard_error).map(|_| ())
+}
+
+fn check_rests(rests: u64) -> Result<(), Error> {
+    within("rests before the verdict", rests as f64, 0.0, 1.0, "0 or 1").map(|_| ())
+}
+
+impl Verdict {
+    /// Checks what is read: what [`ImpactMap::verdict`] may find.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Periodic { impacts, platform_periods, multipliers, state, distance, rests, .. } => {
+                at_least_one("impacts of a period", impacts)?;
+                at_least_one("platform periods", platform_periods)?;
+                let radius = multipliers.spectral_radius();
+                within("modulus of a multiplier", radius, 0.0, 1.0_f64.next_down(), "[0, 1)")?;
+                let fastest = 0.0_f64.next_down();
+                within("velocity of a periodic orbit", state.velocity(), f64::MIN, fastest, "below 0")?;
+                not_negative("distance", distance)?;
+                check_rests(rests)
+            }
+            Self::Chaotic { exponent, standard_error, impacts, rests, .. } => {
+                check_exponent(exponent, standard_error)?;
+                at_least_one("impacts", impacts)?;
+                let least = LyapunovEstimate { exponent, standard_error, impacts }.threshold();
+                within("exponent of chaos", exponent, least, f64::MAX, "above that of neutral motion")?;
+                check_rests(rests)
+            }
+            Self::Undecided { rests, .. } => check_rests(rests),
+            Self::Chattering { .. } | Self::AtRest { .. } => Ok(()),
+        }
+    }
+}
+
+impl RestCycle {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        at_least_one("impacts of a cycle", self.impacts)?;
+        at_least_one("platform periods", self.platform_periods)?;
+        let (long, all) = (self.long_flights as f64, self.impacts as f64);
+        within("long flights", long, 0.0, all, "at most one before each impact")?;
+        within("rounding error of a cycle", self.rounding_error, 0.0, 1.0, "[0, 1]").map(|_| ())
+    }
+
+    /// Whether the numbers of the cycle are those of exact arithmetic.
+    #[must_use]
+    pub const fn is_exact(&self) -> bool {
+        matches!(self.trust, CycleTrust::Exact)
+    }
+}
+
+impl CycleTrust {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::ChosenByRounding { exponent, standard_error } => {
+                check_exponent(exponent.unwrap_or(0.0), standard_error.unwrap_or(0.0))
+            }
+            Self::Exact => Ok(()),
+        }
+    }
+}
+
+impl UndecidedReason {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::ExponentNearZero { exponent, standard_error }
+            | Self::NoPeriodFound { exponent, standard_error } => check_exponent(exponent, standard_error),
+            Self::TransientMayLast { exponent, standard_error, needed } => {
+                not_negative("impacts of a transient", needed)?;
+                check_exponent(exponent, standard_error)
+            }
+            Self::OnPeriodicOrbit { impacts, platform_periods, multiplier_error, .. } => {
+                at_least_one("impacts of a period", impacts)?;
+                at_least_one("platform periods", platform_periods)?;
+                not_negative("error of a multiplier", multiplier_error).map(|_| ())
+            }
+            Self::Grazing { impacts, .. } => at_least_one("impacts", impacts),
+        }
+    }
+}
+
+impl ImpactMap {
+    /// What the orbit from `state` does for good.
+    ///
+    /// ```
+    /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings};
+    /// use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};
+    ///
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let start = ImpactState::from_normalised(1.2, 1.3)?;
+    /// let verdict = map.verdict(start, VerdictSettings::default())?;
+    /// assert!(matches!(verdict, Verdict::Periodic { impacts: 1, platform_periods: 1, .. }));
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`verdicts`].
+    pub fn verdict(&self, state: ImpactState, settings: VerdictSettings) -> Result<Verdict, Error> {
+        let mut verdicts = verdicts(&[(*self, state)], settings, &Unobserved)?;
+        verdicts.pop().ok_or(Error::Stopped { done: 0, total: 1 })
+    }
+}
+
+/// What the orbit of each of `starts` does for good, in their order; the orbits are advanced in lockstep,
+/// with the bits of
+/// [`ImpactMap::verdict`].
+///
+/// The items of `observer` are the orbits. [`each_verdict`] keeps what a call that is stopped has found.
+///
+/// ```
+/// use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
+///
+/// // From order to chaos: what a disk does against the forcing.
+/// let start = ImpactState::from_normalised(1.2, 1.3)?;
+/// let starts = (0..20)
+///     .map(|k| {
+///         let vibration = Vibration::from_axial_forcing(0.2 + 0.02 * f64::from(k))?;
+///         Ok((ImpactMap::new(vibration, 0.5)?, start))
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
+/// let verdicts = verdicts(&starts, VerdictSettings::default(), &Unobserved)?;
+/// assert!(matches!(verdicts[0], Verdict::AtRest { .. }));
+/// assert!(matches!(verdicts[10], Verdict::Periodic { .. }));
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`VerdictSettings::check`]; those of [`sweep`](crate::sweep::sweep()).
+pub fn verdicts(
+    starts: &[(ImpactMap, ImpactState)],
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Verdict>, Error> {
+    let mut all = Vec::new();
+    let start = |index: usize| Ok::<_, Error>(Some(starts[index]));
+    each_verdict(starts.len(), start, settings, observer, |verdict| all.extend(verdict))?;
+    Ok(all)
+}
+
+/// [`verdicts`] of `count` orbits of which neither starts nor verdicts are kept: `start` makes that of an index
+/// when it is needed, and `each` takes the verdicts in their order, `None` where there is no start. The memory
+/// does not grow with their number. The items of the observer are the orbits.
+///
+/// # Errors
+/// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
+pub fn each_verdict<E: From<Error>>(
+    count: usize,
+    mut start: impl FnMut(usize) -> Result<Option<(ImpactMap, ImpactState)>, E>,
+    settings: VerdictSettings,
+    observer: &dyn Observer,
+    mut each: impl FnMut(Option<Verdict>),
+) -> Result<(), E> {
+    settings.check()?;
+    let total = count as u64;
+    // At least one call of the observer, also of nothing.
+    for first in (0..count.max(1)).step_by(TOGETHER) {
+        let block: Vec<_> = (first..count.min(first + TOGETHER)).map(&mut start).collect::<Result<_, E>>()?;
+        let starts: Vec<_> = block.iter().flatten().copied().collect();
+        let orbits: Vec<Orbit> =
+            starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+        let done = |done: u64| first as u64 + done;
+        let shifted = |progress: Progress| observer.observe(Progress { done: done(progress.done), total });
+        let mut run = SweepRun::new(starts.len());
+        let outcome = run.advance_with(
+            &orbits,
+            |index| Witness::new(starts[index], settings),
+            Witness::see,
+            |witness| Ok(witness.verdict()),
+            &shifted,
+        );
+        outcome.map_err(|error| match error {
+            Error::Stopped { done: own, .. } => Error::Stopped { done: done(own), total },
+            other => other,
+        })?;
+        let mut found = run.into_results()?.into_iter();
+        block.iter().for_each(|start| each(start.and_then(|_| found.next())));
+    }
+    Ok(())
+}
+
+/// The largest tolerance of a return.
+const LARGEST_TOLERANCE: f64 = 1.0e-2;
+
+/// The fewest impacts that an exponent is measured over: batches of four.
+const FEWEST_IMPACTS: f64 = 64.0;
+
+/// How long an orbit is followed for its verdict, and how.
+///
+/// An orbit that repeats itself or rests is decided as soon as that is seen. The others are followed for
+/// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+pub struct VerdictSettings {
+    /// Impacts before the exponent is measured. Default 2,000.
+    pub transient: u64,
+    /// Impacts that the exponent is measured over, at least 64. Default 100,000.
+    pub impacts: u64,
+    /// The longest period that is looked for, in impacts, in [1, 4096]. Default 256. The proof of a period
+    /// makes some fifty times as many flights at most, and 8,192 more, between two calls of an observer.
+    pub longest_period: usize,
+    /// How near an impact must come to an earlier one for a period to be tried (rad, and relative speed), in
+    /// (0, 0.01]. Default 1e-7. It decides how soon a period is found; whether there is one is proved from
+    /// there.
+    pub tolerance: f64,
+}
+
+impl Default for VerdictSettings {
+    fn default() -> Self {
+        Self { transient: 2_000, impacts: 100_000, longest_period: 256, tolerance: 1.0e-7 }
+    }
+}
+
+read_checked!(VerdictSettings as UncheckedSettings {
+    transient: u64,
+    impacts: u64,
+    longest_period: usize,
+    tolerance: f64,
+});
+
+impl VerdictSettings {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] with the field that is out of its range.
+    pub fn check(&self) -> Result<(), Error> {
+        within("impacts", self.impacts as f64, FEWEST_IMPACTS, f64::MAX, "at least 64")?;
+        let longest = self.longest_period as f64;
+        within("longest period", longest, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let least = f64::from_bits(1);
+        within("tolerance", self.tolerance, least, LARGEST_TOLERANCE, "(0, 0.01]")?;
+        Ok(())
+    }
+
+    /// Impacts after which an orbit is left.
+    pub(super) const fn allowed(&self) -> u64 {
+        self.transient.saturating_add(self.impacts)
+    }
+}
+
+#[cfg(test)]
+mod tests;

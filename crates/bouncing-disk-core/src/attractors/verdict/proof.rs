@@ -1,0 +1,131 @@
+//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at one.
+
+use super::VerdictSettings;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::elementary::{exp, ln};
+use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
+
+/// Where the parts of a solution repeat each other to within this (rad, relative speed), the shorter orbit is
+/// sought: next to a doubling the equations are nearly singular, and a solution of rounded ones is that far
+/// from the exact one.
+const NEARLY_SAME: f64 = 1.0e-2;
+
+/// Nearer than this (rad) rounding keeps an orbit from coming nearer.
+const ROUNDING_DISTANCE: f64 = 1.0e-11;
+
+/// Most impacts over which an orbit must come nearer.
+const MOST_CONFIRMING: u64 = 8_192;
+
+/// How near an orbit must stay to a neutral one that it was on (rad).
+const STAYS_WITHIN: f64 = 2.0e-6;
+
+/// Multipliers that may be off by more say nothing.
+const LARGEST_ERROR: f64 = 1.0e-2;
+
+/// A periodic orbit next to a followed one.
+pub(super) struct Proof {
+    pub(super) orbit: PeriodicOrbit,
+    pub(super) distance: f64,
+    pub(super) stability: Stability,
+}
+
+/// The periodic orbit that the orbit from `state`, which nearly repeats itself after `period` impacts, comes
+/// ever nearer to, or else one that it stays at.
+pub(super) fn prove(
+    map: &ImpactMap,
+    state: ImpactState,
+    period: usize,
+    settings: &VerdictSettings,
+) -> Option<Proof> {
+    // Next to a doubling the impacts of both halves of the orbit look like one.
+    let twice = 2 * period;
+    let candidates = [Some(period), (twice <= settings.longest_period).then_some(twice)];
+    let orbits = candidates.into_iter().flatten().map_while(|period| {
+        let guess = impacts_from(map, state, period)?;
+        Some(prime(map, map.refine(&guess).ok()?))
+    });
+    let orbit = orbits.filter(is_known).min_by_key(PeriodicOrbit::stability)?;
+    let stability = orbit.stability();
+    let bounces_on = |impact: &ImpactState| !map.chatters_to_rest(map.rebound(*impact));
+    let distance = orbit.distance(state, map.vibration().peak_acceleration());
+    let proved = orbit.states.iter().all(bounces_on)
+        && match stability {
+            Stability::Stable => comes_nearer(map, &orbit, state, distance),
+            Stability::Marginal => stays_within(map, &orbit, state, 2.0 * distance.max(STAYS_WITHIN)),
+            Stability::Unstable => distance <= STAYS_WITHIN,
+        };
+    proved.then_some(Proof { orbit, distance, stability })
+}
+
+/// Whether the multipliers of an orbit say anything.
+fn is_known(orbit: &PeriodicOrbit) -> bool {
+    orbit.multiplier_error() <= LARGEST_ERROR * orbit.multipliers().spectral_radius().max(1.0)
+}
+
+/// So many impacts from this one on.
+fn impacts_from(map: &ImpactMap, state: ImpactState, count: usize) -> Option<Vec<ImpactState>> {
+    let mut impacts = Vec::with_capacity(count);
+    let mut state = state;
+    loop {
+        impacts.push(state);
+        if impacts.len() >= count {
+            return Some(impacts);
+        }
+        state = map.step(state).ok()?.into();
+    }
+}
+
+/// The orbit with its smallest period: a shorter one that it nearly repeats, unless that repels and this one
+/// does not.
+fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
+    let states = &orbit.states;
+    let n = states.len();
+    let fastest = states.iter().fold(1.0_f64, |most, state| most.max(state.velocity().abs()));
+    let repeats = |part: &usize| {
+        n.is_multiple_of(*part)
+            && (0..n - part).all(|i| distance(states[i], states[i + part], fastest) <= NEARLY_SAME)
+    };
+    let is = |orbit: &PeriodicOrbit, least| is_known(orbit) && orbit.stability() <= least;
+    let least = if is(&orbit, Stability::Marginal) { Stability::Marginal } else { Stability::Unstable };
+    let mut shorter = (1..n).filter(repeats).filter_map(|part| map.refine(&states[..part]).ok());
+    shorter.find(|orbit| is(orbit, least)).unwrap_or(orbit)
+}
+
+/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by half of
+/// what its multipliers promise within twice the time that they take to shrink a distance to a third, or
+/// within the impacts that there are for it.
+fn comes_nearer(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
+    if from <= ROUNDING_DISTANCE {
+        return true;
+    }
+    let period = orbit.period() as u64;
+    let radius = orbit.multipliers().spectral_radius();
+    let periods = 2.0 / (1.0 - radius) + 2.0;
+    let rounds = (MOST_CONFIRMING / period).max(1).min(periods as u64);
+    let promised = if radius > 0.0 { exp(rounds as f64 * ln(radius)) } else { 0.0 };
+    let near = 0.5 * (1.0 + promised) * from;
+    let mut distances = distances(map, orbit, state).take(rounds as usize);
+    distances.any(|distance| distance.is_some_and(|distance| distance <= near))
+}
+
+/// Whether the orbit from `state` stays so near to the periodic one over the most impacts of a proof.
+fn stays_within(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, most: f64) -> bool {
+    let rounds = (MOST_CONFIRMING as usize / orbit.period()).max(1);
+    let mut distances = distances(map, orbit, state).take(rounds);
+    distances.all(|distance| distance.is_some_and(|distance| distance <= most))
+}
+
+/// The distances of the orbit from `state` from the periodic one after each of its periods; `None` from where
+/// it has no next impact.
+fn distances(
+    map: &ImpactMap,
+    orbit: &PeriodicOrbit,
+    state: ImpactState,
+) -> impl Iterator<Item = Option<f64>> {
+    let scale = map.vibration().peak_acceleration();
+    let mut state = Some(state);
+    core::iter::repeat_with(move || {
+        state = state.and_then(|state| map.steps(state, orbit.period() as u64).ok());
+        state.map(|state| orbit.distance(state, scale))
+    })
+}

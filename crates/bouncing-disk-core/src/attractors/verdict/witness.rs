@@ -1,0 +1,268 @@
+//! Follows one orbit until there is a verdict on it.
+
+use core::f64::consts::PI;
+use core::ops::ControlFlow;
+
+use super::proof::{Proof, prove};
+use super::returns::Returns;
+use super::{CycleTrust, RestCycle, UndecidedReason, Verdict, VerdictSettings};
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{Attachment, ImpactMap, ImpactState};
+use crate::numerics::batch_means::BatchMeans;
+use crate::numerics::elementary::exp;
+use crate::orbits::periodic::Stability;
+use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
+use crate::sweep::{SweepEvent, SweepImpact};
+
+/// A flight is long if it lasts longer than this (rad), half a period of the platform.
+const LONG_FLIGHT: f64 = PI;
+
+/// The rounding error of a cycle (rad and g/omega) up to which it counts as that of exact arithmetic: a
+/// thousandth of the size of the motion, where what is neglected beside the first order is a thousandth of it
+/// again.
+const TRUSTED_ROUNDING: f64 = 1.0e-3;
+
+/// What is known of the disk since it separated from rest.
+#[derive(Debug, Clone)]
+struct Round {
+    long_flights: u64,
+    turns: u64,
+    /// Logarithms of the growth of a perturbation by each flight after the first impact.
+    growth: BatchMeans,
+    /// The error of the last impact, and the largest so far.
+    rounding: f64,
+    worst_rounding: f64,
+}
+
+impl Round {
+    fn new() -> Self {
+        Self {
+            long_flights: 0,
+            turns: 0,
+            growth: LyapunovEstimate::growths(),
+            rounding: 0.0,
+            worst_rounding: 0.0,
+        }
+    }
+
+    fn see(&mut self, impact: &SweepImpact) {
+        self.turns += impact.turns;
+        self.long_flights += u64::from(impact.duration > LONG_FLIGHT);
+    }
+
+    /// Takes the growth (its logarithm) by a flight that ends in `state`; of the first flight there is none.
+    fn grow(&mut self, growth: f64, state: ImpactState) {
+        self.growth.push(growth);
+        self.round(exp(growth), state);
+    }
+
+    /// What was wrong has grown, and the impact is rounded itself.
+    fn round(&mut self, growth: f64, state: ImpactState) {
+        self.rounding = self.rounding * growth + f64::EPSILON * (1.0 + state.velocity().abs());
+        // Also of what is no number.
+        let told = if self.rounding < 1.0 { self.rounding } else { 1.0 };
+        self.worst_rounding = self.worst_rounding.max(told);
+    }
+}
+
+/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever perturbations
+/// of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as near.
+const ON_AN_ORBIT: f64 = 1.0e-9;
+
+/// An orbit under way to its verdict.
+#[derive(Debug, Clone)]
+pub(crate) struct Witness {
+    map: ImpactMap,
+    settings: VerdictSettings,
+    state: ImpactState,
+    /// Impacts since the start or since the last separation, and those before.
+    impacts: u64,
+    before: u64,
+    returns: Returns,
+    /// The growth of a perturbation, from the end of the transient or from the first impact after a rest.
+    tangent: TangentGrowth,
+    /// Its logarithms after the transient, and the turns of the phase there.
+    growth: BatchMeans,
+    turns: u64,
+    grazed: Option<(u64, Phase)>,
+    round: Option<Round>,
+    verdict: Option<Verdict>,
+}
+
+impl Witness {
+    pub(crate) fn new((map, state): (ImpactMap, ImpactState), settings: VerdictSettings) -> Self {
+        Self {
+            map,
+            settings,
+            state,
+            impacts: 0,
+            before: 0,
+            returns: Returns::new(),
+            tangent: TangentGrowth::default(),
+            growth: LyapunovEstimate::growths(),
+            turns: 0,
+            grazed: None,
+            round: None,
+            verdict: None,
+        }
+    }
+
+    /// Takes the next event of the orbit.
+    pub(crate) fn see(&mut self, event: &SweepEvent) -> ControlFlow<()> {
+        match event {
+            SweepEvent::Impact(impact) => self.impact(impact),
+            SweepEvent::Attachment(rest) => self.rest(rest),
+        }
+        if self.verdict.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+
+    /// The verdict, once the orbit has been followed to it.
+    pub(crate) fn verdict(self) -> Verdict {
+        // An orbit ends without a verdict where the disk stays on the platform without an impact or a
+        // chatter.
+        self.verdict
+            .unwrap_or(Verdict::AtRest { phase: self.state.phase(), after: self.before + self.impacts })
+    }
+
+    fn impact(&mut self, impact: &SweepImpact) {
+        let (from, state) = (self.state, impact.state);
+        self.state = state;
+        self.impacts += 1;
+        let counts = self.impacts > self.settings.transient;
+        if counts {
+            self.turns += impact.turns;
+        }
+        if let Some(round) = &mut self.round {
+            round.see(impact);
+        }
+        self.grow(from, impact, counts);
+        if let Some(period) = self.returns.see(state, impact.turns, &self.settings) {
+            self.verdict = self.periodic(period, Stability::Marginal);
+            if self.verdict.is_none() {
+                self.returns.reject();
+            }
+        }
+        if self.verdict.is_none() && self.impacts >= self.settings.allowed() {
+            self.verdict = Some(self.conclusion());
+        }
+    }
+
+    /// Follows a perturbation through the flight between two impacts.
+    #[inline]
+    fn grow(&mut self, from: ImpactState, impact: &SweepImpact, counts: bool) {
+        if self.grazed.is_some() || !(counts || self.round.is_some()) {
+            return;
+        }
+        let state = impact.state;
+        if self.round.is_some() && self.impacts == 1 {
+            // The disk left the platform at a state that is known exactly.
+            if let Some(round) = &mut self.round {
+                round.round(0.0, state);
+            }
+            return;
+        }
+        let growth = self.tangent.grow(self.map.derivative(from, state, impact.duration));
+        if let Some(round) = &mut self.round {
+            round.grow(growth, state);
+        }
+        if counts {
+            self.growth.push(growth);
+        }
+        if !self.tangent.is_bounded() {
+            self.grazed = Some((self.before + self.impacts, state.phase()));
+            // Of what follows no growth is known.
+            if let Some(round) = &mut self.round {
+                round.worst_rounding = 1.0;
+            }
+        }
+    }
+
+    fn rest(&mut self, rest: &Attachment) {
+        let after = self.before + self.impacts;
+        let Some((separation, turns)) = rest.separation else {
+            self.verdict = Some(Verdict::AtRest { phase: rest.accumulation.phase, after });
+            return;
+        };
+        if let Some(round) = self.round.take() {
+            let turns = round.turns + rest.accumulation.turns + turns;
+            let cycle = self.cycle(&round, turns);
+            self.verdict = Some(Verdict::Chattering { cycle, after: self.before });
+            return;
+        }
+        // From here on nothing depends on what was before.
+        let from = ImpactState::of_impact(separation, 0.0);
+        *self =
+            Self { before: after, round: Some(Round::new()), ..Self::new((self.map, from), self.settings) };
+    }
+
+    fn cycle(&self, round: &Round, platform_periods: u64) -> RestCycle {
+        let rounding_error = round.worst_rounding;
+        let trust = if rounding_error <= TRUSTED_ROUNDING {
+            CycleTrust::Exact
+        } else {
+            let measured = |value: Option<f64>| value.filter(|_| self.grazed.is_none());
+            let exponent = measured(round.growth.mean());
+            CycleTrust::ChosenByRounding { exponent, standard_error: measured(round.growth.standard_error()) }
+        };
+        let long_flights = round.long_flights;
+        RestCycle { impacts: self.impacts, platform_periods, long_flights, rounding_error, trust }
+    }
+
+    /// How often the disk has come to rest.
+    const fn rests(&self) -> u64 {
+        self.round.is_some() as u64
+    }
+
+    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is no
+    /// less stable than `least`.
+    fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
+        let proof = prove(&self.map, self.state, period, &self.settings)?;
+        let Proof { orbit, distance, stability } = proof;
+        let (impacts, platform_periods) = (orbit.period() as u64, orbit.platform_periods);
+        let (multipliers, state, rests) = (orbit.multipliers(), *orbit.states.first()?, self.rests());
+        let after = self.before + self.impacts;
+        if stability == Stability::Stable {
+            let verdict =
+                Verdict::Periodic { impacts, platform_periods, multipliers, state, distance, after, rests };
+            return Some(verdict);
+        }
+        let reason = UndecidedReason::OnPeriodicOrbit {
+            impacts,
+            platform_periods,
+            multipliers,
+            multiplier_error: orbit.multiplier_error(),
+            state,
+        };
+        (stability <= least).then_some(Verdict::Undecided { reason, rests })
+    }
+
+    /// What is said of an orbit that has used up its impacts.
+    fn conclusion(&self) -> Verdict {
+        let rests = self.rests();
+        if let Some((impacts, phase)) = self.grazed {
+            return Verdict::Undecided { reason: UndecidedReason::Grazing { impacts, phase }, rests };
+        }
+        // There are 64 impacts at least.
+        let nothing = LyapunovEstimate { exponent: 0.0, standard_error: 0.0, impacts: self.impacts };
+        let estimate = LyapunovEstimate::of(&self.growth).unwrap_or(nothing);
+        let LyapunovEstimate { exponent, standard_error, impacts } = estimate;
+        // What is approached slowly has not returned to within the tolerance; what repels may be stayed at.
+        let nearest = self.returns.nearest();
+        let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
+        if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Unstable)) {
+            return verdict;
+        }
+        let needed = self.map.transient_impacts();
+        let reason = if estimate.grows() && (self.impacts as f64) < needed {
+            UndecidedReason::TransientMayLast { exponent, standard_error, needed }
+        } else if estimate.grows() {
+            let platform_periods = self.turns;
+            return Verdict::Chaotic { exponent, standard_error, impacts, platform_periods, rests };
+        } else if estimate.shrinks() {
+            UndecidedReason::NoPeriodFound { exponent, standard_error }
+        } else {
+            UndecidedReason::ExponentNearZero { exponent, standard_error }
+        };
+        Verdict::Undecided { reason, rests }
+    }
+}

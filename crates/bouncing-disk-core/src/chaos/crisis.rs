@@ -1,0 +1,401 @@
+//! The crisis in which a chaotic attractor is lost to rest: where orbits on it begin to come to rest, and the
+//! tangency of manifolds that is the reason (docs/numerics/dynamics.md, "Crises").
+
+use crate::chaos::manifold::{Side, of_saddle};
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
+use crate::run::{Observer, Watch};
+
+mod following;
+pub(crate) mod lifetimes;
+mod tangency;
+
+use following::End;
+use tangency::{Pair, tangencies};
+
+/// Where a crisis is sought, and how many impacts are followed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrisisSearch {
+    restitution: f64,
+    low: f64,
+    high: f64,
+    samples: u32,
+    impacts: u64,
+}
+
+impl CrisisSearch {
+    /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis
+    /// and beyond it. At each forcing 64 orbits are followed, for 2e6 impacts together.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for any of them.
+    pub fn new(restitution: f64, (low, high): (f64, f64)) -> Result<Self, Error> {
+        let search = Self { restitution, low, high, samples: 64, impacts: 2_000_000 };
+        search.check().map(|()| search)
+    }
+
+    /// The same with so many orbits in [16, 1e6] that are followed for so many impacts in [1e4, 1e12], all
+    /// orbits together, and each of them for 200 at least. More impacts make the bracket narrower.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for either number.
+    pub fn with_samples(self, samples: u32, impacts: u64) -> Result<Self, Error> {
+        let search = Self { samples, impacts, ..self };
+        search.check().map(|()| search)
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        let most = Vibration::MAX_PEAK_ACCELERATION / core::f64::consts::PI;
+        within(
+            "restitution of a crisis",
+            self.restitution,
+            f64::MIN_POSITIVE,
+            1.0 - f64::EPSILON / 2.0,
+            "(0, 1)",
+        )?;
+        within("forcing below a crisis", self.low, 0.0, most, "[0, 3.18e7]")?;
+        within("forcing beyond a crisis", self.high, self.low.next_up(), most, "(low end, 3.18e7]")?;
+        within("samples of a crisis", f64::from(self.samples), 16.0, 1.0e6, "[16, 1000000]")?;
+        within("impacts of a crisis", self.impacts as f64, 1.0e4, 1.0e12, "[1e4, 1e12]")?;
+        Ok(())
+    }
+
+    /// The map at a forcing.
+    fn map(&self, forcing: f64) -> Result<ImpactMap, Error> {
+        ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution)
+    }
+}
+
+/// A crisis: a chaotic attractor whose orbits begin to come to rest.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Crisis {
+    /// Coefficient of restitution.
+    pub restitution: f64,
+    /// Gamma of the tangency; without one the middle of the bracket.
+    pub forcing: f64,
+    /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from above to
+    /// what the last flights along the saddle changed and the rounding.
+    pub forcing_error: f64,
+    /// The values of Gamma between which the crisis lies by the lives of orbits: at the second one came to rest,
+    /// which is certain; if it lay below the first, a rest would have been seen between them in 95 of 100 searches, as
+    /// long as lives go on rising as steeply at most as those that were measured.
+    pub bracket: (f64, f64),
+    /// An impact on the attractor next to the lower end of the bracket.
+    pub attractor: ImpactState,
+    /// What the disk does after it came to rest just beyond the crisis.
+    pub after_rest: LifeAfterRest,
+    /// The tangency of manifolds that is the reason, or why none is known.
+    pub tangency: Result<Tangency, NoTangency>,
+}
+
+/// What a disk does after it came to rest beyond a crisis, where it separates always in the same state: at each of 16
+/// forcings from the crisis to the upper end of its bracket, beyond a tangency to a sixteenth of that.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum LifeAfterRest {
+    /// At every one it rests again after so many impacts at most, far fewer than lives on the attractor have, and so
+    /// for ever: a boundary crisis, in which the attractor is lost. It is 0 where the platform never falls away.
+    Short {
+        /// Impacts from one rest to the next.
+        impacts: u64,
+    },
+    /// At every one it lives on for a hundredth of their mean life and 200 impacts at least, as orbits on the attractor
+    /// do, or does not rest again within the impacts that were followed: rest has become a part of the attractor, or
+    /// another attractor follows after it.
+    Long {
+        /// Impacts that were followed without a rest, at least.
+        impacts: u64,
+    },
+    /// It depends on the forcing.
+    Varied {
+        /// Forcings of these 16 at which it rests again soon.
+        short: u32,
+    },
+}
+
+/// The tangency of a crisis: the unstable manifold of a saddle on an attractor touches the stable manifold of
+/// a saddle beside it.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct Tangency {
+    /// The saddle on the attractor, at the crisis.
+    pub inside: PeriodicOrbit,
+    /// The saddle whose stable manifold is touched, at the crisis.
+    pub touched: PeriodicOrbit,
+    /// The orbit of tangency: from next to the first saddle to next to the second.
+    pub orbit: Vec<ImpactState>,
+    /// Share of the first piece of the unstable manifold at which the orbit begins, in [0, 1].
+    pub share: f64,
+    /// The side of the first impact of the saddle on which this piece begins.
+    pub side: Side,
+    /// Second derivative by the share of the distance from the stable manifold, in the units of manifolds
+    /// next to the second saddle, over its rate of change with Gamma: how the escaping share of the first
+    /// piece opens, which is sqrt(8 (Gamma - Gamma_c) / |this|). It is not 0 at a quadratic tangency.
+    pub curvature: f64,
+}
+
+impl Crisis {
+    /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
+    /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
+    /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
+    /// `None` without a tangency and where a multiplier does not tell.
+    #[must_use]
+    pub fn life_exponent(&self) -> Option<f64> {
+        let tangency = self.tangency.as_ref().ok()?;
+        let one = tangency.inside.states == tangency.touched.states;
+        let Multipliers::Real(large, small) = tangency.inside.multipliers() else { return None };
+        let (large, small) = (ln(large.abs()), ln(small.abs()));
+        let exponent = if one { small / (2.0 * (large + small)) } else { 0.5 - large / small };
+        (exponent.is_finite() && exponent > 0.0).then_some(exponent)
+    }
+}
+
+/// Why no tangency is known that is the reason of a crisis.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum NoTangency {
+    /// The orbits that came to rest passed no saddle of few impacts before.
+    #[error(
+        "orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
+    )]
+    NoSaddle {
+        /// The orbits that were looked at.
+        orbits: usize,
+    },
+    /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its
+    /// edge is no fold.
+    #[error("no fold of the unstable manifold lies next to the saddle")]
+    NoFold,
+    /// The tangency was not found to the rounding.
+    #[error("the tangency did not settle: Gamma = {forcing} changed by {change:e} last")]
+    NotSettled {
+        /// The last Gamma.
+        forcing: f64,
+        /// Its last change.
+        change: f64,
+    },
+    /// The manifolds touch where the attractor lives on, or is gone, or no orbit about it is lost: inside of the
+    /// attractor, or later than those of another saddle.
+    #[error("the manifolds touch at Gamma = {forcing} instead")]
+    Elsewhere {
+        /// Gamma of their tangency.
+        forcing: f64,
+    },
+}
+
+/// Why no crisis was found, with what there was instead.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoCrisis {
+    /// There is no periodic orbit yet that the attractor could come from.
+    #[error("up to Gamma = {forcing} no orbit of one impact in each period: it is born at {birth}")]
+    NotBorn {
+        /// The upper end.
+        forcing: f64,
+        /// Gamma at which the period-1 orbit is born.
+        birth: f64,
+    },
+    /// A saddle that was given could not be followed to where it is needed.
+    #[error("the saddle could be followed to Gamma = {reached} only, not to {forcing}")]
+    NotFollowed {
+        /// Where it is needed.
+        forcing: f64,
+        /// The last Gamma at which it was found.
+        reached: f64,
+    },
+    /// No orbit comes to rest at the upper end of the range: the attractor is still there, perhaps larger
+    /// (after an interior crisis), or has been lost to one that does not come to rest.
+    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts together")]
+    NoneRests {
+        /// The upper end.
+        forcing: f64,
+        /// How many orbits there are.
+        samples: u32,
+        /// The impacts of all of them.
+        impacts: u64,
+    },
+    /// Some come to rest where the search begins.
+    #[error("an orbit comes to rest at Gamma = {forcing} already, after {life} impacts")]
+    RestsBefore {
+        /// The lower end.
+        forcing: f64,
+        /// The impacts of the first orbit that comes to rest.
+        life: u64,
+    },
+    /// What is lost is not chaotic: a periodic orbit that ends.
+    #[error(
+        "what is lost at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
+    )]
+    NotChaotic {
+        /// The last Gamma at which it lives.
+        forcing: f64,
+        /// Its largest Lyapunov exponent.
+        exponent: f64,
+    },
+    /// Orbits do not live shorter farther away: it is not a crisis.
+    #[error(
+        "beyond Gamma = {forcing} lives do not shrink: {near:.3e} impacts next to it, {far:.3e} farther away"
+    )]
+    LivesDoNotShrink {
+        /// The last Gamma at which orbits live on.
+        forcing: f64,
+        /// Mean life next to it.
+        near: f64,
+        /// Mean life 64 times as far away.
+        far: f64,
+    },
+    /// Orbits begin to come to rest, but not since the manifolds of the saddles that were given touch.
+    #[error("orbits begin to come to rest between Gamma = {} and {}; of these saddles {reason}", bracket.0, bracket.1)]
+    OtherReason {
+        /// Where the crisis lies (see [`Crisis::bracket`]).
+        bracket: (f64, f64),
+        /// What there is of the saddles.
+        reason: NoTangency,
+    },
+}
+
+/// Impacts after a rest that make a life a long one: more than this share of the mean life, which one in a hundred
+/// lives falls short of by chance, and more than rounds from rest to rest have.
+const LONG: f64 = 0.01;
+const LONG_ROUND: u64 = 200;
+
+/// Forcings next to a crisis at which a disk is followed after a rest.
+const FORCINGS_AFTER_REST: u32 = 16;
+
+/// How far beyond a tangency these lie, over the distance to the upper end of the bracket.
+const NEXT_TO: f64 = 1.0 / 16.0;
+
+impl CrisisSearch {
+    /// The crisis in which a chaotic attractor begins to lose orbits to rest.
+    ///
+    /// Orbits on the attractor are followed as Gamma rises, in steps that are halved where one of them comes
+    /// to rest, to a bracket. Then the saddle that those pass which come to rest just beyond it is looked for,
+    /// and the tangency of its stable manifold with an unstable one. It refines the result if it lies within
+    /// the bracket.
+    ///
+    /// Without `saddles` the attractor is that which the period-1 orbit leads to at the lower end of the
+    /// range, or at its birth. With them it is that which the unstable manifold of the first one leads to, a
+    /// saddle on the attractor or at its edge, and the stable manifold is that of the second one, which may
+    /// be the same. They are orbits at any forcings, from which they are followed.
+    ///
+    /// The items of the observer are impacts, at most.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::chaos::CrisisSearch;
+    /// # use bouncing_disk_core::Unobserved;
+    /// // The attractor of Fig. 6 is lost where it touches a saddle of three impacts in three periods.
+    /// let search = CrisisSearch::new(0.5, (0.559, 0.562))?.with_samples(64, 400_000)?;
+    /// let crisis = search.crisis(None, &Unobserved)?.expect("a crisis");
+    /// assert!((crisis.forcing - 0.5607507).abs() < 1e-7 && crisis.forcing_error < 1e-5);
+    /// assert_eq!(crisis.tangency.expect("found").touched.period(), 3);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if one of `saddles` is no saddle; [`Error::Stopped`] if the observer breaks; those of
+    /// [`Vibration::first_impact`].
+    pub fn crisis(
+        &self,
+        saddles: Option<(&PeriodicOrbit, &PeriodicOrbit)>,
+        observer: &dyn Observer,
+    ) -> Result<Result<Crisis, NoCrisis>, Error> {
+        for orbit in saddles.iter().flat_map(|(inside, touched)| [inside, touched]) {
+            of_saddle(orbit.multipliers())?;
+        }
+        let watch = Watch::begin(observer, 0, 60 * self.impacts)?;
+        let found = self.sought(saddles, &watch)?;
+        watch.end();
+        Ok(found)
+    }
+
+    fn sought(
+        &self,
+        saddles: Option<(&PeriodicOrbit, &PeriodicOrbit)>,
+        watch: &Watch<'_>,
+    ) -> Result<Result<Crisis, NoCrisis>, Error> {
+        let end = match self.end_of_attractor(saddles.map(|(inside, _)| inside), watch)? {
+            Ok(end) => end,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let bracket = end.bracket;
+        let pairs = match saddles {
+            Some((inside, touched)) => {
+                let followed = |orbit| self.followed_to(orbit, bracket.1);
+                match (followed(inside)?, followed(touched)?) {
+                    (Ok(inside), Ok(touched)) => vec![Pair { inside, touched }],
+                    (Err(reached), _) | (_, Err(reached)) => {
+                        return Ok(Err(NoCrisis::NotFollowed { forcing: bracket.1, reached }));
+                    }
+                }
+            }
+            None => self.pairs(&end)?,
+        };
+        let tangency = if pairs.is_empty() {
+            Err(NoTangency::NoSaddle { orbits: end.lost.len() })
+        } else {
+            tangencies(self, &pairs, bracket, watch)?
+        };
+        if let (Some(_), Err(reason)) = (saddles, &tangency) {
+            return Ok(Err(NoCrisis::OtherReason { bracket, reason: *reason }));
+        }
+        let (forcing, forcing_error) = match &tangency {
+            Ok(own) => {
+                let above = own.error.min(bracket.1 - own.forcing);
+                (own.forcing, (own.forcing - bracket.0).max(above))
+            }
+            Err(_) => (0.5 * (bracket.0 + bracket.1), 0.5 * (bracket.1 - bracket.0)),
+        };
+        // A tangency says where "just beyond" is.
+        let next = if tangency.is_ok() { NEXT_TO } else { 1.0 };
+        let beyond = forcing + next * (bracket.1 - forcing);
+        Ok(Ok(Crisis {
+            restitution: self.restitution,
+            forcing,
+            forcing_error,
+            bracket,
+            attractor: end.attractor[0],
+            after_rest: self.after_rest(&end, forcing, beyond)?,
+            tangency: tangency.map(|own| own.tangency),
+        }))
+    }
+
+    /// The saddles that orbits pass before they come to rest, each with those whose unstable manifolds may
+    /// touch.
+    fn pairs(&self, end: &End) -> Result<Vec<Pair>, Error> {
+        let map = self.map(end.bracket.1)?;
+        let node = map.period_one(1).and_then(|state| map.refine(&[state]).ok());
+        let node = node.filter(|orbit| of_saddle(orbit.multipliers()).is_ok());
+        let touched = self.saddles_passed(&map, end)?;
+        let pairs = touched.iter().flat_map(|touched| {
+            let inside = core::iter::once(touched).chain(&node);
+            inside.map(|inside| Pair { inside: inside.clone(), touched: touched.clone() })
+        });
+        Ok(pairs.collect())
+    }
+
+    /// What follows after a rest at forcings from `low` to `high`.
+    fn after_rest(&self, end: &End, low: f64, high: f64) -> Result<LifeAfterRest, Error> {
+        let limit = self.each() as u64;
+        let (mut short, mut least, mut most) = (0, u64::MAX, 0);
+        for forcing in 0..FORCINGS_AFTER_REST {
+            let share = f64::from(forcing) / f64::from(FORCINGS_AFTER_REST);
+            let lived = self.relaunched(high - share * (high - low), limit)?;
+            let long = lived == limit || lived > LONG_ROUND && lived as f64 > LONG * end.life;
+            short += u32::from(!long);
+            (least, most) = (least.min(lived), most.max(lived));
+        }
+        Ok(match short {
+            FORCINGS_AFTER_REST => LifeAfterRest::Short { impacts: most },
+            0 => LifeAfterRest::Long { impacts: least },
+            short => LifeAfterRest::Varied { short },
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,130 @@
+//! How long orbits live beyond a crisis, and the power law of their mean life.
+
+use super::Crisis;
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, within};
+use crate::numerics::power_law::{NoPowerLaw, PowerLaw, PowerLawPoint, fit_power_law};
+use crate::run::Observer;
+use crate::sweep::survival_times;
+
+/// Impacts of the orbit on the attractor from one start to the next.
+const BETWEEN_STARTS: usize = 37;
+
+/// Impacts of that orbit before the first start.
+const TRANSIENT: usize = 2_000;
+
+/// Fewest orbits that came to rest for a mean life to count in the power law.
+const FEWEST_ENDED: u64 = 20;
+
+/// Beyond a crisis: how long orbits live that start where the attractor was.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct MeanLife {
+    /// Gamma less that of the crisis, above 0.
+    pub beyond: f64,
+    /// Impacts of all orbits together over those that came to rest: the mean life of an exponential law, also
+    /// where some orbits were not followed to their end. The largest double if none came to rest.
+    pub impacts: f64,
+    /// Its standard error, relative to it; the largest double if none came to rest.
+    pub relative_error: f64,
+    /// Orbits that came to rest.
+    pub ended: u64,
+    /// All orbits.
+    pub orbits: u64,
+}
+
+impl MeanLife {
+    /// That of orbits with these lives, of which those of `most` impacts have not ended.
+    pub(super) fn of(lives: impl Iterator<Item = usize>, most: usize, beyond: f64) -> Self {
+        let (mut orbits, mut ended, mut total) = (0, 0, 0.0);
+        for life in lives {
+            orbits += 1;
+            ended += u64::from(life < most);
+            total += life as f64;
+        }
+        let (impacts, relative_error) = if ended > 0 {
+            (total / ended as f64, 1.0 / (ended as f64).sqrt())
+        } else {
+            (f64::MAX, f64::MAX)
+        };
+        Self { beyond, impacts, relative_error, ended, orbits }
+    }
+}
+
+/// The mean lives beyond a crisis and their power law.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct CrisisLives {
+    /// The mean lives, in the order in which their distances from the crisis were given.
+    pub lives: Vec<MeanLife>,
+    /// The power law of the mean life over the distance from the crisis, of the lives that 20 orbits or more
+    /// ended; or why there is none. Its exponent is negative.
+    pub scaling: Result<PowerLaw, NoPowerLaw>,
+}
+
+impl Crisis {
+    /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of
+    /// their mean life. So many `orbits` in [1, 1e6] start from one orbit on the attractor just below the
+    /// crisis, and are followed for at most `impacts` >= 1.
+    ///
+    /// The items of `observer` are the orbits at one distance, from 0 on for each.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number out of its range; [`Error::NotSettled`] if the disk comes to rest
+    /// below the crisis; those of
+    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn lives(
+        &self,
+        beyond: &[f64],
+        orbits: usize,
+        impacts: usize,
+        observer: &dyn Observer,
+    ) -> Result<CrisisLives, Error> {
+        within("orbits beyond a crisis", orbits as f64, 1.0, 1.0e6, "[1, 1000000]")?;
+        within("impacts beyond a crisis", impacts as f64, 1.0, f64::MAX, "1 at least")?;
+        let map = |forcing| ImpactMap::new(Vibration::from_axial_forcing(forcing)?, self.restitution);
+        let starts = self.starts(&map(self.bracket.0)?, orbits, observer)?;
+        let mut lives = Vec::with_capacity(beyond.len());
+        for &beyond in beyond {
+            within("distance from a crisis", beyond, f64::MIN_POSITIVE, f64::MAX, "(0, inf)")?;
+            let map = map(self.forcing + beyond)?;
+            let batch: Vec<_> =
+                starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)).collect();
+            let lived = survival_times(&batch, impacts, observer)?;
+            lives.push(MeanLife::of(lived.into_iter(), impacts, beyond));
+        }
+        let points: Vec<_> = lives
+            .iter()
+            .filter(|life| life.ended >= FEWEST_ENDED && life.impacts > 0.0)
+            .map(|life| PowerLawPoint {
+                x: life.beyond,
+                y: life.impacts,
+                relative_error: life.relative_error,
+            })
+            .collect();
+        let scaling = fit_power_law(&points)?;
+        Ok(CrisisLives { lives, scaling })
+    }
+
+    /// States on the attractor just below the crisis.
+    fn starts(
+        &self,
+        map: &ImpactMap,
+        count: usize,
+        observer: &dyn Observer,
+    ) -> Result<Vec<ImpactState>, Error> {
+        let (mut state, mut between) = (self.attractor, TRANSIENT);
+        let mut starts = Vec::with_capacity(count);
+        while starts.len() < count {
+            let next = map.state_after(state, between, ChatterPolicy::Complete, observer)?;
+            let what = "an orbit on the attractor below a crisis";
+            state = next.ok_or(Error::NotSettled { what, iterations: 0, residual: 0.0 })?;
+            starts.push(state);
+            between = BETWEEN_STARTS;
+        }
+        Ok(starts)
+    }
+}

@@ -1,0 +1,273 @@
+use crate::run::Unobserved;
+use core::f64::consts::TAU;
+
+use glam::DVec2;
+
+use super::*;
+use crate::attractors::basin::{ATTACHED, BasinSettings, KnownOrbit, UNDECIDED};
+use crate::flight::platform::phase::Phase;
+use crate::orbits::periodic::phase_difference;
+use crate::testing::{StopAfter, map, stored};
+
+fn saddle(map: &ImpactMap) -> PeriodicOrbit {
+    map.period_one_pair(1).expect("exists").saddle.orbit(map).expect("flies").expect("admissible")
+}
+
+fn settings(arclength: f64) -> ManifoldSettings {
+    ManifoldSettings::new(arclength, 20_000).expect("legal")
+}
+
+fn displacement(map: &ImpactMap, from: ImpactState, to: ImpactState) -> DVec2 {
+    let phase = phase_difference(to.phase().angle(), from.phase().angle());
+    DVec2::new(phase, (to.velocity() - from.velocity()) / (1.0 + map.vibration().peak_acceleration()))
+}
+
+/// How near an orbit comes to a state within so many impacts.
+fn nearest(map: &ImpactMap, start: ImpactState, target: ImpactState, kind: ManifoldKind) -> f64 {
+    let mut nearest = f64::INFINITY;
+    let mut state = start;
+    for _ in 0..400 {
+        nearest = nearest.min(displacement(map, state, target).length());
+        let next = match kind {
+            ManifoldKind::Stable => map.step(state).map(ImpactState::from),
+            ManifoldKind::Unstable => map.step_back(state),
+        };
+        match next {
+            Ok(next) => state = next,
+            Err(_) => break,
+        }
+    }
+    nearest
+}
+
+/// What grows by one map is checked by its inverse: every point of the unstable manifold came from the
+/// saddle, and every point of the stable one goes there.
+#[test]
+fn every_point_comes_from_the_saddle_or_goes_there() {
+    for (forcing, restitution) in [(0.45, 0.5), (0.40, 0.5), (0.561, 0.5), (0.50, 0.6), (0.25, 0.8)] {
+        let map = map(forcing, restitution);
+        let saddle = saddle(&map);
+        for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
+            let manifold = map.manifold(&saddle, kind, &settings(8.0), &Unobserved).expect("grows");
+            assert_eq!(manifold.branches.len(), 2);
+            let (mut points, mut worst) = (0, 0.0_f64);
+            for branch in &manifold.branches {
+                assert!(branch.arclength > 0.0, "{map} {kind:?}");
+                // On the way back rounding grows by 1/r^2 in every flight: these saddles repel by more than
+                // 2, so that a dozen flights are all there are, and have no small restitution.
+                for state in branch.pieces.iter().flat_map(|piece| &piece.states) {
+                    worst = worst.max(nearest(&map, *state, saddle.states[0], kind));
+                    points += 1;
+                }
+            }
+            assert!(points > 50 && worst < 1e-3, "{map} {kind:?}: {points} points, {worst}");
+        }
+    }
+}
+
+/// Where the period-1 orbit attracts, the stable manifold of its partner separates it from rest.
+#[test]
+fn the_basin_changes_across_the_stable_manifold() {
+    for (forcing, restitution) in [(0.40, 0.5), (0.45, 0.5), (0.47, 0.5)] {
+        let map = map(forcing, restitution);
+        let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
+        let radius = node.trapping_radius(&map, 64, &Unobserved).expect("attracts");
+        let known = [KnownOrbit::new(node, radius).expect("legal")];
+        let manifold =
+            map.manifold(&saddle(&map), ManifoldKind::Stable, &settings(20.0), &Unobserved).expect("grows");
+        let [mut changes, mut same] = [0_u32; 2];
+        let label = |state: ImpactState, by: DVec2| {
+            let phase = Phase::new(state.phase().angle() + by.x).expect("finite");
+            let velocity = state.velocity() + by.y * (1.0 + map.vibration().peak_acceleration());
+            let start = ImpactState::new(phase, velocity).ok()?;
+            let label = map.basin_label(start, &known, BasinSettings::default()).expect("decided");
+            assert_ne!(label, UNDECIDED);
+            Some(label == ATTACHED)
+        };
+        for piece in manifold.pieces() {
+            for pair in piece.states.windows(2).step_by(3) {
+                let along = displacement(&map, pair[0], pair[1]);
+                let across = along.perp() / along.length() * 1e-3;
+                if let (Some(left), Some(right)) = (label(pair[0], across), label(pair[0], -across)) {
+                    if left == right { same += 1 } else { changes += 1 }
+                }
+            }
+        }
+        assert!(changes > 50 && same == 0, "{map}: {changes} {same}");
+    }
+}
+
+/// Beyond the doubling the period-1 node has turned into a saddle with negative multipliers; what leaves it
+/// ends on the orbit of twice the period.
+#[test]
+fn a_negative_multiplier_takes_two_rounds() {
+    let map = map(0.50, 0.5);
+    let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
+    let manifold = map.manifold(&node, ManifoldKind::Unstable, &settings(50.0), &Unobserved).expect("grows");
+    assert!(manifold.multiplier < -1.0);
+    for branch in &manifold.branches {
+        assert_eq!(branch.end, ManifoldEnd::Attracted, "{branch:?}");
+        let last = *branch.pieces.last().and_then(|piece| piece.states.last()).expect("points");
+        let after = map.iterate(last, 200, &Unobserved).expect("flies");
+        assert_eq!(map.period_of(after, 8, 1e-9), Ok(Some(2)));
+        assert!(displacement(&map, after, last).length() < 0.01, "{after} {last}");
+    }
+}
+
+#[test]
+fn a_finer_polygon_is_the_same_curve() {
+    let map = map(0.561, 0.5);
+    let saddle = saddle(&map);
+    for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
+        let coarse = map.manifold(&saddle, kind, &settings(12.0), &Unobserved).expect("grows");
+        let fine = settings(13.0).with_resolution(0.01, 0.05).expect("legal");
+        let fine = map.manifold(&saddle, kind, &fine, &Unobserved).expect("grows");
+        for (coarse, fine) in coarse.branches.iter().zip(&fine.branches) {
+            assert!(coarse.end == fine.end && coarse.arclength > 10.0, "{:?} {:?}", coarse.end, fine.end);
+            let mut worst = 0.0_f64;
+            for state in coarse.pieces.iter().flat_map(|piece| &piece.states) {
+                let near =
+                    fine.pieces.iter().flat_map(|piece| &piece.states).fold(f64::INFINITY, |near, other| {
+                        near.min(displacement(&map, *state, *other).length())
+                    });
+                worst = worst.max(near);
+            }
+            assert!(worst <= 0.01, "{kind:?}: {worst}");
+        }
+    }
+}
+
+/// A saddle of two impacts has four branches, and those of its second impact are the images of the first's.
+#[test]
+fn each_impact_of_a_saddle_has_its_branches() {
+    let map = map(0.561, 0.5);
+    let found = map
+        .periodic_orbits(
+            &crate::orbits::OrbitSearch::new(2, 2).expect("legal").with_starts(24, 24).expect("legal"),
+            &Unobserved,
+        )
+        .expect("searched");
+    let orbit = found
+        .orbits
+        .iter()
+        .find(|orbit| orbit.period() == 2 && Saddle::of(&map, orbit, 0).is_ok())
+        .expect("a saddle of two impacts");
+    for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
+        let manifold = map.manifold(orbit, kind, &settings(2.0), &Unobserved).expect("grows");
+        let places: Vec<_> = manifold.branches.iter().map(|branch| (branch.impact, branch.side)).collect();
+        let expected = [(0, Side::Later), (0, Side::Earlier), (1, Side::Later), (1, Side::Earlier)];
+        assert_eq!(places, expected);
+        for branch in &manifold.branches {
+            assert_eq!(branch.pieces[0].states[0], orbit.states[branch.impact]);
+            assert_eq!(branch.pieces[0].start, PieceEnd::Saddle);
+        }
+    }
+}
+
+#[test]
+fn limits_end_a_branch_and_say_so() {
+    let map = map(0.561, 0.5);
+    let saddle = saddle(&map);
+    let grown = |settings: ManifoldSettings| {
+        map.manifold(&saddle, ManifoldKind::Stable, &settings, &Unobserved).expect("grows").branches
+    };
+    for branch in grown(ManifoldSettings::new(1e6, 50).expect("legal")) {
+        let points: usize = branch.pieces.iter().map(|piece| piece.states.len()).sum();
+        assert!(branch.end == ManifoldEnd::Points && points <= 52, "{:?} {points}", branch.end);
+    }
+    for branch in grown(settings(1e6).with_generations(3).expect("legal")) {
+        assert_eq!((branch.end, branch.generations), (ManifoldEnd::Generations, 3));
+    }
+    for branch in grown(settings(0.5)) {
+        assert!(branch.end == ManifoldEnd::Arclength && branch.arclength < 0.56);
+    }
+    // Faster impacts are left out as they are asked for, and none else.
+    let bound = map.launch_speed_bound();
+    let own = |state: &ImpactState| {
+        (map.vibration().velocity(state.phase()) - map.restitution() * state.velocity()).abs()
+    };
+    let fastest = |branches: Vec<ManifoldBranch>| {
+        branches
+            .iter()
+            .flat_map(|branch| &branch.pieces)
+            .flat_map(|piece| &piece.states)
+            .fold(0.0_f64, |most, state| most.max(own(state)))
+    };
+    let (near, far) = (
+        fastest(grown(settings(60.0))),
+        fastest(grown(settings(60.0).with_launch_speed(9.0).expect("legal"))),
+    );
+    assert!(near <= bound && near > 0.9 * bound, "{near} {bound}");
+    assert!(far <= 9.0 && far > 8.0, "{far}");
+    let less = grown(settings(60.0).with_launch_speed(0.0).expect("legal"));
+    assert_eq!(less, grown(settings(60.0)));
+}
+
+#[test]
+fn what_is_no_saddle_has_no_manifold() {
+    let map = map(0.45, 0.5);
+    let node = map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit");
+    let refused = |map: &ImpactMap, orbit: &PeriodicOrbit, kind: ManifoldKind| {
+        map.manifold(orbit, kind, &settings(1.0), &Unobserved).expect_err("refused")
+    };
+    for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
+        assert!(matches!(refused(&map, &node, kind), Error::OutOfRange { .. }));
+    }
+    let moved = ImpactState::new(node.states[0].phase(), -4.0).expect("legal");
+    let none = PeriodicOrbit { states: vec![moved], ..node.clone() };
+    assert!(
+        matches!(refused(&map, &none, ManifoldKind::Stable), Error::NotSettled { residual, .. } if residual > 0.01)
+    );
+    let empty = PeriodicOrbit { states: Vec::new(), ..node };
+    assert!(matches!(refused(&map, &empty, ManifoldKind::Stable), Error::OutOfRange { .. }));
+    // Restitution 0 has no way back, but a way out.
+    let dead = self::map(1.3, 0.0);
+    let orbit = dead.refine(&[dead.period_one(1).expect("exists")]).expect("an orbit");
+    assert!(matches!(refused(&dead, &orbit, ManifoldKind::Stable), Error::OutOfRange { .. }));
+    assert!(dead.manifold(&orbit, ManifoldKind::Unstable, &settings(1.0), &Unobserved).is_ok());
+}
+
+#[test]
+fn settings_and_results_are_what_they_say() {
+    for (arclength, points) in [(0.0, 100), (f64::NAN, 100), (2e6, 100), (1.0, 15), (1.0, 10_000_001)] {
+        assert!(ManifoldSettings::new(arclength, points).is_err(), "{arclength} {points}");
+    }
+    let legal = settings(1.0);
+    assert!(legal.with_resolution(0.0, 0.1).is_err() && legal.with_resolution(0.1, f64::NAN).is_err());
+    assert!(legal.with_generations(0).is_err() && legal.with_generations(10_001).is_err());
+    for speed in [f64::NAN, -1.0, f64::INFINITY] {
+        assert!(legal.with_launch_speed(speed).is_err(), "{speed}");
+    }
+    stored(&legal.with_launch_speed(3.0).expect("legal"));
+}
+
+#[test]
+fn a_manifold_can_be_stopped() {
+    let map = map(0.561, 0.5);
+    let saddle = saddle(&map);
+    let grow = |observer: &StopAfter| map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), observer);
+    let patient = StopAfter::calls(u64::MAX);
+    let whole = grow(&patient).expect("grows");
+    assert!(patient.asked() > 3, "{}", patient.asked());
+    assert_eq!(
+        whole,
+        map.manifold(&saddle, ManifoldKind::Stable, &settings(600.0), &Unobserved).expect("grows")
+    );
+    for calls in 1..4 {
+        assert!(matches!(grow(&StopAfter::calls(calls)), Err(Error::Stopped { total: 40_000, .. })));
+    }
+}
+
+/// Next to its birth the saddle lies on the seam of the phase.
+#[test]
+fn a_saddle_at_the_seam_is_like_any_other() {
+    let map = map(1.0 / 3.0 + 1e-6, 0.5);
+    let saddle = saddle(&map);
+    assert!(TAU - saddle.states[0].phase().angle() < 0.01);
+    let manifold = map.manifold(&saddle, ManifoldKind::Stable, &settings(3.0), &Unobserved).expect("grows");
+    for piece in manifold.pieces() {
+        for pair in piece.states.windows(2) {
+            assert!(displacement(&map, pair[0], pair[1]).length() < 0.08);
+        }
+    }
+}

@@ -1,0 +1,273 @@
+//! The errors of this crate.
+
+/// What can go wrong in the math core. Every variant carries the numbers that are needed to see why.
+///
+/// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
+/// ones of a range, such as counts, without a fraction.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// An argument lies outside its legal range.
+    #[error("{field} = {} is outside its legal range {legal}", without_fraction(*value))]
+    OutOfRange {
+        /// The name of the argument.
+        field: &'static str,
+        /// The value that was given.
+        value: f64,
+        /// The legal range, in words.
+        legal: &'static str,
+    },
+    /// A disk at rest on the platform does not leave it at this phase: the platform is not falling away.
+    #[error(
+        "a disk at rest on the platform (peak acceleration {peak_acceleration:?} g) does not lift off at phase {phase:?} rad"
+    )]
+    NoLiftOff {
+        /// Launch phase in radians.
+        phase: f64,
+        /// Peak acceleration of the platform in units of the preload acceleration.
+        peak_acceleration: f64,
+    },
+    /// The flight would last longer than the period counter can hold exactly.
+    #[error(
+        "a launch at relative speed {relative_speed:?} flies for {duration:?} rad, more than the largest duration {limit:?} rad"
+    )]
+    FlightTooLong {
+        /// Launch speed relative to the platform, in units of g/omega.
+        relative_speed: f64,
+        /// Duration of the flight in radians.
+        duration: f64,
+        /// The largest duration in radians.
+        limit: f64,
+    },
+    /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
+    #[error("no convergence after {evaluations} evaluations: gap {gap:?} after {time:?} rad")]
+    NoConvergence {
+        /// Evaluations of the gap.
+        evaluations: u32,
+        /// Last time tried, in radians after the start of the search.
+        time: f64,
+        /// The gap there, in units of g/omega^2.
+        gap: f64,
+    },
+    /// An iteration (an orbit search, a refinement) did not settle.
+    #[error("{what} did not settle after {iterations} iterations; last residual {residual:?}")]
+    NotSettled {
+        /// What was sought.
+        what: &'static str,
+        /// Iterations used.
+        iterations: u32,
+        /// Size of the last residual.
+        residual: f64,
+    },
+    /// A periodic orbit is not proven to attract: it does not, or rounding leaves it open.
+    #[error(
+        "the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}"
+    )]
+    NotAttracting {
+        /// The larger modulus of its multipliers.
+        spectral_radius: f64,
+        /// How far the trace of its derivative may be off.
+        trace_error: f64,
+    },
+    /// No region about an attracting orbit is proven to be attracted: an impact or a graze is too near.
+    #[error("nothing about the orbit is proven to be attracted, down to {region:?} rad")]
+    NothingProven {
+        /// The smallest region that was tried (rad).
+        region: f64,
+    },
+    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
+    #[error(
+        "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is no periodic orbit"
+    )]
+    ImpactWithoutSpeed {
+        /// Which impact of the solution.
+        index: usize,
+        /// Its phase in radians.
+        phase: f64,
+    },
+    /// The solution that an iteration settled on takes no period of the platform: its impacts are the repetition of one
+    /// instant within rounding, not a periodic orbit.
+    #[error(
+        "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:?} g/omega)"
+    )]
+    NoPlatformPeriods {
+        /// Impacts of the solution.
+        impacts: usize,
+        /// The largest of their speeds, in units of g/omega.
+        speed: f64,
+    },
+    /// A flight of an orbit that was sought by its impacts meets the platform earlier: the orbit ends at a graze.
+    #[error(
+        "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
+    )]
+    EarlierImpact {
+        /// Which flight of the orbit.
+        index: usize,
+        /// Its duration in the orbit that was sought, in radians.
+        sought: f64,
+        /// When the first impact comes, in radians after the launch.
+        found: f64,
+    },
+    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one, as at a
+    /// fold.
+    #[error("no branch begins at {parameter:?}: {what} is no isolated orbit there")]
+    NoBranch {
+        /// The orbit.
+        what: &'static str,
+        /// Where it was sought: the parameter of the continuation.
+        parameter: f64,
+    },
+    /// A number of a list is not of the kind that is needed.
+    #[error("{what} number {index} of {count} is not {expected}")]
+    NotOfKind {
+        /// What is in the list.
+        what: &'static str,
+        /// The number that was given, from 0.
+        index: usize,
+        /// How long the list is.
+        count: usize,
+        /// What was meant.
+        expected: &'static str,
+    },
+    /// A text is no decimal number.
+    #[error("byte {at} is no part of a decimal number")]
+    NoDecimal {
+        /// Where in the text, counted from 0.
+        at: usize,
+    },
+    /// A law of restitution gives a number outside [0, 1], or none.
+    #[error(
+        "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
+    )]
+    IllegalRestitution {
+        /// What the law gives.
+        restitution: f64,
+        /// The impact speed, in units of g/omega.
+        impact_speed: f64,
+    },
+    /// A chatter has a closed form for a constant restitution only: another law of restitution needs a cut.
+    #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
+    NoClosedForm,
+    /// The observer of a long call has stopped it. What was finished is not lost where a run owns it.
+    #[error("stopped after {done} of {total} items")]
+    Stopped {
+        /// Finished items.
+        done: u64,
+        /// All items.
+        total: u64,
+    },
+    /// A stored run does not fit together, or not to what it is to go on with.
+    #[error("{what}: {found} where {expected} would be legal")]
+    Unfitting {
+        /// What does not fit.
+        what: &'static str,
+        /// The number that was found.
+        found: u64,
+        /// The only or the largest number that fits.
+        expected: u64,
+    },
+    /// More was asked for than the limit allows or, where `count` is within it, than there is memory for.
+    #[error("no room for {count} {what}: at most {limit}, as far as the memory goes")]
+    TooLarge {
+        /// What was asked for.
+        what: &'static str,
+        /// How many of it.
+        count: u64,
+        /// The largest number.
+        limit: u64,
+    },
+}
+
+/// A number as it is written: 1 for a whole one, and not 1.0, because counts are numbers here, too.
+fn without_fraction(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map_or_else(|| text.clone(), str::to_owned)
+}
+
+/// Checks that `value` lies in [`low`, `high`]; NaN does not.
+pub(crate) fn within(
+    field: &'static str,
+    value: f64,
+    low: f64,
+    high: f64,
+    legal: &'static str,
+) -> Result<f64, Error> {
+    if value >= low && value <= high { Ok(value) } else { Err(Error::OutOfRange { field, value, legal }) }
+}
+
+/// Checks that `value` is finite.
+pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
+    within(field, value, f64::MIN, f64::MAX, "finite")
+}
+
+/// Checks that `value` is finite and not negative.
+pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error> {
+    within(field, value, 0.0, f64::MAX, "[0, inf)")
+}
+
+/// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
+/// there because some systems promise memory that they do not have.
+pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<Vec<T>, Error> {
+    let refusal = Error::TooLarge { what, count, limit };
+    let mut room = Vec::new();
+    match usize::try_from(count) {
+        Ok(items) if count <= limit && room.try_reserve_exact(items).is_ok() => Ok(room),
+        _ => Err(refusal),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A speed of 1e-300 was told with 299 zeros, which hid the number and what the text is about.
+    #[test]
+    fn texts_tell_numbers_of_any_size_in_few_digits() {
+        for number in [1.25e-300, 1.25e-121, 1.25e300] {
+            for error in [
+                Error::OutOfRange { field: "speed", value: number, legal: "[0, 1]" },
+                Error::NoLiftOff { phase: number, peak_acceleration: number },
+                Error::FlightTooLong { relative_speed: number, duration: number, limit: number },
+                Error::NoConvergence { evaluations: 200, time: number, gap: number },
+                Error::NotSettled { what: "search", iterations: 7, residual: number },
+                Error::NotAttracting { spectral_radius: number, trace_error: number },
+                Error::NothingProven { region: number },
+                Error::ImpactWithoutSpeed { index: 3, phase: number },
+                Error::NoPlatformPeriods { impacts: 2, speed: number },
+                Error::EarlierImpact { index: 5, sought: number, found: number },
+                Error::IllegalRestitution { restitution: number, impact_speed: number },
+            ] {
+                let text = error.to_string();
+                assert!(text.contains(&format!("{number:e}")) && text.len() < 160, "{text}");
+            }
+        }
+    }
+
+    /// A count that was too large was told as 1073741825.0.
+    #[test]
+    fn whole_numbers_outside_of_their_range_have_no_fraction() {
+        for (value, told) in [
+            (1_073_741_825.0, "1073741825"),
+            (f64::from(u32::MAX), "4294967295"),
+            (0.0, "0"),
+            (-1.0, "-1"),
+            (0.1, "0.1"),
+            (1e17, "1e17"),
+            (f64::INFINITY, "inf"),
+            (f64::NAN, "NaN"),
+        ] {
+            let error = Error::OutOfRange { field: "count", value, legal: "[1, 10]" };
+            assert_eq!(error.to_string(), format!("count = {told} is outside its legal range [1, 10]"));
+        }
+    }
+
+    #[test]
+    fn memory_that_is_not_there_is_an_error_with_its_size() {
+        for (count, limit) in [(11, 10), (u64::MAX, 10), (u64::MAX, u64::MAX), (1 << 60, u64::MAX)] {
+            let refusal = Error::TooLarge { what: "numbers", count, limit };
+            assert_eq!(room_for::<u64>("numbers", count, limit), Err(refusal));
+            assert!(refusal.to_string().contains(&count.to_string()), "{refusal}");
+        }
+        assert!(room_for::<u64>("numbers", 10, 10).is_ok_and(|room| room.capacity() >= 10));
+    }
+}

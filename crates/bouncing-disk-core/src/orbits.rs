@@ -1,0 +1,36 @@
+//! Periodic orbits: how to find them, how stable they are, where they begin, double and end.
+//!
+//! An orbit of n impacts in k periods of the platform is a fixed point of the n-th iterate of the impact map. It
+//! attracts where both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle; a fold
+//! has one at 1, a period doubling one at -1. The orbit with one impact in each period is closed form:
+//! cos tau = (1 - r) / ((1 + r) Gamma).
+//!
+//! ```
+//! use bouncing_disk_core::orbits::{OrbitSearch, doubling_cascade};
+//! use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+//!
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let found = map.periodic_orbits(&OrbitSearch::new(1, 1)?, &Unobserved)?;
+//! assert_eq!(found.orbits.len(), 2); // The node and the saddle of one impact in one period.
+//! let doublings = doubling_cascade(0.5, 2, &Unobserved)?;
+//! assert!((doublings[0].axial_forcing - 0.486_003_078_3).abs() < 1e-9);
+//! # Ok::<(), bouncing_disk_core::Error>(())
+//! ```
+//!
+//! [`ImpactMap::continued`](crate::ImpactMap::continued) follows an orbit over a parameter. The orbits that a disk ends on
+//! are in [`attractors`](crate::attractors). How it is computed: docs/numerics/dynamics.md.
+
+pub(crate) mod cascade;
+pub(crate) mod closing;
+pub(crate) mod continuation;
+pub(crate) mod follow_attractor;
+pub(crate) mod periodic;
+
+pub use cascade::feigenbaum::{FeigenbaumEstimate, feigenbaum_estimates};
+pub use cascade::{CascadeDoubling, MAX_DOUBLINGS, doubling_cascade};
+pub use closing::ContinuationParameter;
+pub use continuation::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
+pub use follow_attractor::{Followed, Following, follow_attractor};
+pub use periodic::pair::{PeriodOneOrbit, PeriodOnePair};
+pub use periodic::search::{OrbitCoverage, OrbitSearch, OrbitsFound};
+pub use periodic::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};

@@ -1,0 +1,149 @@
+//! The period-doubling cascade to as many digits as the arithmetic carries: from one doubling to the next by
+//! Newton's iteration on the impact times (docs/numerics/dynamics.md, "The doubling cascade").
+
+pub(crate) mod branch;
+pub(crate) mod feigenbaum;
+mod recurrence;
+
+use self::branch::{FlipPoint, first_flip, next_flip, rounding};
+use crate::numerics::error::{Error, within};
+use crate::numerics::real::Real;
+use crate::orbits::periodic::MAX_PERIOD;
+use crate::run::{Observer, Watch};
+
+/// The largest number of doublings: the last one is that of the orbit of period [`MAX_PERIOD`].
+pub const MAX_DOUBLINGS: usize = 13;
+
+/// A graze margin that doubles can no longer tell from none (units of g/omega^2): their gap is exact to 1e-14
+/// of the peak acceleration and the flight, and the phases here to all their digits.
+const UNSURE_MARGIN: f64 = 1.0e-9;
+
+/// A period doubling of the cascade that starts from the orbit with one impact per period of the platform.
+///
+/// `R` is the kind of number: `f64`, or [`DoubleDouble`](crate::numerics::double_double::DoubleDouble).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct CascadeDoubling<R = f64> {
+    /// Its number n, from 1 on.
+    pub number: usize,
+    /// Period (in impacts) of the orbit that loses its stability, 2^(n - 1).
+    pub period: usize,
+    /// The forcing Gamma_n.
+    pub axial_forcing: R,
+    /// How far rounding may have moved the forcing.
+    pub forcing_error: f64,
+    /// The multiplier that the search left, -1 but for rounding: this grows 6.6 times from one doubling to
+    /// the next.
+    pub multiplier: R,
+    /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
+    pub width: R,
+    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
+    /// dips.
+    pub graze_margin: f64,
+}
+
+/// `Gamma_3 = 0.5401020860760664, of the orbit of 4 impacts`; a precision given is the number of decimals.
+impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let Self { number, period, axial_forcing, .. } = self;
+        let impacts = if *period == 1 { "impact" } else { "impacts" };
+        write!(formatter, "Gamma_{number} = ")?;
+        core::fmt::Display::fmt(axial_forcing, formatter)?;
+        write!(formatter, ", of the orbit of {period} {impacts}")
+    }
+}
+
+/// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the
+/// platform, for `restitution` in (0, 1), to as many digits as its kind of number has.
+///
+/// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at most 1.5e-13
+/// at the thirteenth. What rounding leaves of the digits grows 6.6 times in the multiplier and 1.4 times in
+/// the forcing from one doubling to the next (docs/numerics/dynamics.md); the distances of the doublings
+/// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
+/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) has sixteen more; read a decimal restitution
+/// from a text then, as the double `0.1` is no tenth.
+///
+/// The items of `observer` are the doublings.
+///
+/// ```
+/// use bouncing_disk_core::numerics::double_double::DoubleDouble;
+/// use bouncing_disk_core::orbits::doubling_cascade;
+/// use bouncing_disk_core::{ImpactMap, Unobserved};
+///
+/// let cascade = doubling_cascade(0.5, 4, &Unobserved)?;
+/// assert!((cascade[0].axial_forcing - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-15);
+/// assert_eq!(cascade[3].period, 8);
+///
+/// let restitution: DoubleDouble = "0.5".parse()?;
+/// let cascade = doubling_cascade(restitution, 3, &Unobserved)?;
+/// assert_eq!(format!("{:.25}", cascade[2].axial_forcing), "0.5401020860760663669196152");
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::OutOfRange`] for the restitution or the count; [`Error::NotSettled`] if a branch is lost, and with the
+/// margin where an orbit comes so near to an earlier impact that more digits than those of doubles would decide;
+/// [`Error::EarlierImpact`] if a branch ends because its orbit meets the platform earlier.
+pub fn doubling_cascade<R: Real>(
+    restitution: R,
+    count: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<CascadeDoubling<R>>, Error> {
+    let found = flip_points(restitution, count, observer)?;
+    let described = found.iter().map(|found| {
+        let (number, graze_margin) = (found.number, found.graze_margin);
+        // The margin is one of doubles, and proves nothing of further digits.
+        if R::EPSILON < f64::EPSILON && graze_margin < UNSURE_MARGIN {
+            let (what, iterations) = ("graze of a cascade in doubles", number as u32);
+            return Err(Error::NotSettled { what, iterations, residual: graze_margin });
+        }
+        let axial_forcing = found.point.peak / R::PI;
+        Ok(CascadeDoubling {
+            number,
+            period: found.point.times.len(),
+            axial_forcing,
+            forcing_error: axial_forcing.value() * rounding::<R>(number),
+            multiplier: found.point.multiplier,
+            width: found.point.width,
+            graze_margin,
+        })
+    });
+    described.collect()
+}
+
+/// A doubling, its number, and the smallest graze margin of its orbit.
+#[derive(Debug)]
+pub(crate) struct Found<R> {
+    pub(crate) number: usize,
+    pub(crate) point: FlipPoint<R>,
+    pub(crate) graze_margin: f64,
+}
+
+/// The first doublings in any precision.
+pub(crate) fn flip_points<R: Real>(
+    restitution: R,
+    count: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Found<R>>, Error> {
+    const { assert!(1 << (MAX_DOUBLINGS - 1) == MAX_PERIOD) };
+    within("restitution", restitution.value(), f64::MIN_POSITIVE, 1.0 - f64::EPSILON, "(0, 1)")?;
+    within("count", count as f64, 0.0, MAX_DOUBLINGS as f64, "[0, 13]")?;
+    let watch = Watch::begin(observer, 0, count as u64)?;
+    let mut work = watch.work();
+    let tick = &mut |impacts| work.spend(impacts);
+    let mut found: Vec<Found<R>> = Vec::with_capacity(count);
+    for number in 1..=count {
+        let point = match found.last() {
+            None => first_flip(restitution, tick)?,
+            Some(last) => next_flip(&last.point, number, restitution, tick)?,
+        };
+        let graze_margin = point.graze_margin(restitution)?;
+        found.push(Found { number, point, graze_margin });
+        watch.finish(1);
+    }
+    watch.end();
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests;

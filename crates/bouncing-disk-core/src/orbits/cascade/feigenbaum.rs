@@ -1,0 +1,118 @@
+//! Feigenbaum's two constants from the doublings of one cascade.
+
+use super::CascadeDoubling;
+use super::branch::{rounding, width_rounding};
+use crate::numerics::real::Real;
+
+/// The first doubling of an estimate with an error: one ratio of distances less, one of widths; one step of
+/// extrapolation less, two of them; and two changes of these.
+const FIRST_ESTIMATE: usize = 7;
+
+/// An error is this many times the larger one of the last two changes.
+const CHANGES: f64 = 2.0;
+
+/// How much the extrapolation may enlarge the rounding of a ratio, with room to spare.
+const ENLARGED_ROUNDING: f64 = 4.0;
+
+/// What the doublings up to one of them say of Feigenbaum's constants delta = 4.6692016091... and alpha =
+/// 2.5029078750..., which nothing here knows.
+///
+/// The ratios themselves come near their limits as 1/delta and -1/alpha do. This is taken out with the
+/// ratios' own values, for alpha also the part that shrinks as 1/alpha^2 (docs/numerics/dynamics.md). The
+/// error is twice the larger one of the last two changes of the extrapolated value, and what rounding may
+/// add: no bound, but what the next doubling confirms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FeigenbaumEstimate {
+    /// The number n of the last doubling that was used.
+    pub number: usize,
+    /// (Gamma_(n-1) - Gamma_(n-2)) / (Gamma_n - Gamma_(n-1)).
+    pub forcing_ratio: f64,
+    /// The width of the orbit of doubling n - 1 by that of doubling n.
+    pub width_ratio: f64,
+    /// delta, extrapolated.
+    pub delta: f64,
+    /// How far delta may be off.
+    pub delta_error: f64,
+    /// The magnitude of alpha, extrapolated.
+    pub alpha: f64,
+    /// How far alpha may be off.
+    pub alpha_error: f64,
+}
+
+/// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision; a
+/// precision given is
+/// the number of decimals of the constants.
+impl core::fmt::Display for FeigenbaumEstimate {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let decimals = formatter.precision().unwrap_or(11);
+        let Self { number, delta, delta_error, alpha, alpha_error, .. } = self;
+        write!(formatter, "delta = {delta:.decimals$} +- {delta_error:.0e}, ")?;
+        write!(formatter, "alpha = {alpha:.decimals$} +- {alpha_error:.0e}, from {number} doublings")
+    }
+}
+
+/// Feigenbaum's constants from a cascade, one estimate for each doubling from the seventh on. Rounding ends
+/// their progress at the eleventh or so in doubles, and beyond the last in double-doubles.
+///
+/// ```
+/// use bouncing_disk_core::orbits::{doubling_cascade, feigenbaum_estimates};
+/// use bouncing_disk_core::Unobserved;
+///
+/// let estimates = feigenbaum_estimates(&doubling_cascade(0.5, 10, &Unobserved)?);
+/// let last = estimates.last().expect("from the seventh doubling on");
+/// assert!((last.delta - 4.669_201_609).abs() <= last.delta_error && last.delta_error < 1e-4);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[must_use]
+pub fn feigenbaum_estimates<R: Real>(cascade: &[CascadeDoubling<R>]) -> Vec<FeigenbaumEstimate> {
+    let points: Vec<_> = cascade.iter().map(|doubling| (doubling.axial_forcing, doubling.width)).collect();
+    estimates(&points)
+}
+
+/// The values with the part taken out that shrinks by `ratio` from one to the next; the first ones have none
+/// before them.
+fn without<R: Real>(values: &[Option<R>], ratio: impl Fn(usize) -> Option<R>) -> Vec<Option<R>> {
+    let at = |i: usize| {
+        let (before, now, ratio) = (values[i.checked_sub(1)?]?, values[i]?, ratio(i)?);
+        Some((now - ratio * before) / (R::of(1.0) - ratio))
+    };
+    (0..values.len()).map(at).collect()
+}
+
+/// An extrapolated value and its error but for rounding.
+fn with_error<R: Real>(values: &[Option<R>], i: usize) -> Option<(f64, f64)> {
+    let (now, before, first) = (values[i]?, values[i.checked_sub(1)?]?, values[i.checked_sub(2)?]?);
+    let changes = [now - before, before - first].map(|change| change.magnitude().value());
+    Some((now.value(), CHANGES * changes[0].max(changes[1])))
+}
+
+/// The estimates from (forcing, width) of the doublings from the first one on.
+fn estimates<R: Real>(points: &[(R, R)]) -> Vec<FeigenbaumEstimate> {
+    let one = R::of(1.0);
+    let distance = |i: usize| points[i].0 - points[i - 1].0;
+    let forcing_ratios: Vec<_> =
+        (0..points.len()).map(|i| (i >= 2).then(|| distance(i - 1) / distance(i))).collect();
+    let width_ratios: Vec<_> =
+        (0..points.len()).map(|i| (i >= 2).then(|| points[i - 1].1 / points[i].1)).collect();
+    let delta = without(&forcing_ratios, |i| Some(one / forcing_ratios[i]?));
+    let alpha = without(&width_ratios, |i| Some(-one / width_ratios[i]?));
+    let alpha = without(&alpha, |i| Some(one / (width_ratios[i]? * width_ratios[i]?)));
+    let estimate = |i: usize| {
+        let number = i + 1;
+        let (forcing_ratio, width_ratio) = (forcing_ratios[i]?.value(), width_ratios[i]?.value());
+        let ((delta, delta_error), (alpha, alpha_error)) = (with_error(&delta, i)?, with_error(&alpha, i)?);
+        let of_distance = 2.0 * rounding::<R>(number) * points[i].0.value() / distance(i).value();
+        let of_width = 2.0 * width_rounding::<R>(number);
+        Some(FeigenbaumEstimate {
+            number,
+            forcing_ratio,
+            width_ratio,
+            delta,
+            delta_error: delta_error + ENLARGED_ROUNDING * delta * of_distance + f64::EPSILON * delta,
+            alpha,
+            alpha_error: alpha_error + ENLARGED_ROUNDING * alpha * of_width + f64::EPSILON * alpha,
+        })
+    };
+    (FIRST_ESTIMATE - 1..points.len()).filter_map(estimate).collect()
+}

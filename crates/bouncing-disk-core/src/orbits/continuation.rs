@@ -1,0 +1,338 @@
+//! Branches of periodic orbits in a parameter: through folds and along unstable parts, with the bifurcations
+//! on the way (docs/numerics/dynamics.md, "Branches").
+
+use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::ImpactMap;
+use crate::numerics::error::{Error, finite, within};
+use crate::orbits::closing::{Closing, ContinuationParameter};
+use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
+use crate::read_checked;
+use crate::run::{Observer, Watch};
+
+mod walker;
+mod within;
+
+use walker::Walker;
+
+/// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of a product and a
+/// quotient with pi.
+const ROUNDED: f64 = 4.0 * f64::EPSILON;
+
+/// In what, how far and how finely an orbit is continued.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedContinuation"))]
+pub struct Continuation {
+    parameter: ContinuationParameter,
+    low: f64,
+    high: f64,
+    rising: bool,
+    first_step: f64,
+    largest_step: f64,
+    max_points: usize,
+}
+
+read_checked!(Continuation as UncheckedContinuation {
+    parameter: ContinuationParameter,
+    low: f64,
+    high: f64,
+    rising: bool,
+    first_step: f64,
+    largest_step: f64,
+    max_points: usize,
+});
+
+impl Continuation {
+    /// The most points of a branch.
+    pub const MAX_POINTS: usize = 1_000_000;
+
+    /// A continuation in `parameter` between `low` < `high`, at first towards higher values (`rising`) or
+    /// lower ones.
+    ///
+    /// The arclength is that of first impact and parameter: radians, units of 1 + P, and the forcing at the
+    /// start (for the restitution: 1) count alike. The first step is 0.01, the largest 0.05, and there are at
+    /// most 10,000 points: see [`Self::with_steps`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the range is empty or leaves that of the parameter.
+    pub fn new(
+        parameter: ContinuationParameter,
+        (low, high): (f64, f64),
+        rising: bool,
+    ) -> Result<Self, Error> {
+        let settings =
+            Self { parameter, low, high, rising, first_step: 0.01, largest_step: 0.05, max_points: 10_000 };
+        settings.check().map(|()| settings)
+    }
+
+    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most so many
+    /// points in [2, 1e6].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for any of them, and for a first step above the largest.
+    pub fn with_steps(self, first_step: f64, largest_step: f64, max_points: usize) -> Result<Self, Error> {
+        let settings = Self { first_step, largest_step, max_points, ..self };
+        settings.check().map(|()| settings)
+    }
+
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        let (least, most) = self.parameter.legal();
+        within("low end of a continuation", self.low, least, most, "the range of its parameter")?;
+        within(
+            "high end of a continuation",
+            self.high,
+            self.low.next_up(),
+            most,
+            "(low end, that of its parameter]",
+        )?;
+        within("largest step", self.largest_step, 1.0e-9, 1.0, "[1e-9, 1]")?;
+        within("first step", self.first_step, 1.0e-9, self.largest_step, "[1e-9, largest step]")?;
+        within("points of a branch", self.max_points as f64, 2.0, Self::MAX_POINTS as f64, "[2, 1000000]")?;
+        Ok(())
+    }
+
+    /// The parameter.
+    #[must_use]
+    pub const fn parameter(&self) -> ContinuationParameter {
+        self.parameter
+    }
+
+    /// The range of the parameter.
+    #[must_use]
+    pub const fn range(&self) -> (f64, f64) {
+        (self.low, self.high)
+    }
+
+    /// The most points.
+    #[must_use]
+    pub const fn max_points(&self) -> usize {
+        self.max_points
+    }
+}
+
+/// A periodic orbit on a branch.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPoint"))]
+pub struct BranchPoint {
+    /// The forcing Gamma or the restitution, whichever is varied.
+    pub parameter: f64,
+    /// The orbit, an orbit of the map: no earlier impact forestalls a flight.
+    pub orbit: PeriodicOrbit,
+    /// The trace of the derivative around the orbit.
+    pub trace: f64,
+    /// Its determinant, r^(2 n) for n impacts, in [0, 1].
+    pub determinant: f64,
+    /// The arclength from the start of the branch (see [`Continuation::new`]).
+    pub arclength: f64,
+}
+
+read_checked!(BranchPoint as UncheckedPoint {
+    parameter: f64,
+    orbit: PeriodicOrbit,
+    trace: f64,
+    determinant: f64,
+    arclength: f64,
+});
+
+impl BranchPoint {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        finite("parameter of a branch", self.parameter)?;
+        finite("trace", self.trace)?;
+        within("determinant", self.determinant, 0.0, 1.0, "[0, 1]")?;
+        within("arclength", self.arclength, 0.0, f64::MAX, "[0, inf)")?;
+        Ok(())
+    }
+
+    /// The Floquet multipliers.
+    #[must_use]
+    pub fn multipliers(&self) -> Multipliers {
+        Multipliers::of_invariants(self.trace, self.determinant)
+    }
+
+    /// Whether the orbit attracts, where rounding leaves no doubt of it ([`Stability::Stable`]).
+    #[must_use]
+    pub fn is_stable(&self) -> bool {
+        self.orbit.stability() == Stability::Stable
+    }
+}
+
+/// What happens at a special point of a branch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum BifurcationKind {
+    /// A multiplier is -1: a branch of twice the period begins here ([`Branch::switched`]).
+    Doubling,
+    /// A multiplier is 1, and the branch turns back in the parameter.
+    Fold,
+    /// A flight touches the platform before its impact: beyond, an earlier impact forestalls it.
+    Graze {
+        /// Which flight, the one after this impact.
+        flight: usize,
+    },
+    /// The speed of an impact falls to zero: beyond, the disk passes without it.
+    VanishingImpact {
+        /// Which impact.
+        impact: usize,
+    },
+    /// The second half of the orbit becomes the repetition of the first: it is born here, by the doubling of
+    /// that one.
+    Birth,
+}
+
+/// A special point of a branch.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Bifurcation {
+    /// What happens.
+    pub kind: BifurcationKind,
+    /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have the signs of an
+    /// orbit, as far as they are known: rounding decides which impact the map finds first, and the last of
+    /// [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its period, with
+    /// half the impacts.
+    pub point: BranchPoint,
+}
+
+/// Why a branch ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[non_exhaustive]
+pub enum BranchEnd {
+    /// The parameter reaches this end of its range: the last orbit lies there, to the rounding, or to 1e-9 next to a birth just
+    /// beyond.
+    RangeLimit(f64),
+    /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
+    Bifurcation,
+    /// The branch is back at its start.
+    Closed,
+    /// There are as many points as were allowed.
+    PointLimit(usize),
+    /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do
+    /// not tell.
+    StepTooSmall(f64),
+}
+
+/// A branch of periodic orbits.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Branch {
+    /// The parameter that is varied.
+    pub parameter: ContinuationParameter,
+    /// The map at the start of the branch: the other parameters.
+    pub map: ImpactMap,
+    /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth that ends the
+    /// branch.
+    pub points: Vec<BranchPoint>,
+    /// The bifurcations on the way, in the order of the arclength.
+    pub bifurcations: Vec<Bifurcation>,
+    /// Why the branch ends.
+    pub end: BranchEnd,
+}
+
+impl Branch {
+    /// The bifurcations of one kind, in the order of the arclength.
+    pub fn of_kind(&self, kind: BifurcationKind) -> impl Iterator<Item = &Bifurcation> {
+        self.bifurcations.iter().filter(move |bifurcation| bifurcation.kind == kind)
+    }
+
+    /// The map at a value of the parameter.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a value outside its range.
+    pub fn map_at(&self, parameter: f64) -> Result<ImpactMap, Error> {
+        match self.parameter {
+            ContinuationParameter::Forcing => {
+                ImpactMap::new(Vibration::from_axial_forcing(parameter)?, self.map.restitution())
+            }
+            ContinuationParameter::Restitution => ImpactMap::new(*self.map.vibration(), parameter),
+        }
+    }
+
+    /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`], which
+    /// must be a doubling. Its first point is the one after the doubling; `rising` of the settings has no meaning,
+    /// as it goes to either side.
+    ///
+    /// The items of `observer` are the points that are allowed.
+    ///
+    /// # Errors
+    /// [`Error::NotOfKind`] if there is no such bifurcation or it is no doubling; [`Error::NoBranch`] if
+    /// no doubled orbit is found; those of [`ImpactMap::continued`].
+    pub fn switched(
+        &self,
+        index: usize,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        settings.check()?;
+        let doubling = self.bifurcations.get(index).filter(|found| found.kind == BifurcationKind::Doubling);
+        let Some(doubling) = doubling else {
+            let (what, count, expected) = ("bifurcation", self.bifurcations.len(), "a doubling");
+            return Err(Error::NotOfKind { what, index, count, expected });
+        };
+        let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
+        let map = self.map_at(doubling.point.parameter)?;
+        let (closing, at) = Closing::of(&map, settings.parameter, &doubling.point.orbit.states)?;
+        let (walker, located) = Walker::after_doubling(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
+        watch.end();
+        Ok(branch)
+    }
+}
+
+impl ImpactMap {
+    /// The branch of periodic orbits through `orbit`, an orbit of this map, by continuation in the
+    /// pseudo-arclength: through folds, and along unstable parts, until it ends ([`BranchEnd`]).
+    ///
+    /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
+    /// within one step are not seen: [`Continuation::with_steps`].
+    ///
+    /// The items of `observer` are the points that are allowed.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::orbits::{BifurcationKind, Continuation, ContinuationParameter};
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let orbit = map.refine(&[map.period_one(1).expect("it exists")])?;
+    /// let rising = Continuation::new(ContinuationParameter::Forcing, (0.1, 0.6), true)?;
+    /// let branch = map.continued(&orbit, &rising, &Unobserved)?;
+    /// let doubling = branch.of_kind(BifurcationKind::Doubling).next().expect("the first doubling");
+    /// assert!((doubling.point.parameter - ImpactMap::first_doubling_forcing(0.5)).abs() < 1e-14);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
+    /// [`Error::NoBranch`] if `orbit` is no orbit of this map, or not an isolated one: start beside a fold or a birth, not on it.
+    pub fn continued(
+        &self,
+        orbit: &PeriodicOrbit,
+        settings: &Continuation,
+        observer: &dyn Observer,
+    ) -> Result<Branch, Error> {
+        settings.check()?;
+        orbit.check()?;
+        within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
+        let parameter = settings.parameter.of(self);
+        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside it.
+        let rounding = ROUNDED * parameter;
+        if parameter < settings.low - rounding || parameter > settings.high + rounding || parameter.is_nan() {
+            let legal = "[low, high] of the `Continuation`";
+            within("parameter of a continuation", parameter, settings.low, settings.high, legal)?;
+        }
+        let watch = Watch::begin(observer, 0, settings.max_points as u64)?;
+        let (closing, mut at) = Closing::of(self, settings.parameter, &orbit.states)?;
+        at.parameter = at.parameter.clamp(settings.low, settings.high);
+        let (walker, located) = Walker::new(closing, at, settings, watch.work())?;
+        let branch = walker.walk(located)?;
+        watch.end();
+        Ok(branch)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,542 @@
+//! From point to point along a branch.
+
+use core::cell::RefCell;
+use core::f64::consts::TAU;
+
+use glam::{DMat2, DVec2};
+
+use super::{Bifurcation, BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation, ROUNDED};
+use crate::flight::launch::Impact;
+use crate::flight::launch::Launch;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::ImpactState;
+use crate::numerics::error::Error;
+use crate::numerics::roots::{bisected_bracket, bracket_of_width};
+use crate::orbits::closing::{Closed, Closing, Plane, turned};
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::run::WorkCount;
+
+/// The cosine of the largest angle that the direction turns in one step.
+const STRAIGHT: f64 = 0.95;
+
+/// The largest correction, relative to the step.
+const LARGEST_CORRECTION: f64 = 0.3;
+
+/// Newton steps up to which the arclength of a step grows, and from which it shrinks; by these factors.
+const EASY: u32 = 4;
+const HARD: u32 = 7;
+const GROWTH: f64 = 1.5;
+
+/// Halvings until the bracket of a special point is at the rounding of the arclength.
+pub(super) const HALVINGS: u32 = 56;
+
+/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a strongly unstable orbit,
+/// far below the distance of two curves that doubles can tell apart.
+pub(super) const NEIGHBOURS: f64 = 1.0e-9;
+
+/// By how much the duration of a flight (rad) may differ from the one that the map finds.
+const SAME_FLIGHT: f64 = 1.0e-8;
+
+/// Roundings of (1 + m1)(1 + m2) for each impact, in units of the size of the derivative.
+const FLIP_ROUNDINGS: f64 = 8.0;
+
+/// A branch is not taken to be closed before so many points.
+const FEWEST_OF_CLOSED: usize = 8;
+
+/// The smallest arclength of a step.
+const SMALLEST_STEP: f64 = 1.0e-10;
+
+/// A point of the branch with its direction.
+#[derive(Debug, Clone)]
+pub(super) struct Located {
+    pub(super) at: Closed,
+    /// Of scaled length 1 in first impact and parameter.
+    pub(super) direction: Closed,
+    pub(super) arclength: f64,
+    pub(super) corrections: u32,
+}
+
+/// Where a branch began, and in which direction (scaled; phase, speed, parameter): whether it is back there.
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    at: [f64; 3],
+    direction: [f64; 3],
+}
+
+/// What a branch does in one step.
+#[derive(Debug)]
+struct Stretch {
+    /// Where the step ends: at the next point, or where the branch ends before it.
+    last: Located,
+    /// The bifurcations up to there, in the order of the arclength.
+    found: Vec<Bifurcation>,
+    end: Option<BranchEnd>,
+}
+
+/// Continues one orbit.
+#[derive(Debug)]
+pub(super) struct Walker<'s> {
+    pub(super) closing: Closing,
+    pub(super) settings: &'s Continuation,
+    pub(super) work: RefCell<WorkCount<'s>>,
+}
+
+impl<'s> Walker<'s> {
+    /// Counts the flights of a point: some Newton steps of all impacts.
+    pub(super) fn spend(&self) -> Result<(), Error> {
+        self.work.borrow_mut().spend(8 * self.closing.flights() as u64)
+    }
+
+    /// From an orbit, in the direction of the settings.
+    pub(super) fn new(
+        closing: Closing,
+        guess: Closed,
+        settings: &'s Continuation,
+        work: WorkCount<'s>,
+    ) -> Result<(Self, Located), Error> {
+        let walker = Self { closing, settings, work: RefCell::new(work) };
+        let base = walker.closing.scaled(&guess);
+        let across = [0.0, 0.0, if settings.rising { 1.0 } else { -1.0 }];
+        let plane = Plane { normal: across, base, distance: 0.0 };
+        let lost = Error::NoBranch { what: "the orbit to be continued", parameter: guess.parameter };
+        let (at, corrections) = walker.closing.corrected(guess, &plane).ok_or(lost)?;
+        if walker.is_repeated(&at) {
+            return Err(lost);
+        }
+        let direction = walker.closing.tangent(&at, across).ok_or(lost)?;
+        Ok((walker, Located { at, direction, arclength: 0.0, corrections }))
+    }
+
+    /// From a doubling, onto the branch of twice the period.
+    pub(super) fn after_doubling(
+        closing: Closing,
+        at: Closed,
+        settings: &'s Continuation,
+        work: WorkCount<'s>,
+    ) -> Result<(Self, Located), Error> {
+        let n = at.impacts.len();
+        let lost = Error::NoBranch { what: "the doubled orbit", parameter: at.parameter };
+        let flip = closing.flip_direction(&at).ok_or(lost)?;
+        let there_and_back = flip.iter().copied().chain(flip.iter().map(|part| -*part)).collect();
+        let walker = Self { closing: closing.twice(), settings, work: RefCell::new(work) };
+        let direction = Closed { impacts: there_and_back, parameter: 0.0 };
+        let direction = walker.closing.normalised(direction).ok_or(lost)?;
+        let at = Closed { impacts: [at.impacts.as_slice(), &at.impacts].concat(), parameter: at.parameter };
+        let base = Located { at, direction, arclength: 0.0, corrections: 0 };
+        let mut step = settings.first_step;
+        while step > SMALLEST_STEP {
+            let next = walker.next(&base, step);
+            // The orbit itself, gone through twice, is a solution, too.
+            let doubled = next.filter(|next| {
+                let apart = (next.at.impacts[0] - next.at.impacts[n]).length();
+                let moved = walker.closing.scaled(&base.direction);
+                apart > 0.5 * step * (moved[0].abs() + moved[1].abs())
+            });
+            if let Some(located) = doubled {
+                return Ok((walker, located));
+            }
+            step *= 0.5;
+        }
+        Err(lost)
+    }
+
+    /// The point at this arclength from another one, along its direction.
+    fn at(&self, base: &Located, step: f64) -> Option<Located> {
+        let normal = self.closing.scaled(&base.direction);
+        let plane = Plane { normal, base: self.closing.scaled(&base.at), distance: step };
+        let (at, corrections) = self.closing.corrected(base.at.moved(&base.direction, step), &plane)?;
+        let direction = self.closing.tangent(&at, normal)?;
+        Some(Located { at, direction, arclength: base.arclength + step, corrections })
+    }
+
+    /// The same, if it is certain enough to be the next one of the same branch.
+    fn next(&self, base: &Located, step: f64) -> Option<Located> {
+        let next = self.at(base, step)?;
+        let (before, after) = (self.closing.scaled(&base.direction), self.closing.scaled(&next.direction));
+        let cosine = (0..3).fold(0.0, |sum, k| sum + before[k] * after[k]);
+        let guess = base.at.moved(&base.direction, step);
+        let speed = self.closing.scale.speed;
+        let largest = |a: &[DVec2], b: &[DVec2]| {
+            a.iter()
+                .zip(b)
+                .fold(0.0_f64, |most, (a, b)| most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / speed))
+        };
+        let moved = largest(&guess.impacts, &base.at.impacts).max(step);
+        let corrected = largest(&guess.impacts, &next.at.impacts);
+        (cosine >= STRAIGHT && corrected <= LARGEST_CORRECTION * moved).then_some(next)
+    }
+
+    /// The whole branch from `start` on; the items are its points.
+    pub(super) fn walk(self, start: Located) -> Result<Branch, Error> {
+        let Some(first) = self.point(&start)? else {
+            let parameter = start.at.parameter;
+            return Err(Error::NoBranch { what: "the start of the branch", parameter });
+        };
+        let [at, direction] = [&start.at, &start.direction].map(|part| self.closing.scaled(part));
+        let mut step = self.settings.first_step;
+        let (closing, settings) = (&self.closing, self.settings);
+        let begun = Start { at, direction };
+        let (mut base, mut points, mut bifurcations) = (start, vec![first], Vec::new());
+        let end = loop {
+            if points.len() >= settings.max_points {
+                break BranchEnd::PointLimit(points.len());
+            }
+            self.spend()?;
+            let next = self.next(&base, step);
+            let stretch = next.as_ref().map(|next| self.stretch(&base, next)).transpose()?.flatten();
+            let (Some(next), Some(stretch)) = (next, stretch) else {
+                step *= 0.5;
+                if step < SMALLEST_STEP {
+                    break BranchEnd::StepTooSmall(step);
+                }
+                continue;
+            };
+            self.work.borrow().watch().finish(1);
+            step = match next.corrections {
+                ..=EASY => (GROWTH * step).min(settings.largest_step),
+                HARD.. => step / GROWTH,
+                _ => step,
+            };
+            bifurcations.extend(stretch.found);
+            let (next, mut end) = (stretch.last, stretch.end);
+            if end.is_none() && points.len() >= FEWEST_OF_CLOSED && self.passes(&base, &next, &begun) {
+                end = Some(BranchEnd::Closed);
+            }
+            if next.arclength > base.arclength {
+                points.extend(self.point(&next)?);
+            }
+            if let Some(end) = end {
+                break end;
+            }
+            base = next;
+        };
+        Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
+    }
+
+    /// What the branch does from `base` to `next`, as far as it goes. `None` if the step is too long to tell: every change
+    /// along a curve lies between two neighbouring points of it, and one that does not is a leap to another curve.
+    fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
+        // Where the parameter turns back: only there it may leave its range and return to it within a step.
+        let turn = match self.halves(base, next)? {
+            Halves::Unclear => return Ok(None),
+            Halves::Meet(birth) => Some(*birth),
+            // At the very start of a doubled branch the parameter does not change: that is no fold.
+            Halves::Apart if base.direction.parameter * next.direction.parameter < 0.0 => {
+                let as_before =
+                    |located: &Located| Ok(located.direction.parameter * base.direction.parameter > 0.0);
+                let Some((last, _)) = self.change(base, next, as_before)? else { return Ok(None) };
+                let point = self.point(&last)?;
+                point.map(|point| (last, Bifurcation { kind: BifurcationKind::Fold, point }))
+            }
+            Halves::Apart => None,
+        };
+        let (low, high) = self.settings.range();
+        let (mut last, mut end) = (next.clone(), None);
+        let mut found = Vec::new();
+        if let Some((before, turn)) = turn {
+            let parameter = turn.point.parameter;
+            let rounding = ROUNDED * parameter;
+            let outside = parameter < low - rounding || parameter > high + rounding;
+            if outside || turn.kind == BifurcationKind::Birth {
+                last = before;
+                let limit = if parameter > high { high } else { low };
+                end = Some(if outside { BranchEnd::RangeLimit(limit) } else { BranchEnd::Bifurcation });
+            }
+            if !outside {
+                found.push(turn);
+            }
+        }
+        let inside = |located: &Located| (low..=high).contains(&located.at.parameter);
+        if !inside(&last) && end != Some(BranchEnd::Bifurcation) {
+            end = Some(BranchEnd::RangeLimit(if last.at.parameter > high { high } else { low }));
+            let Some((within, _)) = self.change(base, &last, |located| Ok(inside(located)))? else {
+                return Ok(None);
+            };
+            last = within;
+        }
+        if last.arclength > base.arclength && self.obstacle(&last.at)?.is_some() {
+            // Rarely an orbit is lost and regained within a step: what comes first counts.
+            let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
+            let Some((free, beyond)) = self.change(base, &last, free)? else { return Ok(None) };
+            found.retain(|turn| turn.kind == BifurcationKind::Fold && turn.point.arclength <= free.arclength);
+            if let (Some(kind), Some(point)) = (self.obstacle(&beyond.at)?, self.point(&free)?) {
+                found.push(Bifurcation { kind, point });
+            }
+            end = Some(BranchEnd::Bifurcation);
+            // There rounding decides which impact is the first: the points end with the last orbit that the map confirms.
+            let confirmed = |located: &Located| self.is_confirmed(&located.at);
+            last = if confirmed(&free)? { free } else { self.bracket(base, &free, confirmed)?.0 };
+        }
+        let Some(doubling) = self.doubling(base, &last)? else { return Ok(None) };
+        found.extend(doubling);
+        found.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
+        // Next to its birth an orbit of 2m impacts is one of m as far as doubles tell.
+        if found.last().is_some_and(|last| last.kind == BifurcationKind::Birth) {
+            last = base.clone();
+        }
+        Ok(Some(Stretch { last, found, end }))
+    }
+
+    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1 within rounding at the
+    /// second one, or is so at the start of the branch.
+    fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
+        let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else {
+            return Ok(Some(None));
+        };
+        let at = |point: BranchPoint| Ok(Some(Some(Bifurcation { kind: BifurcationKind::Doubling, point })));
+        let (first, last) = (flip(&before), flip(&after));
+        if first == 0.0 {
+            return if base.arclength == 0.0 { at(before) } else { Ok(Some(None)) };
+        }
+        if last == 0.0 {
+            return at(after);
+        }
+        if (first > 0.0) == (last > 0.0) {
+            return Ok(Some(None));
+        }
+        let as_before =
+            |located: &Located| Ok(self.point(located)?.is_some_and(|point| flip(&point) * first > 0.0));
+        let Some((low, high)) = self.change(base, next, as_before)? else { return Ok(None) };
+        match (self.point(&low)?, self.point(&high)?) {
+            (Some(low), Some(high)) => at(if flip(&low).abs() <= flip(&high).abs() { low } else { high }),
+            _ => Ok(Some(None)),
+        }
+    }
+
+    /// As [`Self::bracket`]; `None` where the two points are not neighbours on one curve.
+    fn change(
+        &self,
+        base: &Located,
+        next: &Located,
+        holds: impl FnMut(&Located) -> Result<bool, Error>,
+    ) -> Result<Option<(Located, Located)>, Error> {
+        let (last, beyond) = self.bracket(base, next, holds)?;
+        Ok((self.distance(&last.at, &beyond.at) <= NEIGHBOURS).then_some((last, beyond)))
+    }
+
+    /// The largest distance of impacts and parameter (scaled).
+    pub(super) fn distance(&self, a: &Closed, b: &Closed) -> f64 {
+        let scale = self.closing.scale;
+        let parameter = (a.parameter - b.parameter).abs() / scale.parameter;
+        a.impacts
+            .iter()
+            .zip(&b.impacts)
+            .fold(parameter, |most, (a, b)| most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed))
+    }
+
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the way to
+    /// `next`. A point that is not found does not have it.
+    pub(super) fn bracket(
+        &self,
+        base: &Located,
+        next: &Located,
+        mut holds: impl FnMut(&Located) -> Result<bool, Error>,
+    ) -> Result<(Located, Located), Error> {
+        let (mut last, mut beyond) = (base.clone(), next.clone());
+        bisected_bracket(0.0, next.arclength - base.arclength, HALVINGS, |part| {
+            self.spend()?;
+            let Some(located) = self.at(base, part) else { return Ok::<_, Error>(false) };
+            let held = holds(&located)?;
+            if held {
+                last = located;
+            } else {
+                beyond = located;
+            }
+            Ok(held)
+        })?;
+        Ok((last, beyond))
+    }
+
+    /// What makes it no orbit of the map.
+    fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
+        let map = self.closing.map_at(at.parameter)?;
+        let velocities = self.closing.velocities(at);
+        for (impact, &(arrival, launch)) in velocities.iter().enumerate() {
+            if !(arrival < 0.0 && launch > 0.0) {
+                return Ok(Some(BifurcationKind::VanishingImpact { impact }));
+            }
+        }
+        for (flight, &(_, speed)) in velocities.iter().enumerate() {
+            let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
+            let following = (flight + 1) % velocities.len();
+            let impact = Impact {
+                periods: 0,
+                remainder: self.closing.duration(&at.impacts, flight),
+                turns: 0,
+                phase: Phase::new(at.impacts[following].x)?,
+                velocity: velocities[following].0,
+                evaluations: 0,
+            };
+            if map.vibration().graze_margin(launch, &impact) <= 0.0 {
+                return Ok(Some(BifurcationKind::Graze { flight }));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Whether the map itself finds these flights.
+    fn is_confirmed(&self, at: &Closed) -> Result<bool, Error> {
+        let map = self.closing.map_at(at.parameter)?;
+        for (flight, &(arrival, speed)) in self.closing.velocities(at).iter().enumerate() {
+            if !(arrival < 0.0 && speed > 0.0) {
+                return Ok(false);
+            }
+            let launch = Launch::known(Phase::new(at.impacts[flight].x)?, speed);
+            let found = map.vibration().first_impact(launch)?.duration();
+            if (found - self.closing.duration(&at.impacts, flight)).abs() > SAME_FLIGHT {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The point in the form of the results; `None` where it is no orbit.
+    pub(super) fn point(&self, located: &Located) -> Result<Option<BranchPoint>, Error> {
+        let at = &located.at;
+        let (n, map) = (at.impacts.len(), self.closing.map_at(at.parameter)?);
+        let states = at.impacts.iter().zip(self.closing.velocities(at)).map(|(impact, (arrival, _))| {
+            ImpactState::new(Phase::new(impact.x)?, arrival.min(-f64::MIN_POSITIVE))
+        });
+        let states = states.collect::<Result<Vec<_>, _>>()?;
+        let (mut monodromy, mut determinant, mut total) = (DMat2::IDENTITY, 1.0, 0.0);
+        for i in 0..n {
+            let h = self.closing.duration(&at.impacts, i);
+            monodromy = map.derivative(states[i], states[(i + 1) % n], h) * monodromy;
+            determinant *= map.restitution() * map.restitution();
+            total += h;
+        }
+        let platform_periods = (total / TAU).round() as u64;
+        let trace = monodromy.x_axis.x + monodromy.y_axis.y;
+        let orbit = PeriodicOrbit::of(&map, states, platform_periods, monodromy);
+        if orbit.check().is_err() {
+            return Ok(None);
+        }
+        let point =
+            BranchPoint { parameter: at.parameter, orbit, trace, determinant, arclength: located.arclength };
+        Ok(Some(point))
+    }
+
+    /// Whether the step from `base` to `next` passes the start of the branch.
+    fn passes(&self, base: &Located, next: &Located, start: &Start) -> bool {
+        let [from, to] = [base, next].map(|located| self.closing.scaled(&located.at));
+        let (goal, direction) = (start.at, start.direction);
+        let along = |a: [f64; 3], b: [f64; 3]| (0..3).fold(0.0, |sum, k| sum + direction[k] * (b[k] - a[k]));
+        let distance = (0..3).fold(0.0, |sum, k| sum + (goal[k] - from[k]) * (goal[k] - from[k])).sqrt();
+        let step = next.arclength - base.arclength;
+        along(from, goal) > 0.0 && along(goal, to) >= 0.0 && distance <= 1.1 * step
+    }
+}
+
+/// (1 + m1)(1 + m2), or 0 where it is rounding.
+fn flip(point: &BranchPoint) -> f64 {
+    let flip = 1.0 + point.trace + point.determinant;
+    let PeriodicOrbit { states, monodromy, .. } = &point.orbit;
+    let size = 1.0 + monodromy.x_axis.length() + monodromy.y_axis.length();
+    let rounding = FLIP_ROUNDINGS * f64::EPSILON * size * states.len() as f64;
+    if flip.abs() <= rounding { 0.0 } else { flip }
+}
+
+// Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that one. Its own
+// equations have two branches there, so that the place is sought on the other branch.
+
+/// The distance of the halves (rad, units of 1 + P) up to which an orbit is the repetition of one half as far as its forcing tells:
+/// that grows with the square of the distance.
+const REPEATED: f64 = 1.0e-6;
+
+/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations determine the
+/// forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
+const CLOSE: f64 = 1.0e-5;
+
+/// The doubling of the shorter orbit is sought this far from the last point, in units of the parameter's scale, and up to
+/// so many times twice as far.
+const NEAREST: f64 = 1.0e-10;
+const WIDENINGS: u32 = 26;
+
+/// What the halves of an orbit do between two points.
+#[derive(Debug)]
+enum Halves {
+    /// They stay apart.
+    Apart,
+    /// They become one in this birth, shortly after this point.
+    Meet(Box<(Located, Bifurcation)>),
+    /// The points are too far from each other to tell.
+    Unclear,
+}
+
+impl Walker<'_> {
+    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an odd number of
+    /// impacts.
+    fn apart(&self, at: &Closed) -> Vec<DVec2> {
+        let (n, speed) = (at.impacts.len(), self.closing.scale.speed);
+        let pairs = at.impacts[..n / 2].iter().zip(&at.impacts[n / 2..]);
+        let turned = |(a, b): (&DVec2, &DVec2)| DVec2::new(turned(b.x - a.x), (b.y - a.y) / speed);
+        if n.is_multiple_of(2) { pairs.map(turned).collect() } else { Vec::new() }
+    }
+
+    /// Whether an orbit is a shorter one, gone through twice, as far as its forcing can tell.
+    fn is_repeated(&self, at: &Closed) -> bool {
+        at.impacts.len().is_multiple_of(2) && largest(&self.apart(at)) <= REPEATED
+    }
+
+    /// Whether and where the halves of the orbit meet between two points. Beyond such a point the branch comes back with its
+    /// halves swapped.
+    fn halves(&self, base: &Located, next: &Located) -> Result<Halves, Error> {
+        let before = self.apart(&base.at);
+        let as_before = |located: &Located| {
+            let here = self.apart(&located.at);
+            let along: f64 = before.iter().zip(&here).map(|(a, b)| a.dot(*b)).sum();
+            along > 0.0 && largest(&here) > CLOSE.min(largest(&before))
+        };
+        if before.is_empty() || as_before(next) {
+            return Ok(Halves::Apart);
+        }
+        let (last, beyond) = self.bracket(base, next, |located| Ok(as_before(located)))?;
+        if largest(&self.apart(&last.at)) > 2.0 * CLOSE {
+            let continuous = self.distance(&last.at, &beyond.at) <= NEIGHBOURS;
+            return Ok(if continuous { Halves::Apart } else { Halves::Unclear });
+        }
+        Ok(self.birth(&last)?.map_or(Halves::Unclear, |birth| Halves::Meet(Box::new((last, birth)))))
+    }
+
+    /// The doubling that the orbit is born in, next to `last`, on the branch of half its impacts.
+    fn birth(&self, last: &Located) -> Result<Option<Bifurcation>, Error> {
+        let (half, guess) = self.closing.half(&last.at);
+        let half = Walker { closing: half, settings: self.settings, work: self.work.clone() };
+        let scale = half.closing.scale.parameter;
+        let flip = |parameter: f64| -> Result<Option<(f64, BranchPoint)>, Error> {
+            let mut base = half.closing.scaled(&guess);
+            base[2] = parameter / scale;
+            let plane = Plane { normal: [0.0, 0.0, 1.0], base, distance: 0.0 };
+            let Some((at, corrections)) = half.closing.corrected(guess.clone(), &plane) else {
+                return Ok(None);
+            };
+            let located = Located { direction: at.clone(), at, arclength: last.arclength, corrections };
+            Ok(half.point(&located)?.map(|point| (1.0 + point.trace + point.determinant, point)))
+        };
+        let (least, most) = half.closing.by.legal();
+        let mut reach = NEAREST * scale;
+        for _ in 0..WIDENINGS {
+            let ends = ((guess.parameter - reach).max(least), (guess.parameter + reach).min(most));
+            let (Some((low, _)), Some((high, _))) = (flip(ends.0)?, flip(ends.1)?) else { return Ok(None) };
+            if (low > 0.0) == (high > 0.0) {
+                reach *= 2.0;
+                continue;
+            }
+            let mut nearest: Option<(f64, BranchPoint)> = None;
+            bracket_of_width(ends.0, ends.1, 0.0, |parameter| {
+                half.spend()?;
+                let Some((value, point)) = flip(parameter)? else { return Ok::<_, Error>(false) };
+                if nearest.as_ref().is_none_or(|(least, _)| value.abs() <= least.abs()) {
+                    nearest = Some((value, point));
+                }
+                Ok((value > 0.0) == (low > 0.0))
+            })?;
+            return Ok(nearest.map(|(_, point)| Bifurcation { kind: BifurcationKind::Birth, point }));
+        }
+        Ok(None)
+    }
+}
+
+fn largest(apart: &[DVec2]) -> f64 {
+    apart.iter().fold(0.0, |most, part| most.max(part.x.abs()).max(part.y.abs()))
+}

@@ -1,0 +1,574 @@
+//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability (Floquet multipliers).
+
+use core::f64::consts::{PI, TAU};
+
+use glam::{DMat2, DVec2};
+
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
+use crate::numerics::block_cyclic::solve_block_cyclic;
+use crate::numerics::elementary::{acos, ln};
+use crate::numerics::error::{Error, finite, not_negative, within};
+use crate::read_checked;
+use crate::run::{Observer, Tick, Watch};
+
+mod margin;
+pub(crate) mod newton;
+pub(crate) mod pair;
+pub(crate) mod search;
+
+/// Newton steps of the multiple shooting before it gives up.
+const MAX_NEWTON_STEPS: u32 = 50;
+
+/// A shooting residual (rad, units of g/omega, relative to the orbit's speeds) at which the orbit counts as found.
+const SHOOTING_RESIDUAL: f64 = 1.0e-12;
+
+/// The longest period searched for and refined.
+pub const MAX_PERIOD: usize = 4_096;
+
+/// A real number or a pair of conjugates: the two Floquet multipliers of an orbit of the 2-D impact map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedMultipliers"))]
+pub enum Multipliers {
+    /// Two real multipliers, the one of larger modulus first.
+    Real(f64, f64),
+    /// A conjugate pair with this real part and this positive imaginary part.
+    Complex {
+        /// Real part.
+        real: f64,
+        /// Imaginary part, > 0.
+        imaginary: f64,
+    },
+}
+
+/// How far rounding may make the second of two equal multipliers the larger one.
+const MULTIPLIER_ROUNDING: f64 = 1.0e-12;
+
+read_checked!(enum Multipliers as UncheckedMultipliers {
+    Real(large: f64, small: f64),
+    Complex { real: f64, imaginary: f64 },
+});
+
+impl Multipliers {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        match *self {
+            Self::Real(large, small) => {
+                finite("multiplier", large)?;
+                let most = large.abs() * (1.0 + MULTIPLIER_ROUNDING);
+                within("second multiplier", small, -most, most, "not larger than the first")?;
+            }
+            Self::Complex { real, imaginary } => {
+                finite("real part of a multiplier", real)?;
+                let least = f64::from_bits(1);
+                within("imaginary part of a multiplier", imaginary, least, f64::MAX, "(0, inf)")?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The eigenvalues of a real 2x2 matrix, in closed form without cancellation.
+    #[must_use]
+    pub fn of(matrix: DMat2) -> Self {
+        Self::of_invariants(matrix.x_axis.x + matrix.y_axis.y, matrix.determinant())
+    }
+
+    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`], where the determinant is known
+    /// better than the entries (that of an orbit of n impacts is r^(2n)).
+    #[must_use]
+    pub fn of_invariants(trace: f64, determinant: f64) -> Self {
+        let half_trace = 0.5 * trace;
+        let radicand = half_trace * half_trace - determinant;
+        if radicand < 0.0 {
+            return Self::Complex { real: half_trace, imaginary: (-radicand).sqrt() };
+        }
+        let large =
+            if half_trace >= 0.0 { half_trace + radicand.sqrt() } else { half_trace - radicand.sqrt() };
+        Self::Real(large, if large == 0.0 { 0.0 } else { determinant / large })
+    }
+
+    /// The larger modulus: the orbit attracts where it is below one.
+    #[must_use]
+    pub fn spectral_radius(&self) -> f64 {
+        match *self {
+            Self::Real(large, _) => large.abs(),
+            Self::Complex { real, imaginary } => (real * real + imaginary * imaginary).sqrt(),
+        }
+    }
+
+    /// The largest Lyapunov exponent per impact of an orbit of so many impacts that has these multipliers: the logarithm of
+    /// [`Self::spectral_radius`] over their number; minus infinity where both multipliers are zero.
+    ///
+    /// ```
+    /// use bouncing_disk_core::orbits::Multipliers;
+    ///
+    /// // Two impacts that together keep a quarter of a perturbation: each keeps a half.
+    /// let multipliers = Multipliers::Real(-0.25, 0.25);
+    /// assert_eq!(multipliers.lyapunov_exponent(2), bouncing_disk_core::numerics::elementary::ln(0.5));
+    /// ```
+    #[must_use]
+    pub fn lyapunov_exponent(&self, impacts: u64) -> f64 {
+        ln(self.spectral_radius()) / impacts as f64
+    }
+}
+
+/// `m1, m2`, or `re +- im i`.
+impl core::fmt::Display for Multipliers {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let (first, between, second, last) = match self {
+            Self::Real(large, small) => (large, ", ", small, ""),
+            Self::Complex { real, imaginary } => (real, " +- ", imaginary, " i"),
+        };
+        core::fmt::Display::fmt(first, formatter)?;
+        formatter.write_str(between)?;
+        core::fmt::Display::fmt(second, formatter)?;
+        formatter.write_str(last)
+    }
+}
+
+/// A periodic orbit of the impact map.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedOrbit"))]
+pub struct PeriodicOrbit {
+    /// The impacts of one period of the orbit, in their order.
+    pub states: Vec<ImpactState>,
+    /// How many periods of the platform one period of the orbit takes.
+    pub platform_periods: u64,
+    /// The derivative of the map around the orbit, from its first impact.
+    pub monodromy: DMat2,
+    /// How far rounding of the map's parameters, by a unit in the last place, and of the solution may have
+    /// moved the impacts (rad, and relative speed); next to a fold two orbits within it are one.
+    pub position_error: f64,
+    /// How far it may have moved the trace of the derivative.
+    pub trace_error: f64,
+}
+
+read_checked!(PeriodicOrbit as UncheckedOrbit {
+    states: Vec<ImpactState>,
+    platform_periods: u64,
+    monodromy: DMat2,
+    position_error: f64,
+    trace_error: f64,
+});
+
+/// Whether a periodic orbit attracts, the most stable first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stability {
+    /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
+    Stable,
+    /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable, or
+    /// rounding decides whether it attracts and whether it exists.
+    Marginal,
+    /// A multiplier lies outside the unit circle by more than its uncertainty.
+    Unstable,
+}
+
+/// `attracts`, `marginal` or `unstable`.
+impl core::fmt::Display for Stability {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter.pad(match self {
+            Self::Stable => "attracts",
+            Self::Marginal => "marginal",
+            Self::Unstable => "unstable",
+        })
+    }
+}
+
+impl PeriodicOrbit {
+    /// Checks what is read: what [`ImpactMap::refine`] may find.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let most = MAX_PERIOD as f64;
+        within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
+        for entry in self.monodromy.to_cols_array() {
+            finite("derivative around a periodic orbit", entry)?;
+        }
+        not_negative("error of a periodic orbit", self.position_error)?;
+        not_negative("error of a trace", self.trace_error)?;
+        self.check_motion()
+    }
+
+    /// Refuses a disk at rest.
+    fn check_motion(&self) -> Result<(), Error> {
+        if let Some(index) = self.states.iter().position(|state| state.velocity() >= 0.0) {
+            return Err(Error::ImpactWithoutSpeed { index, phase: self.states[index].phase().angle() });
+        }
+        if self.platform_periods == 0 {
+            let speed = self.states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
+            return Err(Error::NoPlatformPeriods { impacts: self.states.len(), speed });
+        }
+        Ok(())
+    }
+
+    /// An orbit of `map`, with its errors.
+    pub(crate) fn of(
+        map: &ImpactMap,
+        states: Vec<ImpactState>,
+        platform_periods: u64,
+        monodromy: DMat2,
+    ) -> Self {
+        let (position_error, trace_error) = margin::errors(map, &states, monodromy);
+        Self { states, platform_periods, monodromy, position_error, trace_error }
+    }
+
+    /// Whether the orbit attracts, where rounding leaves no doubt of it. With the trace T and the determinant D < 1 both
+    /// multipliers lie inside the unit circle if |T| < 1 + D.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::orbits::Stability;
+    /// # use bouncing_disk_core::{ImpactMap, Vibration};
+    /// // The fold in which the orbits of one impact are born.
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(1.0 / 3.0)?, 0.5)?;
+    /// let orbit = map.refine(&[map.period_one(1).expect("exists")])?;
+    /// assert_eq!(orbit.stability(), Stability::Marginal);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn stability(&self) -> Stability {
+        let inside = 1.0 + self.monodromy.determinant() - self.trace().abs();
+        if inside > self.trace_error {
+            Stability::Stable
+        } else if inside < -self.trace_error {
+            Stability::Unstable
+        } else {
+            Stability::Marginal
+        }
+    }
+
+    /// Number of impacts in one period of the orbit.
+    #[must_use]
+    pub fn period(&self) -> usize {
+        self.states.len()
+    }
+
+    /// The Floquet multipliers.
+    #[must_use]
+    pub fn multipliers(&self) -> Multipliers {
+        Multipliers::of(self.monodromy)
+    }
+
+    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D, at a double
+    /// root like its square root.
+    #[must_use]
+    pub fn multiplier_error(&self) -> f64 {
+        let (trace, determinant) = (self.trace(), self.monodromy.determinant());
+        let radicand = (0.25 * trace * trace - determinant).abs();
+        let change = 0.5 * self.trace_error * (trace.abs() + 0.5 * self.trace_error);
+        0.5 * self.trace_error + (change / radicand.sqrt()).min(change.sqrt())
+    }
+
+    fn trace(&self) -> f64 {
+        self.monodromy.x_axis.x + self.monodromy.y_axis.y
+    }
+
+    /// det(1 + monodromy) = (1 + m1)(1 + m2): falls through zero where the orbit doubles its period.
+    #[must_use]
+    pub fn flip_function(&self) -> f64 {
+        1.0 + self.trace() + self.monodromy.determinant()
+    }
+}
+
+/// A step of the multiple shooting: the derivatives of the map at all impacts and the distances of their successors from the
+/// next impacts, which the changes of all impacts must make up; the derivative of the map around the orbit, the turns of the
+/// phase, and the largest distance of an impact from its target.
+struct Shooting {
+    derivatives: Vec<DMat2>,
+    right: Vec<DVec2>,
+    monodromy: DMat2,
+    turns: u64,
+    worst: f64,
+}
+
+/// The smaller way round the circle from `from` to `to`, in (-pi, pi].
+pub(crate) fn phase_difference(to: f64, from: f64) -> f64 {
+    let difference = to - from;
+    if difference > PI {
+        difference - TAU
+    } else if difference <= -PI {
+        difference + TAU
+    } else {
+        difference
+    }
+}
+
+impl ImpactMap {
+    /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
+    /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
+    ///
+    /// Of the two phases the one in [0, pi/2] is returned: the other is always a saddle. Whether an earlier
+    /// impact forestalls the orbit is not checked: [`Self::refine`] does.
+    #[must_use]
+    pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
+        let k = platform_periods as f64;
+        let r = self.restitution();
+        let cosine = k * (1.0 - r) / ((1.0 + r) * self.vibration().axial_forcing());
+        if !(0.0..=1.0).contains(&cosine) {
+            return None;
+        }
+        let phase = Phase::of_angle(acos(cosine));
+        ImpactState::new(phase, -self.period_one_impact_speed(platform_periods)).ok()
+    }
+
+    /// The impact speed of the orbits with one impact every `platform_periods` periods, 2 pi k/(1 + r) (units
+    /// of g/omega), at whatever forcing they exist.
+    ///
+    /// A flight of k periods ends at the phase, and so at the height and the speed of the platform, at which
+    /// it began. On it gravity changes the velocity by 2 pi k: the launch speed u and the impact speed w,
+    /// both relative to the platform, are u + w = 2 pi k, and the impact makes u = r w.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::{ImpactMap, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+    /// let orbit = map.period_one(1).expect("born at Gamma = 1/3");
+    /// assert_eq!(map.period_one_impact_speed(1).to_bits(), (-orbit.velocity()).to_bits());
+    /// // The next impact has the same speed.
+    /// assert!((map.step(orbit)?.velocity + map.period_one_impact_speed(1)).abs() < 1e-14);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    #[must_use]
+    pub fn period_one_impact_speed(&self, platform_periods: u64) -> f64 {
+        TAU * platform_periods as f64 / (1.0 + self.restitution())
+    }
+
+    /// The forcing Gamma_1 at which the period-1 orbit with one impact per period of the platform doubles its
+    /// period: sqrt(((1-r)/(1+r))^2 + (2 (1+r^2)/(pi (1+r)^2))^2).
+    #[must_use]
+    pub fn first_doubling_forcing(restitution: f64) -> f64 {
+        let r = restitution;
+        let sum = 1.0 + r;
+        let threshold = (1.0 - r) / sum;
+        let height = 2.0 * (1.0 + r * r) / (PI * sum * sum);
+        (threshold * threshold + height * height).sqrt()
+    }
+
+    /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from `state` repeats
+    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if there is none or the disk comes
+    /// to rest (judged by [`ChatterPolicy::Complete`]).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn period_of(
+        &self,
+        state: ImpactState,
+        longest: usize,
+        tolerance: f64,
+    ) -> Result<Option<usize>, Error> {
+        self.period_of_ticked(state, longest, tolerance, &mut |_| Ok(()))
+    }
+
+    /// [`Self::period_of`] as a part of a longer call; the tick counts impacts.
+    fn period_of_ticked(
+        &self,
+        state: ImpactState,
+        longest: usize,
+        tolerance: f64,
+        tick: Tick<'_>,
+    ) -> Result<Option<usize>, Error> {
+        within("longest period", longest as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        within("tolerance", tolerance, 0.0, f64::MAX, "[0, inf)")?;
+        let mut states = vec![state];
+        let mut orbit = self.orbit(state, ChatterPolicy::Complete);
+        for _ in 0..2 * longest {
+            tick(1)?;
+            match orbit.advance()? {
+                Some(OrbitEvent::Impact(impact)) => states.push(impact.into()),
+                Some(OrbitEvent::Attachment(_)) | None => return Ok(None),
+            }
+        }
+        let near = |a: &ImpactState, b: &ImpactState| {
+            phase_difference(a.phase().angle(), b.phase().angle()).abs() <= tolerance
+                && (a.velocity() - b.velocity()).abs() <= tolerance * (1.0 + a.velocity().abs())
+        };
+        Ok((1..=longest).find(|&n| {
+            states[..n].iter().zip(&states[n..]).all(|(a, b)| near(a, b)) && near(&states[0], &states[n])
+        }))
+    }
+
+    /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
+    /// unknown, so that long and unstable orbits converge.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if Newton's
+    /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
+    /// disk at rest; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine_ticked(guess, &mut |_| Ok(()))
+    }
+
+    /// [`Self::refine`] as a part of a longer call; the tick counts impacts.
+    pub(crate) fn refine_ticked(
+        &self,
+        guess: &[ImpactState],
+        tick: Tick<'_>,
+    ) -> Result<PeriodicOrbit, Error> {
+        let n = guess.len();
+        within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let mut states = guess.to_vec();
+        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
+        let mut residual = f64::INFINITY;
+        // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
+        let mut found = None;
+        let not_settled =
+            |iterations, residual| Error::NotSettled { what: "multiple shooting", iterations, residual };
+        let accepted = |orbit: PeriodicOrbit| {
+            orbit.check_motion()?;
+            let residual = orbit.position_error;
+            self.exact_orbit(orbit).ok_or_else(|| not_settled(MAX_NEWTON_STEPS, residual))
+        };
+        for iterations in 1..=MAX_NEWTON_STEPS {
+            tick(n as u64)?;
+            let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
+                Ok(shooting) => shooting,
+                Err(error) => return found.map_or(Err(error), accepted),
+            };
+            let orbit = || PeriodicOrbit {
+                states: states.clone(),
+                platform_periods: turns,
+                monodromy,
+                position_error: worst,
+                trace_error: 0.0,
+            };
+            // A step after the residual has stopped shrinking only stirs the rounding.
+            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
+                return accepted(orbit());
+            }
+            if worst <= SHOOTING_RESIDUAL {
+                found = Some(orbit());
+            } else if let Some(found) = found {
+                return accepted(found);
+            }
+            residual = worst;
+            let steps = solve_block_cyclic(&derivatives, &right);
+            let moved = states.iter().zip(&steps).map(|(state, step)| {
+                let angle = state.phase().angle() + step.x;
+                let velocity = (state.velocity() + step.y).min(0.0);
+                ImpactState::new(Phase::new(angle)?, velocity)
+            });
+            states = match moved.collect::<Result<_, _>>() {
+                Ok(states) => states,
+                Err(_) => return found.map_or(Err(not_settled(iterations, residual)), accepted),
+            };
+        }
+        found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
+    }
+
+    /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.
+    fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
+        let n = states.len();
+        let mut shooting = Shooting {
+            derivatives: Vec::with_capacity(n),
+            right: Vec::with_capacity(n),
+            monodromy: DMat2::IDENTITY,
+            turns: 0,
+            worst: 0.0,
+        };
+        let mut turns = 0;
+        for (i, &state) in states.iter().enumerate() {
+            let (impact, derivative) = self.step_with_derivative(state)?;
+            shooting.monodromy = derivative * shooting.monodromy;
+            turns += impact.turns as i64;
+            let target = states[(i + 1) % n];
+            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
+            let phase = phase_difference(landed, aimed);
+            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            if landed - aimed > PI {
+                turns += 1;
+            } else if aimed - landed > PI {
+                turns -= 1;
+            }
+            let velocity = impact.velocity - target.velocity();
+            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
+            shooting.derivatives.push(derivative);
+            shooting.right.push(DVec2::new(-phase, -velocity));
+        }
+        shooting.turns = turns.max(0) as u64;
+        Ok(shooting)
+    }
+
+    /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the period
+    /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
+    /// shows no period.
+    ///
+    /// The items of `observer` are the impacts of the transient, of the search of the period and of the
+    /// refinement, as many as there are at most.
+    ///
+    /// # Errors
+    /// Those of [`Self::refine`] and [`Self::period_of`].
+    pub fn settled_orbit(
+        &self,
+        state: ImpactState,
+        transient: usize,
+        longest: usize,
+        tolerance: f64,
+        observer: &dyn Observer,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        // Two periods are compared, another one is the guess.
+        let searched = (3 + u64::from(MAX_NEWTON_STEPS)).saturating_mul(longest as u64);
+        let watch = Watch::begin(observer, 0, searched.saturating_add(transient as u64))?;
+        let mut work = watch.work();
+        let orbit = self.settled_orbit_ticked(state, (transient, longest), tolerance, &mut |impacts| {
+            work.finish(impacts)
+        })?;
+        watch.end();
+        Ok(orbit)
+    }
+
+    /// [`Self::settled_orbit`] as a part of a longer call; the tick counts impacts.
+    pub(crate) fn settled_orbit_ticked(
+        &self,
+        state: ImpactState,
+        (transient, longest): (usize, usize),
+        tolerance: f64,
+        tick: Tick<'_>,
+    ) -> Result<Option<PeriodicOrbit>, Error> {
+        let Some(state) = self.state_after_ticked(state, transient, ChatterPolicy::Complete, tick)? else {
+            return Ok(None);
+        };
+        let Some(period) = self.period_of_ticked(state, longest, tolerance, tick)? else { return Ok(None) };
+        let mut guess = vec![state];
+        while guess.len() < period {
+            tick(1)?;
+            guess.push(self.step(guess[guess.len() - 1])?.into());
+        }
+        self.refine_ticked(&guess, tick).map(Some)
+    }
+}
+
+/// The distance of two impacts, in units where a radian and the speed `speed_scale` count alike.
+pub(crate) fn distance(a: ImpactState, b: ImpactState, speed_scale: f64) -> f64 {
+    let phase = phase_difference(a.phase().angle(), b.phase().angle());
+    let velocity = (a.velocity() - b.velocity()) / speed_scale;
+    (phase * phase + velocity * velocity).sqrt()
+}
+
+impl PeriodicOrbit {
+    /// The distance from `state` to the nearest impact of the orbit (a radian counts as much as the speed P).
+    #[must_use]
+    pub fn distance(&self, state: ImpactState, peak_acceleration: f64) -> f64 {
+        self.states
+            .iter()
+            .fold(f64::INFINITY, |least, &own| least.min(distance(state, own, peak_acceleration)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flight::platform::vibration::Vibration;
+    use crate::run::Unobserved;
+    use crate::testing::StopAfter;
+
+    #[test]
+    fn a_settling_orbit_can_be_stopped() {
+        let map = ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal");
+        let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
+        let stopped = map.settled_orbit(start, usize::MAX, 4, 1e-8, &StopAfter::calls(4));
+        assert_eq!(stopped, Err(Error::Stopped { done: 3 * 8_192, total: u64::MAX }));
+        let all = StopAfter::calls(u64::MAX);
+        let orbit = map.settled_orbit(start, 20_000, 4, 1e-8, &all).expect("nobody stops it");
+        assert_eq!(Ok(orbit), map.settled_orbit(start, 20_000, 4, 1e-8, &Unobserved));
+        assert_eq!((all.last().done, all.asked()), (20_212, 4));
+    }
+}

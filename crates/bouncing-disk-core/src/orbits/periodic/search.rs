@@ -1,0 +1,420 @@
+//! All periodic orbits of few impacts, stable and unstable: a search that says what it covered
+//! (docs/numerics/dynamics.md, "The search for periodic orbits").
+
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::error::{Error, within};
+use crate::orbits::periodic::PeriodicOrbit;
+use crate::orbits::periodic::newton::{Attempt, MAX_STEPS, same_orbit};
+use crate::read_checked;
+use crate::run::{Observer, Watch, WorkCount};
+use core::f64::consts::TAU;
+
+/// The settings of a search for periodic orbits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSearch"))]
+pub struct OrbitSearch {
+    max_impacts: usize,
+    max_platform_periods: u64,
+    phases: u32,
+    speeds: u32,
+}
+
+read_checked!(OrbitSearch as UncheckedSearch {
+    max_impacts: usize,
+    max_platform_periods: u64,
+    phases: u32,
+    speeds: u32,
+});
+
+impl OrbitSearch {
+    /// The most impacts of an orbit that is searched for.
+    pub const MAX_IMPACTS: usize = 64;
+
+    /// The most periods of the platform that such an orbit takes.
+    pub const MAX_PLATFORM_PERIODS: u64 = 10_000;
+
+    /// The most starts along each axis.
+    pub const MAX_STARTS: u32 = 4_096;
+
+    /// A search for all orbits of at most `max_impacts` in [1, 64] impacts and `max_platform_periods` in [1,
+    /// 10000] periods of the platform, from 96 x 96 starts.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for either number.
+    pub fn new(max_impacts: usize, max_platform_periods: u64) -> Result<Self, Error> {
+        let search = Self { max_impacts, max_platform_periods, phases: 96, speeds: 96 };
+        search.check().map(|()| search)
+    }
+
+    /// The same from so many starts along the axes of phase and speed, each in [2, 4096].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for either number.
+    pub fn with_starts(self, phases: u32, speeds: u32) -> Result<Self, Error> {
+        let search = Self { phases, speeds, ..self };
+        search.check().map(|()| search)
+    }
+
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        within("impacts of an orbit", self.max_impacts as f64, 1.0, Self::MAX_IMPACTS as f64, "[1, 64]")?;
+        let most = Self::MAX_PLATFORM_PERIODS as f64;
+        within("platform periods of an orbit", self.max_platform_periods as f64, 1.0, most, "[1, 10000]")?;
+        for (field, starts) in
+            [("starts along the phase", self.phases), ("starts along the speed", self.speeds)]
+        {
+            within(field, starts.into(), 2.0, Self::MAX_STARTS.into(), "[2, 4096]")?;
+        }
+        Ok(())
+    }
+
+    /// The most impacts of an orbit.
+    #[must_use]
+    pub const fn max_impacts(&self) -> usize {
+        self.max_impacts
+    }
+
+    /// The most periods of the platform that an orbit takes.
+    #[must_use]
+    pub const fn max_platform_periods(&self) -> u64 {
+        self.max_platform_periods
+    }
+
+    /// Starts along the axis of the impact phase.
+    #[must_use]
+    pub const fn phases(&self) -> u32 {
+        self.phases
+    }
+
+    /// Starts along the axis of the impact speed.
+    #[must_use]
+    pub const fn speeds(&self) -> u32 {
+        self.speeds
+    }
+}
+
+/// The coverage of a search, and the results of its starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct OrbitCoverage {
+    /// What was searched for, and from how many starts.
+    pub search: OrbitSearch,
+    /// The largest speed of a start: no impact of a periodic orbit is faster
+    /// ([`ImpactMap::impact_speed_bound`], less where the periods of the platform are limited; units of
+    /// g/omega).
+    pub impact_speed_bound: f64,
+    /// An orbit with the most impacts that were searched for cannot take more periods of the platform than
+    /// this: where the search's own limit is not below it, none is left out for its length.
+    pub longest_platform_periods: u64,
+    /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
+    pub starts: u64,
+    /// Starts whose orbit is proven to come to rest, or does not leave the platform, within the impacts of
+    /// the longest orbit.
+    pub resting_starts: u64,
+    /// First parts of orbits that were tried as a guess.
+    pub attempts: u64,
+    /// Attempts that ended on a periodic orbit within the limits.
+    pub converged: u64,
+    /// Attempts that ended on a solution that is no orbit: a disk at rest, no period of the platform, or more
+    /// than the limit.
+    pub refused: u64,
+    /// Attempts whose Newton iteration did not settle.
+    pub not_settled: u64,
+    /// How many of the orbits are also found from every other start along both axes alone: where it is all of
+    /// them, a grid of twice the distance would have done.
+    pub found_by_coarser: u64,
+    /// How many orbits a single attempt found. Its share of `converged` estimates the share of further
+    /// attempts that would find yet another orbit (Good and Turing).
+    pub found_once: u64,
+}
+
+/// The periodic orbits that were found, and what was covered.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct OrbitsFound {
+    /// Orbits of the map (no earlier impact forestalls a flight) that repeat no shorter one, by rising number
+    /// of impacts, then of platform periods, then by falling speed of their fastest impact, which is the
+    /// first of each.
+    pub orbits: Vec<PeriodicOrbit>,
+    /// What was covered.
+    pub coverage: OrbitCoverage,
+}
+
+/// What the starts of one phase gave.
+struct Row {
+    catalogue: Catalogue,
+    coverage: OrbitCoverage,
+}
+
+impl ImpactMap {
+    /// The periodic orbits of few impacts, stable and unstable.
+    ///
+    /// Those of one impact come from the closed form and are complete. All others are found by Newton's
+    /// method on all impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over
+    /// all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where
+    /// a flight ends, so that what converges is an orbit of it. A search from a grid proves nothing about
+    /// what it did not find: [`OrbitCoverage`] says what was tried, and whether half the resolution would
+    /// have found the same.
+    ///
+    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a doubling
+    /// they do if their [errors](PeriodicOrbit::position_error) overlap.
+    ///
+    /// The items of `observer` are the starts.
+    ///
+    /// ```
+    /// # use bouncing_disk_core::orbits::OrbitSearch;
+    /// # use bouncing_disk_core::{ImpactMap, Unobserved, Vibration};
+    /// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
+    /// let found = map.periodic_orbits(&OrbitSearch::new(2, 2)?, &Unobserved)?;
+    /// // Two orbits of one impact and three of two, of which one attracts: the first orbit has doubled its period to it.
+    /// let attracts = |orbit: &&bouncing_disk_core::orbits::PeriodicOrbit| orbit.multipliers().spectral_radius() < 1.0;
+    /// assert_eq!(found.orbits.len(), 5);
+    /// assert_eq!(found.orbits.iter().filter(attracts).map(|orbit| orbit.period()).collect::<Vec<_>>(), [2]);
+    /// assert_eq!(found.coverage.found_by_coarser, 5);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Vibration::first_impact`](crate::Vibration::first_impact) but for
+    /// [`Error::NoLiftOff`].
+    pub fn periodic_orbits(
+        &self,
+        search: &OrbitSearch,
+        observer: &dyn Observer,
+    ) -> Result<OrbitsFound, Error> {
+        let watch = Watch::begin(observer, 0, u64::from(search.phases) * u64::from(search.speeds))?;
+        let limits = Limits::new(self, search);
+        let rows = rows(search.phases, |column| self.search_row(search, &limits, column, watch.work()))?;
+        let mut catalogue = Catalogue::default();
+        let mut coverage = limits.coverage(search);
+        for k in 1..=search.max_platform_periods {
+            let Some(pair) = self.period_one_pair(k) else { break };
+            for member in [pair.node, pair.saddle] {
+                if let Some(orbit) = member.orbit(self)? {
+                    // The closed form is no luck of the grid.
+                    catalogue.add(orbit, 2, true);
+                }
+            }
+        }
+        for row in rows {
+            catalogue.merge(row.catalogue);
+            let of_row = row.coverage;
+            coverage.starts += of_row.starts;
+            coverage.resting_starts += of_row.resting_starts;
+            coverage.attempts += of_row.attempts;
+            coverage.converged += of_row.converged;
+            coverage.refused += of_row.refused;
+            coverage.not_settled += of_row.not_settled;
+        }
+        coverage.found_by_coarser = catalogue.found_by_coarser();
+        coverage.found_once = catalogue.found_once();
+        watch.end();
+        Ok(OrbitsFound { orbits: catalogue.into_sorted(), coverage })
+    }
+
+    /// The starts of one phase.
+    fn search_row(
+        &self,
+        search: &OrbitSearch,
+        limits: &Limits,
+        column: u32,
+        mut work: WorkCount<'_>,
+    ) -> Result<Row, Error> {
+        // The count begins anew with each row: without this, short rows never asked, and after a stop each further row
+        // went on until it asked.
+        work.watch().ask()?;
+        let mut row = Row { catalogue: Catalogue::default(), coverage: limits.coverage(search) };
+        let phase = Phase::new(TAU * (f64::from(column) + 0.5) / f64::from(search.phases))?;
+        for level in 0..search.speeds {
+            let share = (f64::from(level) + 0.5) / f64::from(search.speeds);
+            let start = ImpactState::new(phase, -share * limits.impact_speed_at(self, phase))?;
+            let coarser = column.is_multiple_of(2) && level.is_multiple_of(2);
+            self.search_start(search, start, coarser, &mut row, &mut work)?;
+            row.coverage.starts += 1;
+            work.finish(1)?;
+        }
+        Ok(row)
+    }
+
+    /// Takes the orbit from one start for the guess of a periodic one, after every impact of it.
+    fn search_start(
+        &self,
+        search: &OrbitSearch,
+        start: ImpactState,
+        coarser: bool,
+        row: &mut Row,
+        work: &mut WorkCount<'_>,
+    ) -> Result<(), Error> {
+        let (mut states, mut turns) = (vec![start], 0);
+        for impacts in 1..=search.max_impacts {
+            let last = states[impacts - 1];
+            let next = match self.step(last) {
+                _ if self.rests_after(last) => None,
+                Ok(impact) => Some(impact),
+                Err(Error::NoLiftOff { .. }) => None,
+                Err(error) => return Err(error),
+            };
+            let Some(next) = next else {
+                row.coverage.resting_starts += 1;
+                break;
+            };
+            turns += next.turns;
+            // A guess that closes takes its turns, give or take one.
+            if turns > search.max_platform_periods + 1 {
+                break;
+            }
+            row.coverage.attempts += 1;
+            work.spend((impacts * MAX_STEPS) as u64)?;
+            match self.attempt(&states, search.max_platform_periods) {
+                Attempt::Converged(orbit) => {
+                    row.coverage.converged += 1;
+                    row.catalogue.add(orbit, 1, coarser);
+                }
+                Attempt::Refused => row.coverage.refused += 1,
+                Attempt::NotSettled => row.coverage.not_settled += 1,
+            }
+            states.push(next.into());
+        }
+        Ok(())
+    }
+}
+
+/// How far the starts reach.
+struct Limits {
+    /// Bound on the disk's own speed after an impact.
+    launch_speed: f64,
+    /// The bound on the impact speed that follows from it.
+    impact_speed: f64,
+    longest_platform_periods: u64,
+}
+
+impl Limits {
+    fn new(map: &ImpactMap, search: &OrbitSearch) -> Self {
+        let p = map.vibration().peak_acceleration();
+        // A disk with u^2 > P^2 + 4 P lands falling, after u + sqrt(u^2 - 4 P) at least: in K periods if u <=
+        // pi K + P/(pi K).
+        let longest = TAU * search.max_platform_periods as f64;
+        let falling = if longest * longest > 4.0 * p { 0.5 * longest + 2.0 * p / longest } else { 0.0 };
+        let within_periods = falling.max((p * (p + 4.0)).sqrt());
+        let together = search.max_impacts as f64 * map.flight_duration_bound() / TAU;
+        let launch_speed = map.launch_speed_bound().min(within_periods);
+        Self {
+            launch_speed,
+            impact_speed: (launch_speed * launch_speed + 4.0 * p).sqrt() + p,
+            // Saturates where it is larger than any number of periods.
+            longest_platform_periods: together.floor() as u64,
+        }
+    }
+
+    /// The bound on the impact speed at this phase: the disk lands at the platform's height there.
+    fn impact_speed_at(&self, map: &ImpactMap, phase: Phase) -> f64 {
+        let p = map.vibration().peak_acceleration();
+        let landing = (self.launch_speed * self.launch_speed + 2.0 * p * (1.0 - phase.sin())).sqrt();
+        (landing + p * phase.cos()).max(0.0)
+    }
+
+    /// A coverage of nothing yet.
+    fn coverage(&self, search: &OrbitSearch) -> OrbitCoverage {
+        OrbitCoverage {
+            search: *search,
+            impact_speed_bound: self.impact_speed,
+            longest_platform_periods: self.longest_platform_periods,
+            starts: 0,
+            resting_starts: 0,
+            attempts: 0,
+            converged: 0,
+            refused: 0,
+            not_settled: 0,
+            found_by_coarser: 0,
+            found_once: 0,
+        }
+    }
+}
+
+/// All rows in their order, over all threads; of several errors the one of the first row.
+#[cfg(feature = "parallel")]
+fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error> + Sync) -> Result<Vec<Row>, Error> {
+    use rayon::prelude::*;
+    let rows: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(&row).collect();
+    rows.into_iter().collect()
+}
+
+#[cfg(not(feature = "parallel"))]
+fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error>) -> Result<Vec<Row>, Error> {
+    (0..count).map(row).collect()
+}
+
+/// An orbit of a [`Catalogue`].
+#[derive(Debug, Clone)]
+struct Entry {
+    orbit: PeriodicOrbit,
+    /// Sum of the impact velocities, which does not depend on where the orbit begins.
+    sum: f64,
+    found: u64,
+    by_coarser: bool,
+}
+
+/// Distinct orbits in the order in which they were found first.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Catalogue {
+    entries: Vec<Entry>,
+}
+
+impl Catalogue {
+    /// Adds an orbit that was found so often, unless it is known.
+    pub(super) fn add(&mut self, orbit: PeriodicOrbit, found: u64, by_coarser: bool) {
+        let sum = orbit.states.iter().fold(0.0, |sum, state| sum + state.velocity());
+        self.insert(Entry { orbit, sum, found, by_coarser });
+    }
+
+    /// Adds all orbits of another catalogue.
+    pub(super) fn merge(&mut self, other: Self) {
+        for entry in other.entries {
+            self.insert(entry);
+        }
+    }
+
+    fn insert(&mut self, entry: Entry) {
+        // The sums differ by twice what the comparison of the impacts allows at most.
+        let room = 2.0 * (entry.orbit.period() as f64 + entry.sum.abs());
+        let known = self.entries.iter_mut().find(|known| {
+            let errors = known.orbit.position_error + entry.orbit.position_error;
+            (known.sum - entry.sum).abs() <= room * errors && same_orbit(&known.orbit, &entry.orbit)
+        });
+        match known {
+            Some(known) => {
+                known.found += entry.found;
+                known.by_coarser |= entry.by_coarser;
+            }
+            None => self.entries.push(entry),
+        }
+    }
+
+    /// How many were found from a coarser grid, too.
+    pub(super) fn found_by_coarser(&self) -> u64 {
+        self.entries.iter().filter(|entry| entry.by_coarser).count() as u64
+    }
+
+    /// How many were found once.
+    pub(super) fn found_once(&self) -> u64 {
+        self.entries.iter().filter(|entry| entry.found == 1).count() as u64
+    }
+
+    /// The orbits by impacts, platform periods, falling speed of the first impact, phase of the first impact.
+    pub(super) fn into_sorted(self) -> Vec<PeriodicOrbit> {
+        let mut orbits: Vec<_> = self.entries.into_iter().map(|entry| entry.orbit).collect();
+        orbits.sort_by(|a, b| {
+            let (first, second) = (a.states[0], b.states[0]);
+            (a.period(), a.platform_periods)
+                .cmp(&(b.period(), b.platform_periods))
+                .then(first.velocity().total_cmp(&second.velocity()))
+                .then(first.phase().angle().total_cmp(&second.phase().angle()))
+        });
+        orbits
+    }
+}
+
+#[cfg(test)]
+mod tests;

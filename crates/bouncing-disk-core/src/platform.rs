@@ -1,8 +1,0 @@
-//! The platform: its phase, its vibration P sin tau, and where it falls away from a disk at rest. (Its twist, Eq. (1),
-//! is the model's: `parameters/platform.rs`.)
-
-mod contact_force;
-pub(crate) mod crests;
-pub(crate) mod phase;
-pub(crate) mod separation;
-pub(crate) mod vibration;

@@ -1,0 +1,296 @@
+//! Long calls: how far they are, how to stop them, and how a loop of your own counts its work.
+//!
+//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] if nobody looks;
+//! it hears of every thread at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored and resumed is a type
+//! of its own: [`SweepRun`](crate::sweep::SweepRun), [`BasinRun`](crate::attractors::BasinRun).
+
+use core::ops::ControlFlow;
+use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+
+use crate::numerics::error::Error;
+
+/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and some
+/// ten without any optimisation, so that an observer hears of every thread far more often than every 50 ms.
+///
+/// Work is counted and not timed because nothing on the way to a result looks at a clock. In lockstep the
+/// lanes of a batch count whether they are in use or not, and a batch that is compared with many known orbits
+/// counts as more flights.
+pub const FLIGHTS_BETWEEN_CALLS: u64 = 1 << 13;
+
+/// How far a call is: items that are finished, and all of them.
+///
+/// What an item is, a row of a grid, an orbit, an impact, stands with each call that takes an [`Observer`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Progress {
+    /// Items that are finished, also those of earlier calls of a run that goes on.
+    pub done: u64,
+    /// All items, or as many as there are at most where their number shows only at the end.
+    pub total: u64,
+}
+
+impl Progress {
+    /// The finished share, in [0, 1]; of nothing everything is finished.
+    #[must_use]
+    pub fn fraction(&self) -> f64 {
+        if self.total == 0 { 1.0 } else { self.done.min(self.total) as f64 / self.total as f64 }
+    }
+}
+
+/// Sees how far a long call is, and may stop it.
+///
+/// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] if nobody
+/// looks. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
+/// when all is done. Where it breaks, the call returns [`Error::Stopped`], except at the last call, when all is
+/// done. The calls come from the threads that do the work, several at a time and in no certain order, so that
+/// `done` of one call may be less than that of the one before. No bit of a result depends on an observer.
+///
+/// A function or closure of this form is an observer; the core looks at no clock, but the observer may.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::time::{Duration, Instant};
+///
+/// use bouncing_disk_core::attractors::{Axis, BasinRun, BasinSettings, Grid};
+/// use bouncing_disk_core::{Error, ImpactMap, Progress, Unobserved, Vibration};
+///
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.5)?, 0.5)?;
+/// let grid = Grid::new(Axis::new(0.0, 1.0, 60)?, Axis::new(0.0, 2.0, 40)?)?;
+///
+/// // Shows how far it is, and stops when the time is up.
+/// let began = Instant::now();
+/// let observer = |progress: Progress| {
+///     eprint!("\r{} of {} rows", progress.done, progress.total);
+///     let in_time = began.elapsed() < Duration::from_secs(60);
+///     if in_time { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+/// };
+/// let mut run = BasinRun::new(map, grid, &[], BasinSettings::default())?;
+/// match run.advance(&observer) {
+///     Ok(()) => assert_eq!(run.into_basins()?, map.basins(grid, &[], BasinSettings::default(), &Unobserved)?),
+///     // The run may be written to a file here, and goes on after it has been read again.
+///     Err(Error::Stopped { done, total }) => println!("{done} of {total} rows so far"),
+///     Err(error) => return Err(error),
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+pub trait Observer: Sync {
+    /// Takes notice of the progress; a break stops the call.
+    fn observe(&self, progress: Progress) -> ControlFlow<()>;
+}
+
+impl<F: Fn(Progress) -> ControlFlow<()> + Sync> Observer for F {
+    fn observe(&self, progress: Progress) -> ControlFlow<()> {
+        self(progress)
+    }
+}
+
+/// Nobody looks, nobody stops.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unobserved;
+
+impl Observer for Unobserved {
+    #[inline]
+    fn observe(&self, _: Progress) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// A call that is observed: counts the finished items of all threads, and remembers that the observer has
+/// broken.
+///
+/// The long calls of this crate and of the model count with it; so may a loop of your own around single
+/// flights.
+///
+/// ```
+/// use bouncing_disk_core::run::Watch;
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
+///
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+/// let mut state = ImpactState::from_normalised(0.8, 1.3)?;
+/// let watch = Watch::begin(&Unobserved, 0, 20_000)?;
+/// let mut work = watch.work();
+/// for _ in 0..20_000 {
+///     state = map.step(state)?.into();
+///     watch.finish(1);
+///     work.spend(1)?;
+/// }
+/// watch.end();
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+pub struct Watch<'o> {
+    observer: &'o dyn Observer,
+    done: AtomicU64,
+    total: u64,
+    stopped: AtomicBool,
+}
+
+impl core::fmt::Debug for Watch<'_> {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        formatter
+            .debug_struct("Watch")
+            .field("progress", &self.progress())
+            .field("stopped", &self.is_stopped())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'o> Watch<'o> {
+    /// Begins a call of `total` items, of which earlier ones have finished `done`, and asks the observer for
+    /// the first time.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if it breaks.
+    pub fn begin(observer: &'o dyn Observer, done: u64, total: u64) -> Result<Self, Error> {
+        let watch = Self { observer, done: AtomicU64::new(done), total, stopped: AtomicBool::new(false) };
+        watch.ask()?;
+        Ok(watch)
+    }
+
+    /// Counts items as finished.
+    pub fn finish(&self, items: u64) {
+        self.done.fetch_add(items, Ordering::Relaxed);
+    }
+
+    /// Sets how many items are finished: for a call of one thread, which knows.
+    pub fn set_done(&self, items: u64) {
+        self.done.store(items, Ordering::Relaxed);
+    }
+
+    /// How far the call is.
+    #[must_use]
+    pub fn progress(&self) -> Progress {
+        Progress { done: self.done.load(Ordering::Relaxed), total: self.total }
+    }
+
+    /// Whether the observer has broken.
+    #[must_use]
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// Asks the observer, unless it has broken before.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if it breaks or has broken.
+    pub fn ask(&self) -> Result<(), Error> {
+        let Progress { done, total } = self.progress();
+        if self.is_stopped() {
+            return Err(Error::Stopped { done, total });
+        }
+        match self.observer.observe(Progress { done, total }) {
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => {
+                self.stopped.store(true, Ordering::Relaxed);
+                Err(Error::Stopped { done, total })
+            }
+        }
+    }
+
+    /// Tells the observer that all is done; its answer does not matter any more.
+    pub fn end(&self) {
+        let Progress { total, .. } = self.progress();
+        // Whatever it says, there is nothing left to stop.
+        let _ = self.observer.observe(Progress { done: total, total });
+    }
+
+    /// A count of the work of one thread.
+    #[must_use]
+    pub const fn work(&self) -> WorkCount<'_> {
+        WorkCount { watch: self, work: 0 }
+    }
+}
+
+/// The work of one thread of a call that is observed: see [`Watch::work`].
+#[derive(Debug, Clone)]
+pub struct WorkCount<'w> {
+    watch: &'w Watch<'w>,
+    work: u64,
+}
+
+impl<'w> WorkCount<'w> {
+    /// Counts work, in flights; asks the observer after every [`FLIGHTS_BETWEEN_CALLS`].
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if it breaks, or has broken when another thread asked.
+    #[inline(always)]
+    pub fn spend(&mut self, flights: u64) -> Result<(), Error> {
+        self.work += flights;
+        if self.work < FLIGHTS_BETWEEN_CALLS { Ok(()) } else { self.ask() }
+    }
+
+    /// Counts items as finished that are a flight each.
+    ///
+    /// # Errors
+    /// Those of [`Self::spend`].
+    #[inline]
+    pub fn finish(&mut self, flights: u64) -> Result<(), Error> {
+        self.watch.finish(flights);
+        self.spend(flights)
+    }
+
+    #[cold]
+    fn ask(&mut self) -> Result<(), Error> {
+        self.work = 0;
+        self.watch.ask()
+    }
+
+    /// The call whose work it is.
+    #[must_use]
+    pub const fn watch(&self) -> &'w Watch<'w> {
+        self.watch
+    }
+}
+
+/// What the parts of a long call are given to count their flights with, each as they like; an error ends the
+/// call.
+pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::StopAfter;
+
+    #[test]
+    fn an_observer_is_asked_first_and_then_after_so_many_flights() {
+        let calls = StopAfter::calls(3);
+        let watch = Watch::begin(&calls, 5, 100).expect("goes on");
+        let mut work = watch.work();
+        assert_eq!((1..FLIGHTS_BETWEEN_CALLS).find_map(|_| work.spend(1).err()), None);
+        assert_eq!(calls.asked(), 1);
+        watch.finish(2);
+        assert_eq!((work.spend(1), calls.asked()), (Ok(()), 2));
+        assert_eq!(watch.progress(), Progress { done: 7, total: 100 });
+        // Much work at a time asks once.
+        let stopped = Err(Error::Stopped { done: 7, total: 100 });
+        assert_eq!((work.spend(u64::MAX / 2), calls.asked()), (stopped, 3));
+        // It is not asked again, by no thread.
+        assert_eq!((watch.work().spend(FLIGHTS_BETWEEN_CALLS), calls.asked()), (stopped, 3));
+        assert!(watch.is_stopped());
+    }
+
+    #[test]
+    fn the_first_answer_may_stop_and_the_last_one_may_not() {
+        assert_eq!(
+            Watch::begin(&StopAfter::calls(1), 3, 4).map(|_| ()),
+            Err(Error::Stopped { done: 3, total: 4 })
+        );
+        let calls = StopAfter::calls(2);
+        Watch::begin(&calls, 3, 4).expect("goes on").end();
+        assert_eq!((calls.asked(), calls.last()), (2, Progress { done: 4, total: 4 }));
+    }
+
+    #[test]
+    fn of_nothing_everything_is_finished() {
+        let fraction = |done, total| Progress { done, total }.fraction();
+        assert!((fraction(1, 4) - 0.25).abs() < 1e-15);
+        assert!(fraction(0, 0) >= 1.0 && fraction(9, 4) <= 1.0 && fraction(0, 4) <= 0.0);
+    }
+
+    #[test]
+    fn closures_and_trait_objects_are_observers() {
+        let closure = |_: Progress| ControlFlow::Continue(());
+        let boxed: Box<dyn Observer> = Box::new(closure);
+        for observer in [&closure as &dyn Observer, &Unobserved, &*boxed] {
+            assert!(observer.observe(Progress::default()).is_continue());
+        }
+    }
+}

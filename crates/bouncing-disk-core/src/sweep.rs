@@ -1,0 +1,40 @@
+//! Many orbits at once: orbit diagrams, survival times, or whatever a visitor of their events collects.
+//!
+//! The events are those of each orbit by itself, to the bit, for any number of threads; the flights are computed some
+//! at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
+//!
+//! ```
+//! use bouncing_disk_core::sweep::orbit_diagram;
+//! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Unobserved, Vibration};
+//!
+//! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
+//! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
+//! let start = map.period_one(1).expect("it exists from Gamma = 1/3 on");
+//! let column = orbit_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 200, 50, &Unobserved)?;
+//! assert_eq!(column[0].len(), 50);
+//! # Ok::<(), bouncing_disk_core::Error>(())
+//! ```
+//!
+//! A [`SweepRun`] can be stopped, stored and resumed. What the orbits end on is in [`attractors`](crate::attractors).
+
+mod events;
+pub(crate) mod lockstep;
+pub(crate) mod lyapunov;
+pub(crate) mod orbit_batch;
+mod orbit_diagram;
+mod run;
+pub(crate) mod runner;
+mod settling;
+#[cfg(test)]
+mod tests;
+
+pub use events::{SweepEvent, SweepImpact};
+// How many flights are computed at once is no promise: the model, benches and tests use these.
+#[doc(hidden)]
+pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
+#[doc(hidden)]
+pub use lockstep::lanes::InstructionSet;
+pub use orbit_batch::OrbitBatch;
+pub use orbit_diagram::{MAX_RECORDED, orbit_diagram, survival_times};
+pub use run::{PartialResults, SweepRun, sweep};
+pub use settling::{is_settling, repeats_every};

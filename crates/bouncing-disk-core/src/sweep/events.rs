@@ -1,0 +1,73 @@
+//! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed in lockstep.
+
+use core::f64::consts::TAU;
+
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::launch::Impact;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{Attachment, ImpactState, Orbit, OrbitEvent};
+use crate::numerics::error::Error;
+
+/// One event of an orbit of a sweep.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum SweepEvent {
+    /// The disk hits the platform.
+    Impact(SweepImpact),
+    /// The disk comes to rest on the platform and, if the platform ever falls away, separates again.
+    Attachment(Attachment),
+}
+
+/// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SweepImpact {
+    /// The impact.
+    pub state: ImpactState,
+    /// How often the phase passed 0 (mod 2 pi) during the flight.
+    pub turns: u64,
+    /// The duration of the flight in radians, from the two phases: its absolute error is their rounding, where
+    /// [`Impact::remainder`] is accurate relative to itself, however short the flight.
+    pub duration: f64,
+}
+
+impl SweepImpact {
+    #[inline(always)]
+    pub(super) fn new(from: Phase, state: ImpactState, turns: u64) -> Self {
+        let ahead = state.phase().angle() - from.angle();
+        Self { state, turns, duration: turns as f64 * TAU + ahead }
+    }
+
+    /// The landing of an orbit that is advanced by itself.
+    #[inline(always)]
+    fn of(from: Option<Phase>, impact: Impact) -> Self {
+        // A disk that started in the air has no launch.
+        from.map_or(Self { state: impact.into(), turns: impact.turns, duration: impact.duration() }, |from| {
+            Self::new(from, impact.into(), impact.turns)
+        })
+    }
+
+    /// A duration that decides as the exact one does whether a cut counts the flight as short; `orbit` has not landed.
+    #[inline(always)]
+    pub(super) fn decisive_duration(&self, orbit: &Orbit) -> f64 {
+        if let ChatterPolicy::Cut(cut) = orbit.policy()
+            && cut.may_hang_on(self.duration)
+            && let Some(launch) = orbit.launch()
+            && let Ok(impact) = orbit.map().vibration().first_impact(launch)
+        {
+            return impact.duration();
+        }
+        self.duration
+    }
+}
+
+/// The next event of an orbit that is advanced by itself, as a sweep reports it.
+#[inline]
+pub(super) fn advance(orbit: &mut Orbit) -> Result<Option<SweepEvent>, Error> {
+    let from = orbit.launch().map(|launch| launch.phase());
+    Ok(orbit.advance()?.map(|event| match event {
+        OrbitEvent::Impact(impact) => SweepEvent::Impact(SweepImpact::of(from, impact)),
+        OrbitEvent::Attachment(rest) => SweepEvent::Attachment(rest),
+    }))
+}

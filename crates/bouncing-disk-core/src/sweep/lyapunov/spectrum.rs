@@ -1,0 +1,193 @@
+//! Both Lyapunov exponents of an orbit, by QR, with the standard error of the largest, or the reason why
+//! there are none.
+
+use core::ops::ControlFlow;
+
+use glam::DMat2;
+
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
+use crate::numerics::batch_means::{BatchMeans, FEWEST_NUMBERS};
+use crate::numerics::elementary::ln;
+use crate::numerics::error::{Error, within};
+use crate::run::Observer;
+use crate::sweep::lyapunov::{LyapunovEstimate, TangentGrowth};
+use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
+
+/// Both Lyapunov exponents per impact of the impact map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct LyapunovSpectrum {
+    /// The largest exponent: the mean logarithmic growth of a small perturbation per impact.
+    pub largest: f64,
+    /// Its standard error over the one orbit that was followed: scatter, drift and rounding ([`BatchMeans`]).
+    pub standard_error: f64,
+    /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
+    /// impact and the exponent is minus infinity.
+    pub second: Option<f64>,
+    /// What the sum of both must be over these very impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the
+    /// impact velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
+    /// `None` for restitution 0.
+    pub exact_sum: Option<f64>,
+    /// Impacts that the perturbations were followed through.
+    pub impacts: u64,
+}
+
+/// The exponents of an orbit, or why it has none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum LyapunovOutcome {
+    /// The orbit has flown on for as many impacts as were asked for.
+    Exponents(LyapunovSpectrum),
+    /// The disk came to rest on the platform. The motion after a rest does not depend on the one before, so
+    /// that the orbit of the map has no exponent: [`ImpactMap::verdict`] says what the disk does.
+    Rested {
+        /// Impacts before the rest, those of the transient among them.
+        impacts: u64,
+    },
+    /// An impact has no speed, or one so small that the derivative exceeds what a double holds: nothing can
+    /// be said of the growth beyond it.
+    Grazed {
+        /// Impacts up to this one, those of the transient among them.
+        impacts: u64,
+        /// Its phase.
+        phase: Phase,
+    },
+}
+
+impl LyapunovOutcome {
+    /// The exponents, if there are any.
+    #[must_use]
+    pub const fn spectrum(&self) -> Option<&LyapunovSpectrum> {
+        match self {
+            Self::Exponents(spectrum) => Some(spectrum),
+            Self::Rested { .. } | Self::Grazed { .. } => None,
+        }
+    }
+}
+
+/// The QR decomposition along an orbit: the first direction as [`TangentGrowth`] has it, the second one at
+/// right angles to it.
+#[derive(Debug, Clone)]
+struct TangentFrame {
+    first: TangentGrowth,
+    batches: BatchMeans,
+    second_sum: f64,
+}
+
+impl TangentFrame {
+    fn grow(&mut self, derivative: DMat2) {
+        let across = self.first.tangent().perp();
+        let length = self.first.grow(derivative);
+        self.batches.push(length);
+        // What is left of the second direction at right angles to the new first one.
+        self.second_sum += ln(self.first.tangent().perp().dot(derivative * across).abs());
+    }
+}
+
+/// An orbit whose exponents are sought.
+#[derive(Debug, Clone)]
+struct Followed {
+    map: ImpactMap,
+    state: ImpactState,
+    impacts: u64,
+    first_velocity: f64,
+    frame: TangentFrame,
+    outcome: Option<LyapunovOutcome>,
+}
+
+impl Followed {
+    fn see(&mut self, event: &SweepEvent, transient: u64, impacts: u64) -> ControlFlow<()> {
+        let SweepEvent::Impact(SweepImpact { state, duration, .. }) = *event else {
+            self.outcome = Some(LyapunovOutcome::Rested { impacts: self.impacts });
+            return ControlFlow::Break(());
+        };
+        self.impacts += 1;
+        if self.impacts > transient {
+            if self.frame.batches.count() == 0 {
+                self.first_velocity = self.state.velocity();
+            }
+            self.frame.grow(self.map.derivative(self.state, state, duration));
+        }
+        self.state = state;
+        if !self.frame.first.is_bounded() {
+            self.outcome = Some(LyapunovOutcome::Grazed { impacts: self.impacts, phase: state.phase() });
+        } else if self.frame.batches.count() >= impacts {
+            self.outcome = self.spectrum().map(LyapunovOutcome::Exponents);
+        } else {
+            return ControlFlow::Continue(());
+        }
+        ControlFlow::Break(())
+    }
+
+    fn spectrum(&self) -> Option<LyapunovSpectrum> {
+        let impacts = self.frame.batches.count();
+        let restitution = self.map.restitution();
+        let telescoped = ln(self.first_velocity / self.state.velocity()) / impacts as f64;
+        let two = restitution > 0.0;
+        Some(LyapunovSpectrum {
+            largest: self.frame.batches.mean()?,
+            standard_error: self.frame.batches.standard_error()?,
+            second: two.then(|| self.frame.second_sum / impacts as f64),
+            exact_sum: two.then(|| 2.0 * ln(restitution) + telescoped),
+            impacts,
+        })
+    }
+}
+
+/// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after
+/// `transient` ones, with the standard error of the largest; of an orbit that has none the reason. The orbits
+/// are advanced in lockstep.
+///
+/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the rounding of
+/// its sum.
+///
+/// The items of `observer` are the orbits.
+///
+/// ```
+/// use bouncing_disk_core::chaos::{LyapunovOutcome, lyapunov_spectra};
+/// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
+///
+/// let map = ImpactMap::new(Vibration::from_axial_forcing(0.55)?, 0.5)?;
+/// let start = ImpactState::from_normalised(0.8, 1.3)?;
+/// let outcomes = lyapunov_spectra(&[(map, start)], 1_000, 10_000, &Unobserved)?;
+/// let spectrum = outcomes[0].spectrum().expect("it bounces on");
+/// // Chaos, and the sum of the exponents is that of the map: close to 2 ln(1/2).
+/// assert!(spectrum.largest > 10.0 * spectrum.standard_error);
+/// let (second, sum) = (spectrum.second.unwrap_or(0.0), spectrum.exact_sum.unwrap_or(0.0));
+/// assert!((spectrum.largest + second - sum).abs() < 1e-12 && (sum + 1.386).abs() < 1e-2);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::OutOfRange`] for fewer than 16 impacts; those of [`sweep`](crate::sweep::sweep()).
+pub fn lyapunov_spectra(
+    starts: &[(ImpactMap, ImpactState)],
+    transient: u64,
+    impacts: u64,
+    observer: &dyn Observer,
+) -> Result<Vec<LyapunovOutcome>, Error> {
+    within("impacts", impacts as f64, FEWEST_NUMBERS as f64, f64::MAX, "at least 16")?;
+    let orbits: Vec<Orbit> =
+        starts.iter().map(|(map, state)| map.orbit(*state, ChatterPolicy::Complete)).collect();
+    let mut run = SweepRun::new(starts.len());
+    run.advance_with(
+        &orbits,
+        |index| {
+            let (map, state) = starts[index];
+            let batches = LyapunovEstimate::growths();
+            let frame = TangentFrame { first: TangentGrowth::default(), batches, second_sum: 0.0 };
+            Followed { map, state, impacts: 0, first_velocity: 0.0, frame, outcome: None }
+        },
+        |followed, event| followed.see(event, transient, impacts),
+        // An orbit that ends without an event has been at rest from the start.
+        |followed| Ok(followed.outcome.unwrap_or(LyapunovOutcome::Rested { impacts: followed.impacts })),
+        observer,
+    )?;
+    run.into_results()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,120 @@
+//! Orbit diagrams and survival times: what is asked of many orbits at once.
+
+use core::ops::ControlFlow;
+
+use super::events::SweepEvent;
+use super::run::SweepRun;
+use crate::map::impact_map::{ImpactState, Orbit};
+use crate::numerics::error::Error;
+use crate::run::Observer;
+
+/// Most impacts that [`orbit_diagram`] records, of all orbits together.
+pub const MAX_RECORDED: u64 = 1 << 31;
+
+/// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
+/// for as many. That an orbit has `most` impacts therefore means that it did not come to rest in as many.
+///
+/// The items of `observer` are the orbits. [`SweepRun::advance_survival_times`] keeps the finished ones of
+/// a call that is stopped.
+///
+/// # Errors
+/// Those of [`sweep`](super::sweep).
+pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) -> Result<Vec<usize>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance_survival_times(orbits, most, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<usize> {
+    /// Goes on with the [`survival_times`] of the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`].
+    pub fn advance_survival_times(
+        &mut self,
+        orbits: &[Orbit],
+        most: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        if most == 0 {
+            return self.finish_with(orbits.len(), || 0);
+        }
+        self.advance(
+            orbits,
+            |_| 0,
+            |lived, event| match event {
+                SweepEvent::Impact(_) => {
+                    *lived += 1;
+                    if *lived < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                }
+                SweepEvent::Attachment(_) => ControlFlow::Break(()),
+            },
+            observer,
+        )
+    }
+}
+
+/// The columns of a bifurcation diagram: of each orbit the `recorded` impacts that follow the first `transient` ones. A disk
+/// that comes to rest goes on with its next separation; one that rests for ever has fewer impacts.
+///
+/// The items of `observer` are the orbits. [`SweepRun::advance_orbit_diagram`] keeps the finished ones of a
+/// call that is stopped.
+///
+/// # Errors
+/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
+/// [`sweep`](super::sweep).
+pub fn orbit_diagram(
+    orbits: &[Orbit],
+    transient: usize,
+    recorded: usize,
+    observer: &dyn Observer,
+) -> Result<Vec<Vec<ImpactState>>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance_orbit_diagram(orbits, transient, recorded, observer)?;
+    run.into_results()
+}
+
+impl SweepRun<Vec<ImpactState>> {
+    /// Goes on with the [`orbit_diagram`] of the orbits that are not finished.
+    ///
+    /// # Errors
+    /// Those of [`Self::advance`], and [`Error::TooLarge`] as for [`orbit_diagram`].
+    pub fn advance_orbit_diagram(
+        &mut self,
+        orbits: &[Orbit],
+        transient: usize,
+        recorded: usize,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        if recorded == 0 {
+            return self.finish_with(orbits.len(), Vec::new);
+        }
+        let count = (orbits.len() as u64).saturating_mul(recorded as u64);
+        let refusal = Error::TooLarge { what: "recorded impacts", count, limit: MAX_RECORDED };
+        if count > MAX_RECORDED {
+            return Err(refusal);
+        }
+        self.advance_with(
+            orbits,
+            |_| (0, Some(Vec::new())),
+            |(skipped, column), event| {
+                let Some(states) = column else { return ControlFlow::Break(()) };
+                match event {
+                    SweepEvent::Impact(_) if *skipped < transient => *skipped += 1,
+                    SweepEvent::Impact(landing) => {
+                        // Not all at once: a disk that rests for ever needs little.
+                        if states.try_reserve(1).is_err() {
+                            *column = None;
+                            return ControlFlow::Break(());
+                        }
+                        states.push(landing.state);
+                    }
+                    SweepEvent::Attachment(_) => {}
+                }
+                if states.len() < recorded { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            },
+            |(_, states)| states.ok_or(refusal),
+            observer,
+        )
+    }
+}

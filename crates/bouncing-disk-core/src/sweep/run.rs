@@ -1,0 +1,312 @@
+//! Sweeps that can be stopped, stored and resumed.
+
+use core::ops::ControlFlow;
+
+use super::events::SweepEvent;
+use super::runner;
+use crate::map::impact_map::Orbit;
+use crate::numerics::error::Error;
+use crate::read_checked;
+use crate::run::{Observer, Watch};
+use crate::sweep::lockstep::lanes::InstructionSet;
+
+/// The results of a list of items, as far as they are finished, in the order of the items.
+///
+/// Deserialised ones have rising indices of existing items.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedResults<T>"))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
+pub struct PartialResults<T> {
+    total: usize,
+    /// The finished ones by rising index. A list of pairs, so that a result may be whatever it is, also
+    /// nothing.
+    finished: Vec<(usize, T)>,
+}
+
+read_checked!(PartialResults<T> as UncheckedResults {
+    total: usize,
+    finished: Vec<(usize, T)>,
+});
+
+impl<T> PartialResults<T> {
+    /// Checks a value that was deserialised.
+    fn check(&self) -> Result<(), Error> {
+        let Self { total, finished } = self;
+        let unfitting = |what, found: usize, expected: usize| {
+            Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
+        };
+        if let Some((index, _)) = finished.iter().find(|(index, _)| index >= total) {
+            return unfitting("index of a finished item", *index, total.saturating_sub(1));
+        }
+        if let Some(pair) = finished.windows(2).find(|pair| pair[0].0 >= pair[1].0) {
+            return unfitting("index of a finished item, out of order", pair[0].0, pair[1].0);
+        }
+        Ok(())
+    }
+
+    /// No result of so many items.
+    #[must_use]
+    pub const fn new(total: usize) -> Self {
+        Self { total, finished: Vec::new() }
+    }
+
+    /// Number of finished items.
+    #[must_use]
+    pub const fn done(&self) -> u64 {
+        self.finished.len() as u64
+    }
+
+    /// Number of items.
+    #[must_use]
+    pub const fn total(&self) -> u64 {
+        self.total as u64
+    }
+
+    /// Whether all items are finished.
+    #[must_use]
+    pub const fn is_done(&self) -> bool {
+        self.finished.len() == self.total
+    }
+
+    /// The result of an item; `None` if it is not finished or does not exist.
+    #[must_use]
+    pub fn get(&self, index: usize) -> Option<&T> {
+        let place = self.finished.binary_search_by_key(&index, |(index, _)| *index).ok()?;
+        self.finished.get(place).map(|(_, result)| result)
+    }
+
+    /// The finished items with their indices, which rise.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, &T)> {
+        self.finished.iter().map(|(index, result)| (*index, result))
+    }
+
+    /// The indices of the items that are not finished, rising.
+    ///
+    /// # Errors
+    /// [`Error::Unfitting`] unless there are `items` of them.
+    pub fn open(&self, items: usize) -> Result<Vec<usize>, Error> {
+        if items != self.total {
+            let (found, expected) = (items as u64, self.total as u64);
+            return Err(Error::Unfitting { what: "items of a run", found, expected });
+        }
+        let mut finished = self.finished.iter().map(|(index, _)| *index).peekable();
+        Ok((0..self.total).filter(|index| finished.next_if_eq(index).is_none()).collect())
+    }
+
+    /// Adds what has been finished: items that exist. Of an item that was finished before the first result
+    /// stays.
+    pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
+        let (total, last) = (self.total, self.finished.len().saturating_sub(1));
+        self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
+        // What comes in its order is added in the time that it takes by itself.
+        if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
+            // Stable, so that the first result of an item is the one that stays.
+            self.finished.sort_by_key(|(index, _)| *index);
+            self.finished.dedup_by_key(|(index, _)| *index);
+        }
+    }
+
+    /// The results that a function makes of these; where it makes none, the item is not finished.
+    pub fn filter_map<U>(self, mut result: impl FnMut(T) -> Option<U>) -> PartialResults<U> {
+        let finished = self.finished.into_iter();
+        let finished = finished.filter_map(|(index, own)| result(own).map(|own| (index, own))).collect();
+        PartialResults { total: self.total, finished }
+    }
+
+    /// [`Error::Stopped`] with the numbers of items.
+    #[must_use]
+    pub const fn stopped(&self) -> Error {
+        Error::Stopped { done: self.done(), total: self.total() }
+    }
+
+    /// The results of all items.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if one is not finished: [`Self::is_done`] tells before.
+    pub fn into_results(self) -> Result<Vec<T>, Error> {
+        if !self.is_done() {
+            return Err(self.stopped());
+        }
+        Ok(self.finished.into_iter().map(|(_, result)| result).collect())
+    }
+}
+
+/// A sweep over a list of orbits under way: the results of those that are finished.
+///
+/// A run that is stopped, written, read and resumed gives the results of one [`sweep`]
+/// without a stop, bit for bit, for any number of threads. The orbits themselves and what is asked of them
+/// are not stored: whoever goes on brings the same ones.
+///
+/// ```
+/// use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
+///
+/// let start = ImpactState::from_normalised(0.8, 1.3)?;
+/// let orbits = (0..40)
+///     .map(|k| {
+///         let map = ImpactMap::new(Vibration::from_axial_forcing(0.5 + 1e-3 * f64::from(k))?, 0.5)?;
+///         Ok(map.orbit(start, ChatterPolicy::Complete))
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
+/// let mut run = SweepRun::new(orbits.len());
+/// run.advance_orbit_diagram(&orbits, 200, 50, &Unobserved)?;
+/// assert_eq!(run.into_results()?, orbit_diagram(&orbits, 200, 50, &Unobserved)?);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(transparent))]
+#[cfg_attr(feature = "serde", serde(bound(deserialize = "T: serde::Deserialize<'de>")))]
+pub struct SweepRun<T> {
+    results: PartialResults<T>,
+}
+
+/// A run that resumes after the finished orbits.
+impl<T> From<PartialResults<T>> for SweepRun<T> {
+    fn from(results: PartialResults<T>) -> Self {
+        Self { results }
+    }
+}
+
+impl<T> SweepRun<T> {
+    /// A run over so many orbits, none of them finished.
+    #[must_use]
+    pub const fn new(orbits: usize) -> Self {
+        Self { results: PartialResults::new(orbits) }
+    }
+
+    /// The results of the orbits, as far as they are finished.
+    #[must_use]
+    pub const fn results(&self) -> &PartialResults<T> {
+        &self.results
+    }
+
+    /// Whether all orbits are finished.
+    #[must_use]
+    pub const fn is_done(&self) -> bool {
+        self.results.is_done()
+    }
+
+    /// Gives all orbits that are not finished the same result, without following them.
+    pub(crate) fn finish_with(&mut self, orbits: usize, result: impl Fn() -> T) -> Result<(), Error> {
+        let open = self.results.open(orbits)?;
+        self.results.extend(open.into_iter().map(|index| (index, result())));
+        Ok(())
+    }
+
+    /// The results of all orbits, in their order.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if one is not finished: [`Self::is_done`] tells before.
+    pub fn into_results(self) -> Result<Vec<T>, Error> {
+        self.results.into_results()
+    }
+}
+
+impl<T: Send> SweepRun<T> {
+    /// Follows the orbits that are not finished, as [`sweep`] does. What an earlier call has
+    /// finished stays; so it does when this call returns an error. The items of the observer are orbits;
+    /// those under way are begun again by the next call, so that a call which is stopped before any is
+    /// finished has been in vain.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] if the observer breaks; [`Error::Unfitting`] for another number of orbits than the
+    /// run has; the error of the first orbit, in their order, that has no next impact (see
+    /// [`Orbit::advance`]): it is not finished, the others are.
+    pub fn advance(
+        &mut self,
+        orbits: &[Orbit],
+        start: impl Fn(usize) -> T + Sync,
+        visit: impl Fn(&mut T, &SweepEvent) -> ControlFlow<()> + Sync,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        self.advance_with(orbits, start, visit, Ok, observer)
+    }
+
+    /// [`Self::advance`] with visitors of one kind and results of another, made when an orbit is done.
+    pub(crate) fn advance_with<W: Send>(
+        &mut self,
+        orbits: &[Orbit],
+        start: impl Fn(usize) -> W + Sync,
+        visit: impl Fn(&mut W, &SweepEvent) -> ControlFlow<()> + Sync,
+        result: impl Fn(W) -> Result<T, Error>,
+        observer: &dyn Observer,
+    ) -> Result<(), Error> {
+        let open = self.results.open(orbits.len())?;
+        let watch = Watch::begin(observer, self.results.done(), self.results.total())?;
+        let outcomes = runner::run((orbits, &open), &start, &visit, InstructionSet::best(), &watch);
+        let mut failure = None;
+        self.results.extend(outcomes.into_iter().filter_map(
+            |(index, outcome)| match outcome.and_then(&result) {
+                Ok(result) => Some((index, result)),
+                Err(error) => {
+                    failure.get_or_insert(error);
+                    None
+                }
+            },
+        ));
+        match failure {
+            _ if self.is_done() => {
+                watch.end();
+                Ok(())
+            }
+            Some(error) if !watch.is_stopped() => Err(error),
+            _ => Err(self.results.stopped()),
+        }
+    }
+}
+
+/// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns what the visitors
+/// made of them, in the order of the orbits.
+///
+/// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
+/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel` the
+/// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
+/// change a bit.
+///
+/// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer
+/// of [`sweep`] breaks.
+///
+/// The items of `observer` are the orbits. A [`SweepRun`] keeps the finished ones of a call that is
+/// stopped.
+///
+/// ```
+/// use core::ops::ControlFlow;
+/// use bouncing_disk_core::sweep::{SweepEvent, sweep};
+/// use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
+///
+/// // How many impacts, up to a hundred, before a disk comes to rest, against the forcing.
+/// let start = ImpactState::from_normalised(0.8, 1.3)?;
+/// let orbits = (0..200)
+///     .map(|k| {
+///         let map = ImpactMap::new(Vibration::from_axial_forcing(0.3 + 1e-3 * f64::from(k))?, 0.5)?;
+///         Ok(map.orbit(start, ChatterPolicy::Complete))
+///     })
+///     .collect::<Result<Vec<_>, bouncing_disk_core::Error>>()?;
+/// let lives = sweep(&orbits, |_| 0, |lived, event| match event {
+///     SweepEvent::Impact(_) if *lived < 100 => {
+///         *lived += 1;
+///         ControlFlow::Continue(())
+///     }
+///     _ => ControlFlow::Break(()),
+/// }, &Unobserved)?;
+/// assert!(lives[0] < 100 && lives[150] == 100);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// That of the first orbit, in their order, that has no next impact (see [`Orbit::advance`]).
+pub fn sweep<S: Send>(
+    orbits: &[Orbit],
+    start: impl Fn(usize) -> S + Sync,
+    visit: impl Fn(&mut S, &SweepEvent) -> ControlFlow<()> + Sync,
+    observer: &dyn Observer,
+) -> Result<Vec<S>, Error> {
+    let mut run = SweepRun::new(orbits.len());
+    run.advance(orbits, start, visit, observer)?;
+    run.into_results()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,417 @@
+"""Attractors of the impact map, their basins on a grid and over the forcing, and measures of basins."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
+from bouncing_disk._system import ChatterCut
+
+__all__ = [
+    "ATTACHED",
+    "Attractor",
+    "Attractors",
+    "BasinEntropy",
+    "BasinFractions",
+    "Basins",
+    "BoundaryScaling",
+    "FIRST_ORBIT",
+    "UNDECIDED",
+    "attractors",
+    "basin_entropy",
+    "basin_fractions_over",
+    "basins",
+    "boundary_scaling",
+]
+
+#: Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
+UNDECIDED: int = native.UNDECIDED
+#: Label of a start that comes to rest.
+ATTACHED: int = native.ATTACHED
+#: Label of the first known orbit; the next ones count up from here.
+FIRST_ORBIT: int = native.FIRST_ORBIT
+
+
+@dataclass(frozen=True, eq=False)
+class Attractor(Result):
+    """An attractor of an impact map.
+
+    Attributes:
+        kind: ``"rest"``, ``"periodic"``, ``"marginal"``, ``"chaotic"`` or ``"unclassified"``.
+        label: its label in :attr:`Basins.labels`.
+        orbit: the orbit of a periodic or marginal one.
+        radius: the radius (rad) within which a start counts as caught by that orbit, else NaN.
+        exponent, standard_error: the largest Lyapunov exponent per impact of a chaotic one and its standard
+            error, else NaN.
+        share: the share of the starts that ended on it.
+        interval: its 95 % interval.
+        lasts: whether the motion lasts: not that of a disk which rests and never does so again.
+        leads_to: the number of the attractor that a rest leads to.
+        meaning: what it is, in words.
+        is_exact: false of a disk that comes to rest again and again in a cycle which rounding has chosen.
+    """
+
+    kind: str
+    label: int
+    orbit: PeriodicOrbit | None
+    radius: float
+    exponent: float
+    standard_error: float
+    share: float
+    interval: tuple[float, float]
+    lasts: bool
+    leads_to: int | None
+    meaning: str
+    is_exact: bool
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Basins(Result):
+    """Basins of attraction on a grid of impacts.
+
+    Attributes:
+        impact_map: the map.
+        labels: what becomes of the start in each cell's centre; rows by rising speed, shape (speeds, phases).
+        phase: impact phase of the cells' centres, in periods, shape (phases,).
+        speed: normalised impact speed of the cells' centres, shape (speeds,).
+        phase_range, speed_range: ends of the axes: ``(*phase_range, *speed_range)`` is the ``extent`` of a
+            picture with ``origin="lower"``.
+        meaning: what each label means.
+
+    >>> import bouncing_disk as bd
+    >>> basins = bd.basins(bd.ImpactMap(axial_forcing=0.3, restitution=0.5), phases=20, speeds=10)
+    >>> basins.meaning
+    ('undecided', 'comes to rest')
+    >>> float(basins.labels.min()), basins.share(bd.ATTACHED)
+    (1.0, 1.0)
+    """
+
+    impact_map: ImpactMap
+    labels: ByteArray
+    phase: FloatArray
+    speed: FloatArray
+    phase_range: tuple[float, float]
+    speed_range: tuple[float, float]
+    meaning: tuple[str, ...]
+
+    def share(self, label: int) -> float:
+        """The share of the cells that have this label, in [0, 1]."""
+        return int(np.count_nonzero(self.labels == label)) / self.labels.size
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Attractors(Stored):
+    """The attractors of an impact map: the disk at rest, and all others that were found.
+
+    Made by :func:`attractors`.
+
+    Attributes:
+        impact_map: the map.
+        all: the disk at rest, which is number 0, and all other attractors: a tuple of :class:`Attractor`.
+        undecided: the share of the starts that ended on none of them.
+    """
+
+    impact_map: ImpactMap
+    all: tuple[Attractor, ...]
+    undecided: float
+
+    def basins(
+        self,
+        *,
+        phases: Int = 400,
+        phase_range: Pair = (0.0, 1.0),
+        speeds: Int = 300,
+        speed_range: Pair = (0.0, 3.0),
+        max_impacts: Int = 2000,
+        chatter: ChatterCut | None = None,
+        progress: Progress = None,
+    ) -> Basins:
+        """Their basins on a grid of impacts.
+
+        Args:
+            phases, phase_range, speeds, speed_range, max_impacts, chatter: as of :func:`basins`.
+        """
+        return native.basins_of(locals())
+
+    def __len__(self) -> int:
+        """Number of attractors, the disk at rest among them."""
+        return len(self.all)
+
+
+def attractors(
+    impact_map: ImpactMap,
+    *,
+    starts: Int = 1024,
+    transient: Int = 2000,
+    impacts: Int = 100_000,
+    longest_period: Int = 256,
+    cells: Int = 256,
+    progress: Progress = None,
+) -> Attractors:
+    """The attractors of a map, without being told.
+
+    Args:
+        starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
+        transient: impacts that are not looked at, at least 1.
+        impacts: impacts over which one orbit of each attractor is followed that is not periodic, at least 64.
+        longest_period: the longest period, in impacts, in [1, 4096].
+        cells: cells along each axis by which attractors are told apart that are not periodic, in [8, 4096].
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
+    >>> [attractor.orbit.period for attractor in found.all if attractor.orbit is not None]
+    [1, 4]
+    """
+    return native.attractors(locals())
+
+
+def basins(
+    impact_map: ImpactMap,
+    *,
+    phases: Int = 400,
+    phase_range: Pair = (0.0, 1.0),
+    speeds: Int = 300,
+    speed_range: Pair = (0.0, 3.0),
+    known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, Float]] | None = None,
+    max_impacts: Int = 2000,
+    chatter: ChatterCut | None = None,
+    progress: Progress = None,
+) -> Basins:
+    """Which starts come to rest and which end on known periodic orbits, on a grid of impacts.
+
+    :func:`attractors` finds the orbits by itself; its ``basins`` are of all attractors.
+
+    Args:
+        phases: cells along the impact phase, up to 100000.
+        phase_range: lowest and highest impact phase, in periods.
+        speeds: cells along the normalised impact speed, up to 100000.
+        speed_range: lowest and highest normalised speed.
+        known_orbits: attracting orbits, at most 250, each a :class:`PeriodicOrbit` or a pair of one and the
+            radius (rad) within which a start counts as caught; without a radius it is the
+            :meth:`PeriodicOrbit.trapping_radius`.
+        max_impacts: impacts after which a start is left undecided.
+        chatter: how a chatter ends; ``None`` sums it.
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.34, restitution=0.5)
+    >>> phase, velocity = bouncing.period_one()
+    >>> orbit = bouncing.refine(impact_phase=[phase], axial_impact_velocity=[velocity])
+    >>> basins = bd.basins(bouncing, phases=64, speeds=20, speed_range=(0.0, 5.0), known_orbits=[orbit])
+    >>> basins.labels.shape, basins.labels.dtype
+    ((20, 64), dtype('uint8'))
+    >>> basins.share(bd.FIRST_ORBIT) + basins.share(bd.ATTACHED)
+    1.0
+    """
+    return native.basins(locals())
+
+
+@dataclass(frozen=True, eq=False)
+class BasinEntropy(Result):
+    """How uncertain the end of a start is that is known up to a box of cells; in natural units.
+
+    Attributes:
+        box_side: cells along each side of a box.
+        boxes: boxes that fit into the grid whole.
+        boundary_boxes: boxes with more than one label.
+        undecided_cells: cells of the boxes that are undecided, which counts as a label of its own.
+        labels: labels that occur in the boxes.
+        entropy: the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: at most
+            the logarithm of the number of labels.
+        boundary_entropy: the same mean over the boxes with more than one label; None if there is none.
+    """
+
+    box_side: int
+    boxes: int
+    boundary_boxes: int
+    undecided_cells: int
+    labels: int
+    entropy: float
+    boundary_entropy: float | None
+
+
+def basin_entropy(basins: Basins, *, box_side: Int = 5) -> BasinEntropy:
+    """The entropy of basins: how uncertain the end of a start is that is known up to a box of cells.
+
+    A. Daza and others, Sci. Rep. 6, 31416 (2016). A boundary entropy above ln 2 says that the boundary is not
+    smooth, where boxes are small beside the basins; a smaller one says nothing.
+
+    Args:
+        basins: as of :func:`basins` and :meth:`Attractors.basins`; undecided cells count as a basin of their
+            own.
+        box_side: cells along each side of a box, at least 2 and at most those of the shorter side of the
+            grid.
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.34, restitution=0.5))
+    >>> entropy = bd.basin_entropy(found.basins(phases=100, speeds=100))
+    >>> entropy.boxes, entropy.boundary_boxes > 0
+    (400, True)
+    """
+    return native.basin_entropy(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BoundaryScaling(Result):
+    """How the share of uncertain cells grows with their distance, at n distances.
+
+    Attributes:
+        distance: the distances, in cells, shape (n,).
+        uncertain: cells with another label than their own in the square up to this distance along both axes,
+            shape (n,).
+        cells: cells that were looked at, the same at each distance.
+        fit: ``"power-law"``; ``"no-power-law"``, where the slopes from one distance to the next differ by
+            more than 0.05 and a fifth of their mean, as on a grid that is too coarse; or ``"too-few"``, where
+            cells are uncertain at fewer than three distances.
+        exponent, exponent_error: the share grows as ``distance**exponent``, and the standard error; NaN
+            without a power law.
+        dimension: the boundary's dimension, 2 less the exponent: 1 of a smooth curve, up to 2; NaN without a
+            power law.
+        slopes: the smallest and the largest slope from one distance to the next, in the logarithms; NaN of
+            too few.
+    """
+
+    distance: IntArray
+    uncertain: IntArray
+    cells: int
+    fit: str
+    exponent: float
+    exponent_error: float
+    dimension: float
+    slopes: tuple[float, float]
+
+    @property
+    def share(self) -> FloatArray:
+        """The share of the cells that are uncertain at each distance, in [0, 1], shape (n,)."""
+        share: FloatArray = self.uncertain / max(self.cells, 1)
+        return share
+
+
+def boundary_scaling(
+    basins: Basins, *, distances: Iterable[Int] = (1, 2, 4, 8), progress: Progress = None
+) -> BoundaryScaling:
+    """How the share of uncertain cells grows with their distance: the dimension of a boundary of basins.
+
+    S. W. McDonald and others, Physica D 17, 125 (1985). A cell is uncertain if there is another label than
+    its own in the square up to a distance along both axes. The cells that count are those farther from the
+    edges of the grid than the largest distance; undecided cells count as a basin of their own.
+
+    Args:
+        basins: as of :func:`basins` and :meth:`Attractors.basins`.
+        distances: distances in cells, rising from 1 at least, the last less than half the shorter side of the
+            grid.
+
+    The basin of the period-1 orbit just beyond its birth has a smooth boundary:
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.34, restitution=0.5))
+    >>> grid = found.basins(phases=120, speeds=120, max_impacts=20_000)
+    >>> scaling = bd.boundary_scaling(grid, distances=[1, 2, 4])
+    >>> scaling.fit, scaling.dimension < 1.2
+    ('power-law', True)
+    """
+    return native.boundary_scaling(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class BasinFractions(Stored):
+    """The attractors of impact maps over the axial forcing, each followed from one forcing to the next, with the
+    shares of their basins.
+
+    Made by :func:`basin_fractions_over`. There are n forcings and m attractors; number 0 is the disk at rest.
+
+    Attributes:
+        restitution: coefficient of restitution.
+        axial_forcing: axial forcing parameter Gamma, in the order in which they were followed, shape (n,).
+        attractors: what there is at each forcing: a tuple of n :class:`Attractors`.
+        followed: which of the m attractors each of those at a forcing is: a tuple of n int64 arrays.
+        appears: the first forcing at which each attractor was found, by its number, shape (m,): it appears
+            between this one and the one before.
+        vanishes: the last forcing at which each was found, by its number, shape (m,): it vanishes between
+            this one and the next.
+        share: share of the starts that end on each attractor at each forcing, shape (m, n); NaN where it is
+            not there. The starts are spread over all impacts that an attractor can have at this forcing.
+        share_low: low end of its 95 % interval, shape (m, n).
+        share_high: high end of its 95 % interval, shape (m, n).
+        moved: how far each attractor is from where it was at the forcing before (rad; a radian counts as much
+            as the peak velocity of the platform), shape (m, n); NaN where it appears or is not there, and of
+            the disk at rest.
+    """
+
+    restitution: float
+    axial_forcing: FloatArray
+    attractors: tuple[Attractors, ...]
+    followed: tuple[IntArray, ...]
+    appears: IntArray
+    vanishes: IntArray
+    share: FloatArray
+    share_low: FloatArray
+    share_high: FloatArray
+    moved: FloatArray
+
+    def extended(
+        self,
+        *,
+        axial_forcing: ArrayLike,
+        reach: Float = 0.3,
+        starts: Int = 1024,
+        transient: Int = 2000,
+        impacts: Int = 100_000,
+        longest_period: Int = 256,
+        cells: Int = 256,
+        progress: Progress = None,
+    ) -> BasinFractions:
+        """These with the attractors at more forcings, which follow those that are there: the very same as if all
+        had been given at once.
+
+        Args:
+            axial_forcing: more values of Gamma, shape (k,).
+            reach, starts, transient, impacts, longest_period, cells: as of :func:`basin_fractions_over`.
+        """
+        return native.extended(locals())
+
+    def __len__(self) -> int:
+        """Number of attractors."""
+        return len(self.appears)
+
+
+def basin_fractions_over(
+    *,
+    restitution: Float,
+    axial_forcing: ArrayLike,
+    reach: Float = 0.3,
+    starts: Int = 1024,
+    transient: Int = 2000,
+    impacts: Int = 100_000,
+    longest_period: Int = 256,
+    cells: Int = 256,
+    progress: Progress = None,
+) -> BasinFractions:
+    """The attractors at each of some forcings, which is which, and the shares of their basins.
+
+    Each attractor is the one of the forcing before that is nearest to it, if it is within `reach`; one
+    without such a neighbour appears, and one that is nobody's vanishes. An orbit that doubles its period goes
+    on as the doubled one.
+
+    Args:
+        restitution: coefficient of restitution, in [0, 1).
+        axial_forcing: axial forcing parameter Gamma, in the order in which attractors are to be followed; at
+            most 65536, shape (n,).
+        reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
+        starts, transient, impacts, longest_period, cells: as of :func:`attractors`.
+
+    The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest:
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], starts=200)
+    >>> found.appears
+    array([0, 1])
+    >>> found.share.shape, bool(found.share[1, 2] > found.share[1, 1])
+    ((2, 3), True)
+    """
+    return native.basin_fractions_over(locals())

@@ -1,0 +1,210 @@
+"""What parameters and results have in common, and the types of arguments: for `import *` by the chapters."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+import json as json_module
+from collections.abc import Callable
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any, ClassVar, SupportsFloat, SupportsIndex, TypeAlias, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from bouncing_disk import _native as native
+from bouncing_disk._errors import InvalidError
+
+__all__ = [
+    "ArrayLike",
+    "BoolArray",
+    "ByteArray",
+    "ComplexArray",
+    "Float",
+    "FloatArray",
+    "Int",
+    "IntArray",
+    "Pair",
+    "Parameters",
+    "Progress",
+    "Result",
+    "Stored",
+    "readable",
+]
+
+ArrayLike: TypeAlias = npt.ArrayLike
+FloatArray: TypeAlias = npt.NDArray[np.float64]
+IntArray: TypeAlias = npt.NDArray[np.int64]
+ByteArray: TypeAlias = npt.NDArray[np.uint8]
+BoolArray: TypeAlias = npt.NDArray[np.bool_]
+ComplexArray: TypeAlias = npt.NDArray[np.complex128]
+
+Float: TypeAlias = SupportsFloat | SupportsIndex
+Int: TypeAlias = SupportsIndex
+Pair: TypeAlias = tuple[Float, Float] | list[float]
+Progress: TypeAlias = Callable[[int, int], object] | None
+
+Own = TypeVar("Own", bound="Parameters")
+Kept = TypeVar("Kept", bound="Stored")
+
+
+class Parameters:
+    """What is made of keywords, checked as it is made, and never changes."""
+
+    _given: dict[str, float]
+    _native: Any
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            # The numbers are made when the first one is asked for: calls take what the library holds.
+            if name == "_native" or "_given" in self.__dict__:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            self.__dict__.update(self._native.numbers())
+            return getattr(self, name)
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError(f"a {type(self).__name__} never changes; replace() makes another one")
+
+    __delattr__ = __setattr__  # type: ignore[assignment]
+
+    def _key(self) -> object:
+        return tuple(self._given.items())
+
+    def __eq__(self, other: object) -> bool:
+        return self._key() == other._key() if isinstance(other, type(self)) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({', '.join(f'{name}={own!r}' for name, own in self._given.items())})"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _of, (type(self), self._given)
+
+    @classmethod
+    def _of(cls: type[Own], arguments: dict[str, Any]) -> Own:
+        return _of(cls, arguments)
+
+    def replace(self: Own, **changes: Any) -> Own:
+        """The same with other arguments of the constructor."""
+        return self._of({**self._given, **changes})
+
+    def to_dict(self) -> dict[str, Any]:
+        """The arguments of the constructor that were given."""
+        return dict(self._given)
+
+    @classmethod
+    def from_dict(cls: type[Own], parameters: dict[str, Any]) -> Own:
+        """The object of such a dictionary."""
+        return cls._of(parameters)
+
+    def to_json(self) -> str:
+        """The dictionary as JSON, which the Rust library reads as well."""
+        return json_module.dumps(self.to_dict())
+
+    @classmethod
+    def from_json(cls: type[Own], json: str) -> Own:
+        """The object of such a text."""
+        text = readable(json)
+        try:
+            return cls.from_dict(json_module.loads(text, parse_constant=_refused))
+        except json_module.JSONDecodeError as error:
+            raise _unreadable(error, line=error.lineno, column=error.colno) from None
+        except (TypeError, RecursionError) as error:
+            raise _unreadable(error) from None
+
+
+def _unreadable(error: Exception, **where: float | int | str) -> InvalidError:
+    return InvalidError(f"the text cannot be read: {error}", "text", where)
+
+
+def _refused(constant: str) -> float:
+    """JSON has no NaN and no infinity."""
+    raise _unreadable(ValueError(f"{constant} is no number"))
+
+
+def readable(text: str) -> str:
+    """The text, unless half of a pair of surrogates is in it, which no reader takes."""
+    if not isinstance(text, str):
+        raise TypeError(f"must be a text, and is {type(text).__name__}")
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise _unreadable(error, position=error.start) from None
+    return text
+
+
+def _of(cls: Any, arguments: dict[str, Any]) -> Any:
+    """The object of these keywords: what a pickle calls."""
+    return cls(**arguments)
+
+
+def _restored(cls: Any, json: str) -> Any:
+    """The result of a class that is stored as JSON: what a pickle calls."""
+    return cls.from_json(json)
+
+
+def _same(one: Any, other: Any) -> bool:
+    """Whether two values are equal, where NaN is equal to itself."""
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        inexact = np.issubdtype(one.dtype, np.inexact)
+        return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=bool(inexact))
+    if isinstance(one, float) and isinstance(other, float) and one != one:
+        return other != other
+    if isinstance(one, (tuple, list)) and type(one) is type(other):
+        return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        return list(one) == list(other) and all(_same(one[key], other[key]) for key in one)
+    return type(one) is type(other) and bool(one == other)
+
+
+def _shown(value: Any) -> str:
+    """A value in a line of text: long arrays by their type and shape, and many results by their number."""
+    if isinstance(value, tuple) and any(isinstance(item, (Result, np.ndarray)) for item in value):
+        return f"<{len(value)} {type(value[0]).__name__}>"
+    if not isinstance(value, np.ndarray):
+        return repr(value)
+    return repr(value.tolist()) if value.size <= 4 else f"<{value.dtype} array {value.shape}>"
+
+
+class Result:
+    """What all results have in common: fields that compare by their values, arrays among them."""
+
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+    __hash__: ClassVar[None]  # type: ignore[assignment]
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all fields are equal, where NaN is equal to itself."""
+        if type(self) is not type(other):
+            return NotImplemented
+        return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
+
+    def __repr__(self) -> str:
+        """The fields, long arrays by their shape."""
+        parts = (f"{field.name}={_shown(getattr(self, field.name))}" for field in fields(self))
+        return f"{type(self).__name__}({', '.join(parts)})"
+
+
+class Stored(Result):
+    """A result that later calls go on from: the library holds it, stores it as JSON, and compares it."""
+
+    _native: Any
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the library holds the same."""
+        return self._native == other._native if isinstance(other, type(self)) else NotImplemented
+
+    __hash__: ClassVar[None]
+
+    def to_json(self) -> str:
+        """The result as JSON, as the Rust library stores it."""
+        return self._native.to_json()
+
+    @classmethod
+    def from_json(cls: type[Kept], json: str) -> Kept:
+        """The result of such a text."""
+        return getattr(native, cls.__name__).from_json(readable(json))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), self.to_json())

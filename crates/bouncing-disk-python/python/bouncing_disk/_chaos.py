@@ -1,0 +1,523 @@
+"""What orbits do in the long run: diagrams, lives, exponents, verdicts, manifolds and crises."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
+from bouncing_disk._system import ChatterCut
+
+__all__ = [
+    "Crisis",
+    "CrisisLives",
+    "LyapunovSpectra",
+    "Manifold",
+    "OrbitDiagram",
+    "Verdicts",
+    "crisis",
+    "lyapunov_exponents",
+    "lyapunov_spectra",
+    "manifold",
+    "orbit_diagram",
+    "survival_times",
+    "verdicts",
+]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OrbitDiagram(Result):
+    """The impacts of many orbits, one after the other.
+
+    Those of orbit ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``.
+
+    Attributes:
+        axial_forcing: axial forcing parameter Gamma of each orbit, shape (n,).
+        restitution: coefficient of restitution of each orbit, shape (n,).
+        offsets: where the impacts of each orbit begin; the last number is that of all impacts, m, shape (n +
+            1,).
+        impact_phase: phase of each impact (rad), in [0, 2 pi), shape (m,).
+        axial_impact_velocity: velocity of the disk relative to the platform just before, not positive, in
+            units of g/omega, shape (m,).
+
+    >>> import bouncing_disk as bd
+    >>> diagram = bd.orbit_diagram(axial_forcing=[0.45, 0.6], restitution=0.5, impact_phase=1.2,
+    ...     normalised_speed=1.3, recorded=3)
+    >>> diagram.column()
+    array([0, 0, 0, 1, 1, 1])
+    >>> diagram.of(0)[1].round(6)
+    array([1.333333, 1.333333, 1.333333])
+    """
+
+    axial_forcing: FloatArray
+    restitution: FloatArray
+    offsets: IntArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+
+    @property
+    def normalised_speed(self) -> FloatArray:
+        """Normalised impact speed |w_A Gamma/(omega A)| of each impact, shape (m,)."""
+        speed: FloatArray = -self.axial_impact_velocity / np.pi
+        return speed
+
+    def column(self) -> IntArray:
+        """Of which orbit each impact is, shape (m,): ``axial_forcing[diagram.column()]`` is the abscissa of a plot."""
+        return np.repeat(np.arange(len(self.axial_forcing), dtype=np.int64), np.diff(self.offsets))
+
+    def of(self, orbit: int) -> tuple[FloatArray, FloatArray]:
+        """Phases (rad) and normalised speeds of the impacts of one orbit, as views."""
+        impacts = slice(self.offsets[:-1][orbit], self.offsets[1:][orbit])
+        return self.impact_phase[impacts], self.normalised_speed[impacts]
+
+
+def orbit_diagram(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    transient: Int = 3000,
+    recorded: Int = 256,
+    chatter: ChatterCut | None = None,
+    progress: Progress = None,
+) -> OrbitDiagram:
+    """The impacts of many orbits after their transients: an orbit (bifurcation) diagram.
+
+    The four arguments of the starts are numbers or 1-d arrays of the same length.
+
+    Args:
+        axial_forcing: axial forcing parameter Gamma of each orbit, shape (n,).
+        restitution: coefficient of restitution, in [0, 1), shape (n,).
+        impact_phase: phase of the first impact (rad), shape (n,).
+        normalised_speed: normalised speed of the first impact, not negative, shape (n,).
+        transient: impacts of each orbit that are not recorded.
+        recorded: impacts of each orbit that are; of a disk that rests for ever fewer.
+        chatter: how a chatter ends; ``None`` sums it.
+
+    >>> import bouncing_disk as bd
+    >>> import numpy as np
+    >>> diagram = bd.orbit_diagram(axial_forcing=np.linspace(0.4, 0.6, 5), restitution=0.5, impact_phase=1.2,
+    ...     normalised_speed=1.3, transient=500, recorded=20)
+    >>> diagram.offsets
+    array([  0,  20,  40,  60,  80, 100])
+    """
+    return native.orbit_diagram(locals())
+
+
+def survival_times(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    most: Int,
+    chatter: ChatterCut | None = None,
+    progress: Progress = None,
+) -> IntArray:
+    """How many impacts each orbit has before the disk comes to rest, at most so many.
+
+    Args:
+        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        most: impacts after which an orbit is left.
+        chatter: how a chatter ends; ``None`` sums it.
+
+    Returns:
+        Shape (n,).
+
+    >>> import bouncing_disk as bd
+    >>> bd.survival_times(axial_forcing=[0.59, 0.45], restitution=0.5, impact_phase=1.2,
+    ...     normalised_speed=1.3, most=1000)
+    array([ 218, 1000])
+    """
+    return native.survival_times(locals())
+
+
+def lyapunov_exponents(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    transient: Int = 1000,
+    impacts: Int = 10_000,
+    progress: Progress = None,
+) -> FloatArray:
+    """The largest Lyapunov exponent per impact of each orbit.
+
+    Args:
+        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        transient: impacts before the exponent is measured.
+        impacts: impacts that it is measured over.
+
+    Returns:
+        Mean logarithmic growth per impact; NaN where the disk comes to rest or grazes the platform.
+
+    >>> import bouncing_disk as bd
+    >>> exponents = bd.lyapunov_exponents(axial_forcing=[0.44, 0.56], restitution=0.5, impact_phase=1.2,
+    ...     normalised_speed=1.3)
+    >>> exponents.round(2)
+    array([-0.69,  0.4 ])
+    """
+    return native.lyapunov_exponents(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LyapunovSpectra(Result):
+    """Both Lyapunov exponents per impact of many orbits; NaN where there are none.
+
+    Attributes:
+        axial_forcing, restitution: the parameters of each orbit, shape (n,).
+        outcome: A place in :attr:`OUTCOMES`, shape (n,).
+        largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
+        second: the other exponent; minus infinity for restitution 0, shape (n,).
+        exact_sum: what the sum of both must be over these very impacts, shape (n,).
+        impacts: impacts that were measured over; up to the rest or the graze, with those of the transient,
+            where there is one, shape (n,).
+        phase: phase (rad) of the impact that grazes the platform, shape (n,).
+    """
+
+    OUTCOMES: ClassVar[tuple[str, ...]] = ("exponents", "rested", "grazed")
+
+    axial_forcing: FloatArray
+    restitution: FloatArray
+    outcome: ByteArray
+    largest: FloatArray
+    standard_error: FloatArray
+    second: FloatArray
+    exact_sum: FloatArray
+    impacts: IntArray
+    phase: FloatArray
+
+    def names(self) -> list[str]:
+        """The outcome of each orbit in words, those of :attr:`OUTCOMES`."""
+        return [self.OUTCOMES[outcome] for outcome in self.outcome]
+
+
+def lyapunov_spectra(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    transient: Int = 1000,
+    impacts: Int = 10_000,
+    progress: Progress = None,
+) -> LyapunovSpectra:
+    """Both Lyapunov exponents per impact of each orbit, with the standard error of the largest.
+
+    Args:
+        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        transient: impacts before the exponents are measured.
+        impacts: impacts that they are measured over, at least 16.
+
+    >>> import bouncing_disk as bd
+    >>> spectra = bd.lyapunov_spectra(axial_forcing=[0.2, 0.55], restitution=0.5, impact_phase=1.2, normalised_speed=1.3)
+    >>> spectra.names()
+    ['rested', 'exponents']
+    >>> bool(spectra.largest[1] > 10 * spectra.standard_error[1])  # Chaos.
+    True
+    """
+    return native.lyapunov_spectra(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Verdicts(Result):
+    """What many orbits do for good, and the evidence; numbers that a verdict does not have are 0 or NaN.
+
+    Attributes:
+        axial_forcing, restitution: the parameters of each orbit, shape (n,).
+        kind: the verdict: a place in :attr:`KINDS`, shape (n,).
+        reason: why there is none: a place in :attr:`REASONS`, shape (n,).
+        period: impacts of one period of a periodic orbit or of one round of a chattering one, shape (n,).
+        platform_periods: periods of the platform that this takes, shape (n,).
+        after: impacts after which the verdict was known, shape (n,).
+        rests: how often the disk came to rest on the way, shape (n,).
+        exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, where it
+            was measured, shape (n,).
+        rounding_error: how far rounding may have carried the impacts of a chattering round (rad and g/omega),
+            shape (n,).
+        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one that is
+            stayed at, shape (n, 2).
+    """
+
+    KINDS: ClassVar[tuple[str, ...]] = ("periodic", "chaotic", "chattering", "at-rest", "undecided")
+    REASONS: ClassVar[tuple[str, ...]] = (
+        "",
+        "exponent-near-zero",
+        "no-period-found",
+        "grazing",
+        "on-periodic-orbit",
+        "transient-may-last",
+    )
+
+    axial_forcing: FloatArray
+    restitution: FloatArray
+    kind: ByteArray
+    reason: ByteArray
+    period: IntArray
+    platform_periods: IntArray
+    after: IntArray
+    rests: IntArray
+    exponent: FloatArray
+    standard_error: FloatArray
+    rounding_error: FloatArray
+    multipliers: ComplexArray
+
+    def names(self) -> list[str]:
+        """The verdicts in words, those of :attr:`KINDS`."""
+        return [self.KINDS[kind] for kind in self.kind]
+
+    def reasons(self) -> list[str]:
+        """Why there is no verdict, those of :attr:`REASONS`: an empty text where there is one."""
+        return [self.REASONS[reason] for reason in self.reason]
+
+
+def verdicts(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    transient: Int = 2000,
+    impacts: Int = 100_000,
+    longest_period: Int = 256,
+    tolerance: Float = 1e-07,
+    progress: Progress = None,
+) -> Verdicts:
+    """What the orbit of each start does for good: periodic, chaotic, chattering, at rest or undecided, with the
+    evidence.
+
+    Args:
+        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        transient: impacts before the exponent is measured.
+        impacts: impacts that the exponent is measured over, at least 64.
+        longest_period: the longest period that is looked for, in impacts, in [1, 4096].
+        tolerance: how near an impact must come to an earlier one for a period to be tried, in (0, 0.01].
+
+    >>> import bouncing_disk as bd
+    >>> verdicts = bd.verdicts(axial_forcing=[0.2, 0.44, 0.56], restitution=0.5, impact_phase=1.2, normalised_speed=1.3,
+    ...     impacts=2000)
+    >>> verdicts.names()
+    ['at-rest', 'periodic', 'chaotic']
+    """
+    return native.verdicts(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Manifold(Result):
+    """A manifold of a saddle: pieces without a jump, p in all, of m impacts, on b branches.
+
+    The impacts of piece ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``. Each impact of the saddle
+    has two branches, on its later and its earlier side.
+
+    Attributes:
+        kind: ``"stable"`` or ``"unstable"``.
+        multiplier: the Floquet multiplier that belongs to it.
+        offsets: where the impacts of each piece begin; the last number is m, shape (p + 1,).
+        impact_phase: phase of each impact (rad), in [0, 2 pi): between neighbours it may pass 2 pi, shape
+            (m,).
+        axial_impact_velocity: its relative velocity, not positive, in units of g/omega, shape (m,).
+        piece_branch: of which branch each piece is, shape (p,).
+        piece_start, piece_end: why it does not begin earlier, and why it ends: places in :attr:`PIECE_ENDS`,
+            shape (p,).
+        branch_impact: at which impact of the saddle each branch begins, shape (b,).
+        branch_side: on which side: a place in :attr:`SIDES`, shape (b,).
+        branch_arclength: its length (rad, and speeds in units of 1 + P), shape (b,).
+        branch_generations: how often its first piece was mapped, shape (b,).
+        branch_end: why it is not longer: a place in :attr:`BRANCH_ENDS`, shape (b,).
+    """
+
+    PIECE_ENDS: ClassVar[tuple[str, ...]] = ("saddle", "graze", "rest", "too-fast", "cut")
+    BRANCH_ENDS: ClassVar[tuple[str, ...]] = ("arclength", "points", "generations", "attracted", "lost")
+    SIDES: ClassVar[tuple[str, ...]] = ("later", "earlier")
+
+    kind: str
+    multiplier: float
+    offsets: IntArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+    piece_branch: IntArray
+    piece_start: ByteArray
+    piece_end: ByteArray
+    branch_impact: IntArray
+    branch_side: ByteArray
+    branch_arclength: FloatArray
+    branch_generations: IntArray
+    branch_end: ByteArray
+
+    @property
+    def normalised_speed(self) -> FloatArray:
+        """Normalised speed of each impact, shape (m,)."""
+        speed: FloatArray = -self.axial_impact_velocity / np.pi
+        return speed
+
+    def of(self, piece: int) -> tuple[FloatArray, FloatArray]:
+        """Phases (rad) and normalised speeds of the impacts of one piece, as views."""
+        impacts = slice(self.offsets[:-1][piece], self.offsets[1:][piece])
+        return self.impact_phase[impacts], self.normalised_speed[impacts]
+
+    def branch_end_names(self) -> list[str]:
+        """Why each branch is not longer, in words, those of :attr:`BRANCH_ENDS`."""
+        return [self.BRANCH_ENDS[end] for end in self.branch_end]
+
+
+def manifold(
+    impact_map: ImpactMap,
+    orbit: PeriodicOrbit,
+    *,
+    kind: Literal["unstable", "stable"] = "unstable",
+    arclength: Float,
+    max_points: Int = 100_000,
+    chord: Float = 0.05,
+    turn: Float = 0.2,
+    max_generations: Int = 200,
+    launch_speed: Float | None = None,
+    progress: Progress = None,
+) -> Manifold:
+    """The stable or the unstable manifold of a saddle, grown from it piece by piece.
+
+    Lengths are those of the plane of impact phase (rad) and impact velocity in units of 1 + P, with the peak
+    acceleration P.
+
+    Args:
+        orbit: A saddle of this map: one real multiplier inside of the unit circle and one outside.
+        kind: which one: what comes from the saddle, or what tends to it.
+        arclength: length of each branch, in (0, 1e6].
+        max_points: the most points of a branch, in [16, 1e7].
+        chord: the largest distance between neighbours, in [1e-6, 1].
+        turn: the largest turn of the polygon (rad), in [0.001, 1].
+        max_generations: how often the first piece is mapped at most, in [1, 10000].
+        launch_speed: the largest own speed after an impact (units of g/omega) that a stable manifold is
+            followed to.
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> saddle = next(orbit for orbit in bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
+    ...     if not orbit.is_stable)
+    >>> manifold = bd.manifold(bouncing, saddle, arclength=5.0)
+    >>> sorted(manifold.branch_end_names())  # One branch ends in the orbit that attracts.
+    ['arclength', 'attracted']
+    """
+    return native.manifold(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class CrisisLives(Result):
+    """How long orbits live beyond a crisis, at n distances from it.
+
+    Attributes:
+        beyond: Gamma less that of the crisis, shape (n,).
+        impacts: mean life in impacts; infinity where no orbit ended, shape (n,).
+        relative_error: its standard error relative to it; infinity where no orbit ended, shape (n,).
+        ended, orbits: orbits that came to rest, and all of them, shape (n,).
+        exponent, exponent_error: the mean life goes as ``beyond**exponent``; NaN if it follows no power law.
+        no_power_law: why it follows none.
+    """
+
+    beyond: FloatArray
+    impacts: FloatArray
+    relative_error: FloatArray
+    ended: IntArray
+    orbits: IntArray
+    exponent: float
+    exponent_error: float
+    no_power_law: str | None
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Crisis(Stored):
+    """The crisis in which a chaotic attractor begins to lose orbits to rest.
+
+    Made by :func:`crisis`.
+
+    Attributes:
+        restitution: coefficient of restitution.
+        axial_forcing: axial forcing parameter Gamma of the tangency; without one the middle of the bracket.
+        forcing_error: the error of that: half of the bracket, or its part below the tangency.
+        bracket: the values of Gamma between which the crisis lies by the lives of orbits, the first one in 95
+            of 100 searches.
+        is_boundary_crisis: whether the disk soon rests again after it came to rest, and so for ever: the
+            attractor is lost. Otherwise it lives on after a rest, which has become a part of the attractor.
+            None where it depends on the forcing.
+        no_tangency: why no tangency is known that is the reason; None where one is.
+        inside: the saddle on the attractor, at the crisis; None without a tangency, as all below.
+        touched: the saddle whose stable manifold is touched, at the crisis.
+        impact_phase: phases of the impacts of the orbit of tangency (rad), shape (n,).
+        axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
+        side: the side of the saddle on which the manifold begins: ``"later"`` or ``"earlier"``.
+        share: share of the first piece of the unstable manifold at which the orbit of tangency begins, in [0,
+            1].
+        curvature: how the escaping share of the first piece opens: sqrt(8 (Gamma - Gamma_c)/abs(curvature)).
+        life_exponent: the exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, by the
+            multipliers of the saddles; None where they do not tell.
+    """
+
+    restitution: float
+    axial_forcing: float
+    forcing_error: float
+    bracket: tuple[float, float]
+    is_boundary_crisis: bool | None
+    no_tangency: str | None
+    inside: PeriodicOrbit | None
+    touched: PeriodicOrbit | None
+    impact_phase: FloatArray | None
+    axial_impact_velocity: FloatArray | None
+    side: str | None
+    share: float | None
+    curvature: float | None
+    life_exponent: float | None
+
+    def lives(
+        self, *, beyond: ArrayLike, orbits: Int = 1000, impacts: Int = 100_000, progress: Progress = None
+    ) -> CrisisLives:
+        """How long orbits live beyond the crisis, and the power law of their mean life.
+
+        Args:
+            beyond: distances from the crisis in Gamma, positive, shape (n,).
+            orbits: orbits at each distance, in [1, 1e6].
+            impacts: impacts over which an orbit is followed at most, at least 1.
+        """
+        return native.lives(locals())
+
+
+def crisis(
+    inside: PeriodicOrbit | None = None,
+    touched: PeriodicOrbit | None = None,
+    *,
+    restitution: Float,
+    axial_forcing: Pair,
+    samples: Int = 64,
+    impacts: Int = 2_000_000,
+    progress: Progress = None,
+) -> Crisis:
+    """Where a chaotic attractor begins to lose orbits to rest as the forcing rises.
+
+    Orbits on the attractor are followed to a bracket; a tangency of manifolds within it refines the result.
+
+    Args:
+        inside: A saddle on the attractor, or at its edge. By default the attractor is the one that the
+            period-1 orbit leads to, and the saddles are looked for.
+        touched: the saddle whose stable manifold is touched; by default the same.
+        restitution: coefficient of restitution, in (0, 1).
+        axial_forcing: Gamma below the crisis and beyond it.
+        samples: orbits that are followed at each forcing, in [16, 1e6].
+        impacts: impacts of all of them together, in [1e4, 1e12]; 200 at least of each. More make the bracket
+            narrower.
+
+    Raises:
+        ComputationError: There is none, with the reason as its kind: ``"not-born"``, ``"not-followed"``,
+            ``"none-rests"``, ``"rests-before"``, ``"not-chaotic"``, ``"lives-do-not-shrink"`` or
+            ``"other-reason"``.
+
+    >>> import bouncing_disk as bd
+    >>> found = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
+    >>> round(found.axial_forcing, 5)
+    0.56075
+    """
+    return native.crisis(locals())

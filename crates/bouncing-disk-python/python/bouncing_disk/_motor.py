@@ -1,0 +1,798 @@
+"""Motors: data sheets, operating points, stall, sweeps, traps and sensitivities."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+from bouncing_disk._system import System
+
+__all__ = [
+    "BestPhaseLag",
+    "ElementaryEffects",
+    "InputSpread",
+    "LocalSensitivities",
+    "LowPeriodTraps",
+    "Motor",
+    "MotorMap",
+    "MotorReport",
+    "NearestTrap",
+    "OperatingPoint",
+    "OperatingPoints",
+    "SobolIndices",
+    "StallLoad",
+    "TorqueSpeedCurve",
+    "best_phase_lag",
+    "elementary_effects",
+    "input_spreads",
+    "local_sensitivities",
+    "low_period_traps",
+    "motor_map",
+    "nearest_trap",
+    "operating_point",
+    "sobol_indices",
+    "stall_load",
+    "torque_speed_curve",
+]
+
+
+@dataclass(frozen=True, eq=False)
+class MotorReport(Result):
+    """What a data sheet says before anything turns.
+
+    Attributes:
+        axial_forcing: axial forcing parameter Gamma.
+        angular_forcing: angular forcing parameter Gamma_T; None without friction.
+        peak_acceleration: the stator's largest acceleration in units of the preload acceleration.
+        regime: ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``,
+            ``"chaotic"`` or ``"undecided"``.
+        regime_impacts: impacts of a round, or that were looked at.
+        regime_platform_periods: periods of the stator in a round, or between two rests on average; NaN where
+            nothing repeats.
+        regime_rests: rests that were seen in long chattering.
+        lyapunov_exponent: growth per impact of a chaotic motion, else NaN.
+        periods_per_flight: mean number of the stator's periods in a flight longer than half a period.
+        largest_torque: the largest mean torque of friction (N m).
+        static_deflection: static deflection of the preload's spring (m).
+        preload_change_bound: bound on the relative change of the preload in a flight.
+        warnings: what is unlikely to be meant.
+        text: all of it, to be printed.
+    """
+
+    axial_forcing: float
+    angular_forcing: float | None
+    peak_acceleration: float
+    regime: str
+    regime_impacts: int
+    regime_platform_periods: float
+    regime_rests: int
+    lyapunov_exponent: float
+    periods_per_flight: float | None
+    largest_torque: float
+    static_deflection: float | None
+    preload_change_bound: float | None
+    warnings: tuple[str, ...]
+    text: str
+
+    def __str__(self) -> str:
+        """The text."""
+        return self.text
+
+
+class Motor(Parameters):
+    """A motor by its data sheet, in SI units.
+
+    Of each pair of alternatives exactly one is given: ``peak_angular_speed`` or ``twist_amplitude``, ``mass``
+    or ``density``, ``preload_force`` or ``preload_acceleration``.
+
+    Args:
+        drive_frequency: drive frequency omega/(2 pi) (Hz), positive.
+        amplitude: axial amplitude A of the stator (m), not negative.
+        peak_angular_speed: largest angular speed omega Phi of the stator (rad/s), not negative.
+        twist_amplitude: twist amplitude Phi of the stator (rad), not negative.
+        phase_lag: phase lag theta of the twist (rad).
+        mass: mass m of the rotor (kg), positive.
+        density: density of the rotor (kg/m^3), positive, with ``rotor_radius`` and ``rotor_thickness`` of a
+            solid disc.
+        rotor_radius, rotor_thickness: outer radius and thickness of the rotor (m), positive.
+        contact_radius: effective contact radius a_e (m), positive.
+        gyration_radius: radius of gyration a_g (m), positive; that of a solid disc where a rotor radius is
+            given.
+        preload_force: all of the force that presses the rotor onto the stator (N), positive.
+        preload_acceleration: that force by the mass (m/s^2), positive.
+        spring_constant: constant of the spring that makes the preload (N/m), positive.
+        friction: coefficient of friction mu, not negative.
+        restitution: coefficient of restitution, in [0, 1).
+        load_torque: load torque T_L (N m); a positive one decelerates a positive rotation.
+
+    Attributes:
+        inertia: moment of inertia m a_g^2 of the rotor (kg m^2).
+        largest_torque: mu m g a_e (N m), which no motor exceeds in the mean.
+        static_deflection: static deflection of the preload's spring (m); None without one.
+        system: the system without the mass.
+
+    >>> import bouncing_disk as bd
+    >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3, contact_radius=1.25e-3,
+    ...     gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
+    >>> motor.replace(friction=0.2).friction
+    0.2
+    >>> bd.Motor.from_json(motor.to_json()) == motor
+    True
+    """
+
+    drive_frequency: float
+    amplitude: float
+    peak_angular_speed: float
+    twist_amplitude: float
+    phase_lag: float
+    mass: float
+    inertia: float
+    contact_radius: float
+    gyration_radius: float
+    preload_force: float
+    preload_acceleration: float
+    friction: float
+    restitution: float
+    load_torque: float
+    largest_torque: float
+    static_deflection: float | None
+    system: System
+
+    def __init__(
+        self,
+        *,
+        drive_frequency: Float,
+        amplitude: Float,
+        peak_angular_speed: Float | None = None,
+        twist_amplitude: Float | None = None,
+        phase_lag: Float = 0.0,
+        mass: Float | None = None,
+        density: Float | None = None,
+        rotor_radius: Float | None = None,
+        rotor_thickness: Float | None = None,
+        contact_radius: Float,
+        gyration_radius: Float | None = None,
+        preload_force: Float | None = None,
+        preload_acceleration: Float | None = None,
+        spring_constant: Float | None = None,
+        friction: Float,
+        restitution: Float,
+        load_torque: Float = 0.0,
+    ) -> None:
+        self.__dict__["_native"] = native.motor(locals())
+
+    def replace(self, **changes: Float | None) -> Motor:
+        """The same motor with other values in its data sheet.
+
+        Args:
+            **changes: arguments of :class:`Motor`; None takes a value out. A number takes the place of its
+                alternative, so that a motor with a ``preload_acceleration`` gets a ``preload_force`` by
+                naming the force alone.
+
+        >>> import bouncing_disk as bd
+        >>> pressed = bd.Motor.paper_70_khz().replace(preload_force=0.02)
+        >>> "preload_acceleration" in pressed.to_dict()
+        False
+        """
+        kept = dict(self._given)
+        for name, value in changes.items():
+            # Who names both alternatives gets the error of both.
+            for other in native.excluded_by(name) if value is not None else ():
+                kept.pop(other, None)
+        return Motor._of({**kept, **changes})
+
+    def warnings(self) -> tuple[str, ...]:
+        """What is unlikely to be meant in the data sheet, in words."""
+        return tuple(self._native.warnings())
+
+    def report(self, *, progress: Progress = None) -> MotorReport:
+        """What the data sheet says before anything turns: forcing, regime, largest torque."""
+        return native.report(locals())
+
+    @staticmethod
+    def paper_70_khz() -> Motor:
+        """The motor of the paper's Table III, driven at 70 kHz.
+
+        The paper does not print its mass: it is that of a solid steel ball of the printed 20 mm.
+        """
+        return Motor._of(native.known_motor("70", ""))
+
+    @staticmethod
+    def paper_184_khz() -> Motor:
+        """The same motor as the paper drives it at 184 kHz."""
+        return Motor._of(native.known_motor("184", ""))
+
+    @staticmethod
+    def from_toml(toml: str) -> Motor:
+        """The motor of a data sheet in TOML, such as the command line's ``--template`` writes.
+
+        Args:
+            toml: the text of the file.
+
+        >>> import bouncing_disk as bd
+        >>> text = "\\n".join(f"{key} = {value!r}" for key, value in bd.Motor.paper_70_khz().to_dict().items())
+        >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
+        True
+        """
+        return Motor._of(native.known_motor("toml", readable(toml)))
+
+    def to_json(self) -> str:
+        """The data sheet as the JSON that the Rust library and its command line read."""
+        return self._native.to_json()
+
+    @classmethod
+    def from_json(cls, json: str) -> Motor:
+        """The motor of such a text; errors name the line."""
+        return Motor._of(native.known_motor("json", readable(json)))
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OperatingPoint(Result):
+    """How a motor runs under a load; ``..._error`` are standard errors, and what there is none of is NaN.
+
+    Attributes:
+        load_torque: load torque (N m).
+        speed, speed_error: mean angular speed (rad/s).
+        mechanical_power, mechanical_power_error: load torque times mean speed (W).
+        input_power, input_power_error: power that the stator puts in (W).
+        restitution_loss, restitution_loss_error, friction_loss, friction_loss_error: power lost in impacts
+            and in friction (W).
+        efficiency, efficiency_error: mechanical power over the power put in.
+        perturbation_power: power that the perturbations of the relaunches put in (W).
+        energy_residual: what the energy balance leaves, relative.
+        averaged_time, start_up: time that was averaged over, of all members together, and that was left out,
+            of each (s).
+        acceleration: acceleration that a motor tends to which its load overpowers (rad/s^2), else NaN.
+        impacts: impacts of all members.
+        status: ``"steady"``, ``"unsettled"`` or ``"runaway"``.
+        shortfall: what an unsettled one lacks.
+    """
+
+    load_torque: float
+    speed: float
+    speed_error: float
+    mechanical_power: float
+    mechanical_power_error: float
+    input_power: float
+    input_power_error: float
+    restitution_loss: float
+    restitution_loss_error: float
+    friction_loss: float
+    friction_loss_error: float
+    efficiency: float
+    efficiency_error: float
+    perturbation_power: float
+    energy_residual: float
+    averaged_time: float
+    start_up: float
+    acceleration: float
+    impacts: int
+    status: str
+    shortfall: str
+
+
+def operating_point(
+    motor: Motor,
+    *,
+    load_torque: Float | None = None,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> OperatingPoint:
+    """How a motor runs under its load.
+
+    Args:
+        load_torque: load torque (N m); by default that of the data sheet.
+        relative_error: standard error of the mean speed that is asked for, relative to the speed without
+            load, in [1e-6, 0.5].
+        members: vertical motions that are averaged over, in [4, 4096].
+        most_impacts: most impacts of all members together, in [1, 1e15].
+        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
+        seed: seed of the perturbations.
+    """
+    return native.operating_point(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OperatingPoints(Result):
+    """How motors run under their loads: arrays of one shape, as of :class:`OperatingPoint`.
+
+    Attributes:
+        status: a place in :attr:`STATUSES`.
+    """
+
+    STATUSES: ClassVar[tuple[str, ...]] = ("steady", "unsettled", "runaway")
+
+    load_torque: FloatArray
+    speed: FloatArray
+    speed_error: FloatArray
+    mechanical_power: FloatArray
+    mechanical_power_error: FloatArray
+    input_power: FloatArray
+    input_power_error: FloatArray
+    restitution_loss: FloatArray
+    restitution_loss_error: FloatArray
+    friction_loss: FloatArray
+    friction_loss_error: FloatArray
+    efficiency: FloatArray
+    efficiency_error: FloatArray
+    perturbation_power: FloatArray
+    energy_residual: FloatArray
+    averaged_time: FloatArray
+    start_up: FloatArray
+    acceleration: FloatArray
+    impacts: IntArray
+    status: ByteArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TorqueSpeedCurve(OperatingPoints):
+    """How a motor runs under n loads; all arrays have the shape (n,)."""
+
+    def names(self) -> list[str]:
+        """The status of each point in words, those of :attr:`STATUSES`."""
+        return [self.STATUSES[status] for status in self.status]
+
+
+def torque_speed_curve(
+    motor: Motor,
+    *,
+    load_torques: ArrayLike,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> TorqueSpeedCurve:
+    """Speed, power and efficiency of a motor against its load.
+
+    Args:
+        load_torques: load torques (N m) in place of that of the data sheet, shape (n,).
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+    """
+    return native.torque_speed_curve(locals())
+
+
+@dataclass(frozen=True)
+class StallLoad:
+    """The load at which a motor stops.
+
+    Attributes:
+        torque, torque_error: the torque and its standard error (N m).
+        share: the torque as a share of the largest mean torque of friction.
+        bracket: loads (N m) under which it surely turns on, and is surely driven back.
+        no_load_speed, no_load_speed_error: mean speed without load and its standard error (rad/s).
+    """
+
+    torque: float
+    torque_error: float
+    share: float
+    bracket: tuple[float, float]
+    no_load_speed: float
+    no_load_speed_error: float
+
+
+def stall_load(
+    motor: Motor,
+    *,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> StallLoad:
+    """The load at which a motor stops.
+
+    Args:
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+    """
+    return native.stall_load(locals())
+
+
+@dataclass(frozen=True)
+class InputSpread:
+    """How far a speed (rad/s) or a stall load (N m) lies apart over the tolerances of a motor's inputs.
+
+    Attributes:
+        mean, mean_error: the mean over the draws and its standard error.
+        standard_deviation, standard_deviation_error: the standard deviation over the draws, without what
+            statistical errors add, and its standard error.
+        from_to: the least and the largest draw: a further one lies between them with the chance (n - 1)/(n +
+            1) of n draws.
+        draws, without: draws that have the number, and that have none.
+        unsettled: draws of which the start-up leaves more than the standard deviation.
+        trapped: draws that are in a low-period trap.
+    """
+
+    mean: float
+    mean_error: float
+    standard_deviation: float
+    standard_deviation_error: float
+    from_to: tuple[float, float]
+    draws: int
+    without: int
+    unsettled: int
+    trapped: int
+
+
+def input_spreads(
+    motor: Motor,
+    *,
+    load_torques: ArrayLike | None = None,
+    tolerance: Float = 0.01,
+    perturbation_decades: Float = 1.0,
+    draws: Int = 39,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> list[InputSpread | None]:
+    """How far the speeds or the stall load of a motor lie apart over what its inputs are known to.
+
+    The errors of the other calls hold at exactly the inputs given. The response of a motor to preload and amplitude is rough:
+    here stands what a designer can count on.
+
+    Args:
+        load_torques: load torques (N m) of the speeds; by default the stall load is asked for, shape (n,).
+        tolerance: relative tolerance of preload and amplitude, in [0, 0.5].
+        perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
+        draws: motors that are drawn, in [8, 10000].
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+
+    Returns:
+        One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
+    """
+    return native.input_spreads(locals())
+
+
+@dataclass(frozen=True)
+class BestPhaseLag:
+    """The phase lag at which a motor turns fastest.
+
+    Attributes:
+        phase_lag, phase_lag_error: the lag and its standard error (rad).
+        speed, speed_error: the mean speed there and its standard error (rad/s).
+        good_from_to: the lags (rad) at which 99 % of that speed is left.
+    """
+
+    phase_lag: float
+    phase_lag_error: float
+    speed: float
+    speed_error: float
+    good_from_to: tuple[float, float]
+
+
+def best_phase_lag(
+    motor: Motor,
+    *,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> BestPhaseLag:
+    """The phase lag at which a motor turns fastest.
+
+    Args:
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+    """
+    return native.best_phase_lag(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MotorMap(OperatingPoints):
+    """A motor in steady operation over one or two of its parameters.
+
+    All arrays have one axis for each of `axes`, in their order.
+
+    Attributes:
+        motor: the motor that is varied.
+        axes: the parameters and their values (SI), shape (n,).
+    """
+
+    motor: Motor
+    axes: dict[str, FloatArray]
+
+    def names(self) -> list[list[str]]:
+        """The status of each cell in words, those of :attr:`STATUSES`, row by row."""
+        rows = self.status.reshape(len(self.status), -1)
+        return [[self.STATUSES[status] for status in row] for row in rows]
+
+
+def motor_map(
+    motor: Motor,
+    *,
+    axes: Mapping[str, ArrayLike],
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> MotorMap:
+    """Speed, power and efficiency of a motor over one or two parameters of its data sheet.
+
+    Cells that share a vertical motion are computed on one orbit. A parameter takes the place of its alternative: a
+    sweep over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
+
+    Args:
+        axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
+            rows, shape (n,).
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`, for
+            each cell.
+
+    >>> import bouncing_disk as bd
+    >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
+    ...     contact_radius=1.25e-3, gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
+    >>> axes = {"friction": [0.1, 0.2], "load_torque": [0.0, 0.5 * motor.largest_torque, 1.5 * motor.largest_torque]}
+    >>> found = bd.motor_map(motor, axes=axes, relative_error=0.05)
+    >>> found.speed.shape, found.names()[0]
+    ((2, 3), ['steady', 'steady', 'runaway'])
+    """
+    return native.motor_map(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LowPeriodTraps(Result):
+    """Whether a motor is in a low-period trap under n preloads, with the evidence.
+
+    Attributes:
+        preload_acceleration: preload as an acceleration (m/s^2), shape (n,).
+        axial_forcing: axial forcing parameter Gamma: with the restitution all that decides, shape (n,).
+        is_trap: whether the perturbed motor repeats the short round, shape (n,).
+        impacts, platform_periods, long_flights: what the round from one separation to the next has without
+            perturbation, if it has at most eight long flights; 0 where there is none, shape (n,).
+        relaunches, returns: perturbed relaunches that were tried, and how many of them led through such a
+            round, shape (n,).
+        mean_platform_periods: mean number of the stator's periods from one perturbed relaunch to the next;
+            NaN without a round, shape (n,).
+    """
+
+    preload_acceleration: FloatArray
+    axial_forcing: FloatArray
+    is_trap: BoolArray
+    impacts: IntArray
+    platform_periods: IntArray
+    long_flights: IntArray
+    relaunches: IntArray
+    returns: IntArray
+    mean_platform_periods: FloatArray
+
+
+def low_period_traps(
+    motor: Motor, *, preload_accelerations: ArrayLike, progress: Progress = None
+) -> LowPeriodTraps:
+    """Which preloads trap a motor in a short round of flights and rest, with a speed of its own.
+
+    Judged from the vertical motion alone, which is all that decides.
+
+    Args:
+        preload_accelerations: preloads as accelerations (m/s^2), positive; they take the place of that of the
+            data sheet, shape (n,).
+
+    A flight of twelve and a half periods lands softly, which is where Gamma is 12.51:
+
+    >>> import numpy as np
+    >>> import bouncing_disk as bd
+    >>> motor = bd.Motor.paper_70_khz()
+    >>> soft = motor.preload_acceleration * motor.system.axial_forcing / 12.51
+    >>> bd.low_period_traps(motor, preload_accelerations=soft * np.array([0.97, 1.0, 1.03])).is_trap
+    array([False,  True, False])
+    """
+    return native.low_period_traps(locals())
+
+
+@dataclass(frozen=True, eq=False)
+class NearestTrap(Result):
+    """The low-period trap that is nearest to a motor.
+
+    Attributes:
+        relative_distance: the relative change of amplitude or preload, the smaller of the two, that reaches
+            its near edge; 0 for a motor in the trap.
+        preload_acceleration, amplitude, drive_frequency: each of these (m/s^2, m, Hz) at the near edge, if
+            the others are kept.
+        forcing_from_to: from where to where in Gamma the trap reaches, as far as it was scanned.
+        forcing_step: step of the scan in Gamma: traps that are narrower may have been missed.
+        impacts, platform_periods, long_flights: what the round in the middle of the trap has.
+        return_share: the share of perturbed relaunches there that return to the round, in [0, 1].
+    """
+
+    relative_distance: float
+    preload_acceleration: float
+    amplitude: float
+    drive_frequency: float
+    forcing_from_to: tuple[float, float]
+    forcing_step: float
+    impacts: int
+    platform_periods: int
+    long_flights: int
+    return_share: float
+
+
+def nearest_trap(
+    motor: Motor, *, relative_range: Float = 0.1, progress: Progress = None
+) -> NearestTrap | None:
+    """The low-period trap that is nearest to a motor.
+
+    Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
+    amplitude or of frequency: its near edge is given for each of them, the others kept.
+
+    Args:
+        relative_range: the largest relative change of preload or amplitude that is looked at, in (0, 1].
+
+    Returns:
+        None if there is none within the range that is at least 0.05 % wide.
+
+    >>> import bouncing_disk as bd
+    >>> trap = bd.nearest_trap(bd.Motor.paper_70_khz())
+    >>> trap is None or 0.0 <= trap.relative_distance < 0.1
+    True
+    """
+    return native.nearest_trap(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LocalSensitivities(Result):
+    """How a quantity of a motor depends on n of its parameters, next to its data sheet.
+
+    Attributes:
+        parameters: the parameters.
+        derivative, standard_error: d ln(quantity)/d ln(parameter); of the phase lag d ln(quantity)/d theta
+            (1/rad), of the load torque d ln(quantity) over its change in units of mu m g a_e, shape (n,).
+        method: ``"shared-motion"``, by a difference of rotors on the same vertical motions, or
+            ``"regression"``, by a line through motors with different ones.
+        traps: motors of a regression that were left out, since they are in a low-period trap, shape (n,).
+        quantity: ``"steady-speed"`` or ``"stall-torque"``.
+    """
+
+    parameters: tuple[str, ...]
+    derivative: FloatArray
+    standard_error: FloatArray
+    method: tuple[str, ...]
+    traps: IntArray
+    quantity: str
+
+
+def local_sensitivities(
+    motor: Motor,
+    *,
+    parameters: Iterable[str] | None = None,
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    half_range: Float = 0.2,
+    points: Int = 24,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> LocalSensitivities:
+    """How the steady speed or the stall torque of a motor depends on its parameters next to its data sheet.
+
+    Args:
+        parameters: which ones, of ``friction``, ``peak_angular_speed``, ``phase_lag``, ``contact_radius``,
+            ``gyration_radius``, ``load_torque``, ``amplitude``, ``preload``, ``restitution`` and
+            ``drive_frequency``; by default the first six, which share one vertical motion.
+        quantity: what is asked for.
+        half_range: half the range, in the logarithm of a parameter of the vertical motion, over which motors
+            are drawn, in (0, 2].
+        points: motors that are drawn over it, in [5, 10000].
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+
+    >>> import bouncing_disk as bd
+    >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
+    ...     contact_radius=1.25e-3, gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
+    >>> found = bd.local_sensitivities(motor, parameters=["friction", "peak_angular_speed"], relative_error=0.05)
+    >>> bool(found.derivative[0] < 0.5 < found.derivative[1])  # The speed follows the stator, not the friction.
+    True
+    """
+    return native.local_sensitivities(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SobolIndices(Result):
+    """Which share of the variance of a quantity each of n parameters has over its range.
+
+    Attributes:
+        parameters: the parameters.
+        first, first_error: the share that goes if this parameter alone is known, and its standard error. Near
+            zero it may be negative, shape (n,).
+        total, total_error: the share that is left if all others are known, and its standard error, shape
+            (n,).
+        quantity: ``"steady-speed"`` or ``"stall-torque"``.
+    """
+
+    parameters: tuple[str, ...]
+    first: FloatArray
+    first_error: FloatArray
+    total: FloatArray
+    total_error: FloatArray
+    quantity: str
+
+
+def sobol_indices(
+    motor: Motor,
+    *,
+    ranges: Mapping[str, Pair],
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    rows: Int = 256,
+    sampling_seed: Int = 1,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> SobolIndices:
+    """Which share of the variance of the steady speed or the stall torque each parameter has over its range (Sobol').
+
+    Args:
+        ranges: the range of each parameter (SI), over which it is spread evenly; names as of
+            :func:`local_sensitivities`.
+        quantity: what is asked for.
+        rows: rows of the sample, in [8, 1000000]; with d parameters each takes d + 2 motors.
+        sampling_seed: seed of the sample.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+    """
+    return native.sobol_indices(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class ElementaryEffects(Result):
+    """By how much a quantity (rad/s or N m) changes over the range of each of n parameters.
+
+    Attributes:
+        parameters: the parameters.
+        mean, mean_error: mean effect mu, and its standard error, shape (n,).
+        mean_size, mean_size_error: mean without the signs, mu*, shape (n,).
+        deviation, deviation_error: standard deviation sigma: the effect is not the same everywhere, shape
+            (n,).
+        quantity: ``"steady-speed"`` or ``"stall-torque"``.
+    """
+
+    parameters: tuple[str, ...]
+    mean: FloatArray
+    mean_error: FloatArray
+    mean_size: FloatArray
+    mean_size_error: FloatArray
+    deviation: FloatArray
+    deviation_error: FloatArray
+    quantity: str
+
+
+def elementary_effects(
+    motor: Motor,
+    *,
+    ranges: Mapping[str, Pair],
+    quantity: Literal["steady-speed", "stall-torque"] = "steady-speed",
+    rows: Int = 64,
+    sampling_seed: Int = 1,
+    relative_error: Float = 0.01,
+    members: Int = 16,
+    most_impacts: Int = 20_000_000,
+    relaunch_perturbation: Float = 0.001,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> ElementaryEffects:
+    """By how much the steady speed or the stall torque changes with each parameter over its range (Morris): a cheap
+    ranking.
+
+    Args:
+        ranges, quantity: as of :func:`sobol_indices`.
+        rows: trajectories of the sample, in [8, 1000000]; with d parameters each takes d + 1 motors.
+        sampling_seed, relative_error, members, most_impacts, relaunch_perturbation, seed: as of
+            :func:`sobol_indices`.
+    """
+    return native.elementary_effects(locals())

@@ -1,0 +1,463 @@
+"""The impact map, its periodic orbits, their branches and their doublings."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+from bouncing_disk._system import System
+
+__all__ = [
+    "Bifurcation",
+    "Branch",
+    "DoublingCascade",
+    "ImpactMap",
+    "PeriodicOrbit",
+    "continued",
+    "doubling_cascade",
+    "iterate_orbits",
+    "periodic_orbits",
+]
+
+
+class ImpactMap(Parameters):
+    """The map from one impact of a bouncing disk to the next, without units.
+
+    An impact is its phase (rad) and the velocity of the disk relative to the platform just before
+    (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is
+    that by -pi.
+
+    Args:
+        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). This one or the next is needed.
+        peak_acceleration: peak acceleration A omega^2/g of the platform.
+        restitution: coefficient of restitution, in [0, 1).
+
+    Attributes:
+        normalised_speed_bound: the largest normalised impact speed of every attractor and periodic orbit.
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> phase, velocity = bouncing.period_one()
+    >>> after, _ = bouncing.step(impact_phase=phase, axial_impact_velocity=velocity)
+    >>> abs(after - phase) < 1e-15
+    True
+    """
+
+    axial_forcing: float
+    peak_acceleration: float
+    restitution: float
+    normalised_speed_bound: float
+
+    def __init__(
+        self,
+        *,
+        axial_forcing: Float | None = None,
+        peak_acceleration: Float | None = None,
+        restitution: Float,
+    ) -> None:
+        self.__dict__["_native"] = native.impact_map(locals())
+
+    def _key(self) -> object:
+        # Two maps are equal that compute the same, whichever forcing was given.
+        return self.peak_acceleration, self.restitution
+
+    @staticmethod
+    def of_system(system: System) -> ImpactMap:
+        """The vertical motion of a system."""
+        return ImpactMap(peak_acceleration=system.peak_acceleration, restitution=system.restitution)
+
+    def step(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
+        """The next impact.
+
+        No rule ends a chatter: a chattering disk is followed through ever smaller impacts.
+
+        Args:
+            impact_phase: phase of this impact (rad).
+            axial_impact_velocity: its relative velocity, not positive, in units of g/omega.
+
+        Returns:
+            Phase and velocity of the next impact.
+        """
+        # The next call is that of the compiled method itself, here and below, so that loops pay for one call alone.
+        self.__dict__["step"] = self._native.step
+        return self._native.step(
+            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
+        )
+
+    def step_back(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
+        """The impact before this one: the only one that :meth:`step` takes there.
+
+        Args:
+            impact_phase, axial_impact_velocity: as of :meth:`step`.
+
+        Returns:
+            Phase and velocity of the impact before.
+        """
+        self.__dict__["step_back"] = self._native.step_back
+        return self._native.step_back(
+            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
+        )
+
+    def iterate(
+        self, *, impact_phase: Float, axial_impact_velocity: Float, impacts: Int, progress: Progress = None
+    ) -> tuple[float, float]:
+        """The impact that is so many steps later.
+
+        Args:
+            impact_phase, axial_impact_velocity: as of :meth:`step`.
+            impacts: number of steps.
+
+        Returns:
+            Phase and velocity of that impact.
+        """
+        return native.iterate(locals())
+
+    def derivative(self, *, impact_phase: Float, axial_impact_velocity: Float) -> FloatArray:
+        """The derivative of the next impact by this one.
+
+        Args:
+            impact_phase, axial_impact_velocity: as of :meth:`step`.
+
+        Returns:
+            Rows: next phase and velocity; columns: by this phase and velocity (rad, units of g/omega).
+        """
+        self.__dict__["derivative"] = self._native.derivative
+        return self._native.derivative(
+            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
+        )
+
+    def period_one(self, *, platform_periods: Int = 1) -> tuple[float, float] | None:
+        """The orbit with one impact every so many periods of the platform, in closed form.
+
+        Args:
+            platform_periods: at least 1.
+
+        Returns:
+            Phase and velocity of its impact; None below the forcing at which it is born.
+        """
+        self.__dict__["period_one"] = self._native.period_one
+        return self._native.period_one(platform_periods=platform_periods)
+
+    def refine(self, *, impact_phase: ArrayLike, axial_impact_velocity: ArrayLike) -> PeriodicOrbit:
+        """The periodic orbit next to a guess, stable or not, by Newton's method on all impacts.
+
+        Args:
+            impact_phase: phases of the impacts of one period (rad), in their order, shape (n,).
+            axial_impact_velocity: their relative velocities, not positive, in units of g/omega, shape (n,).
+        """
+        return native.refine(locals())
+
+    def settled_orbit(
+        self,
+        *,
+        impact_phase: Float,
+        normalised_speed: Float,
+        transient: Int = 2000,
+        longest_period: Int = 64,
+        tolerance: Float = 1e-07,
+        progress: Progress = None,
+    ) -> PeriodicOrbit | None:
+        """The attracting periodic orbit that the orbit from an impact settles on.
+
+        Args:
+            impact_phase: phase of the impact (rad).
+            normalised_speed: its normalised speed, not negative.
+            transient: impacts before a period is looked for.
+            longest_period: the longest period, in impacts, up to 4096.
+            tolerance: how near an orbit must come to itself to count as periodic (rad, and relative speed).
+
+        Returns:
+            None if the disk comes to rest or shows no period.
+        """
+        return native.settled_orbit(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PeriodicOrbit(Stored):
+    """A periodic orbit of the impact map, stable or not.
+
+    Orbits are made by :func:`periodic_orbits`, :meth:`ImpactMap.refine` and :meth:`ImpactMap.settled_orbit`.
+
+    Attributes:
+        impact_phase: phase of each impact of one period (rad), shape (period,).
+        axial_impact_velocity: relative velocity of each impact, not positive, in units of g/omega, shape
+            (period,).
+        normalised_speed: normalised speed of each impact, shape (period,).
+        period: number of impacts in one period of the orbit.
+        platform_periods: periods of the platform that one period of the orbit takes.
+        monodromy: the derivative of the map around the orbit, from its first impact, shape (2, 2).
+        multipliers: the two Floquet multipliers, complex, the one of larger modulus first, shape (2,).
+        is_stable: whether the orbit attracts: both multipliers lie inside of the unit circle by more than
+            their uncertainty.
+        stability: ``"attracts"``, ``"unstable"``, or ``"marginal"`` where a multiplier is 1 or -1 within
+            rounding.
+    """
+
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+    normalised_speed: FloatArray
+    period: int
+    platform_periods: int
+    monodromy: FloatArray
+    multipliers: ComplexArray
+    is_stable: bool
+    stability: str
+
+    def proven_radius(self, impact_map: ImpactMap) -> float:
+        """A radius within which every orbit is proven to end on this one.
+
+        Args:
+            impact_map: the map that it is an orbit of.
+
+        Returns:
+            In radians (a radian counts as much as the peak velocity of the platform).
+
+        Raises:
+            ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
+                graze.
+        """
+        return native.proven_radius(locals())
+
+    def trapping_radius(
+        self, impact_map: ImpactMap, *, samples: Int = 64, progress: Progress = None
+    ) -> float:
+        """The radius within which a start counts as caught by this orbit: the proven one, or a larger one that samples
+        support.
+
+        Args:
+            impact_map: the map that it is an orbit of.
+            samples: starts on each circle that is tried.
+
+        Returns:
+            In radians (a radian counts as much as the peak velocity of the platform).
+
+        Raises:
+            ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
+                graze, where samples find no radius, either.
+        """
+        return native.trapping_radius(locals())
+
+
+def periodic_orbits(
+    impact_map: ImpactMap,
+    *,
+    max_impacts: Int,
+    max_platform_periods: Int,
+    phases: Int = 96,
+    speeds: Int = 96,
+    progress: Progress = None,
+) -> list[PeriodicOrbit]:
+    """The periodic orbits of few impacts, stable and unstable.
+
+    Those of one impact come from the closed form and are complete. All others are found from a grid of
+    starts, which proves nothing about what it did not find.
+
+    Args:
+        max_impacts: the most impacts of an orbit, in [1, 64].
+        max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
+        phases, speeds: starts along each axis, in [2, 4096].
+
+    Returns:
+        By rising number of impacts, then of platform periods, then by falling speed.
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.5, restitution=0.5)
+    >>> orbits = bd.periodic_orbits(bouncing, max_impacts=2, max_platform_periods=2)
+    >>> [orbit.period for orbit in orbits if orbit.is_stable]
+    [2]
+    """
+    return native.periodic_orbits(locals())
+
+
+def iterate_orbits(
+    *,
+    axial_forcing: ArrayLike,
+    restitution: ArrayLike,
+    impact_phase: ArrayLike,
+    normalised_speed: ArrayLike,
+    impacts: Int,
+    progress: Progress = None,
+) -> tuple[FloatArray, FloatArray]:
+    """The impacts of many orbits that are so many steps later, each from its own start: the fastest way through the map.
+
+    Unlike :func:`orbit_diagram` it does not ask whether the disk comes to rest: a chatter goes on impact by impact.
+
+    Args:
+        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
+        impacts: number of steps.
+
+    Returns:
+        Phase (rad) and relative velocity (not positive, in units of g/omega) of the last impact of each
+            orbit.
+
+    Raises:
+        ComputationError: An orbit has no next impact.
+
+    >>> import bouncing_disk as bd
+    >>> phases, velocities = bd.iterate_orbits(axial_forcing=0.45, restitution=0.5, impact_phase=[0.7, 0.8],
+    ...     normalised_speed=1.3, impacts=200)
+    >>> bool(abs(phases[0] - phases[1]) < 1e-12)  # Both are on the period-1 orbit.
+    True
+    """
+    return native.iterate_orbits(locals())
+
+
+@dataclass(frozen=True, eq=False)
+class Bifurcation(Result):
+    """A special point of a branch of periodic orbits.
+
+    Attributes:
+        kind: ``"doubling"``, ``"fold"``, ``"graze"``, ``"vanishing-impact"`` or ``"birth"``.
+        parameter: the value of the parameter.
+        arclength: arclength from the start of the branch.
+        impact: which impact grazes or vanishes.
+        orbit: the orbit there.
+    """
+
+    kind: str
+    parameter: float
+    arclength: float
+    impact: int | None
+    orbit: PeriodicOrbit
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Branch(Stored):
+    """A branch of periodic orbits, stable and unstable, along a parameter.
+
+    Made by :func:`continued` and :meth:`Branch.switched`. Arrays have one row for each orbit, n in all.
+
+    Attributes:
+        parameter: the parameter that is varied: ``"axial_forcing"`` or ``"restitution"``.
+        values: the parameter of each orbit, shape (n,).
+        arclength: arclength from the start of the branch, shape (n,).
+        impact_phase: phases of the impacts of each orbit (rad), shape (n, period).
+        axial_impact_velocity: relative velocities of the impacts of each orbit, not positive, in units of
+            g/omega, shape (n, period).
+        normalised_speed: normalised speeds of the impacts of each orbit, shape (n, period).
+        multipliers: Floquet multipliers of each orbit, complex, shape (n, 2).
+        is_stable: whether each orbit attracts, bool, shape (n,).
+        end: why the branch ends, in words.
+        bifurcations: the bifurcations on the way: a tuple of :class:`Bifurcation`.
+    """
+
+    parameter: str
+    values: FloatArray
+    arclength: FloatArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+    normalised_speed: FloatArray
+    multipliers: ComplexArray
+    is_stable: BoolArray
+    end: str
+    bifurcations: tuple[Bifurcation, ...]
+
+    def orbit(self, index: Int) -> PeriodicOrbit:
+        """One orbit of the branch.
+
+        Args:
+            index: which one, from 0.
+        """
+        return native.branch_orbit(locals())
+
+    def switched(
+        self,
+        *,
+        index: Int,
+        parameter_range: Pair,
+        first_step: Float = 0.01,
+        largest_step: Float = 0.05,
+        max_points: Int = 10_000,
+        progress: Progress = None,
+    ) -> Branch:
+        """The branch of twice the period that begins at a doubling.
+
+        Args:
+            index: which of :attr:`bifurcations`.
+            parameter_range: lowest and highest value of the parameter.
+            first_step, largest_step, max_points, progress: as of :func:`continued`.
+        """
+        return native.switched(locals())
+
+    def __len__(self) -> int:
+        """Number of orbits."""
+        return len(self.values)
+
+
+def continued(
+    impact_map: ImpactMap,
+    orbit: PeriodicOrbit,
+    *,
+    parameter: Literal["axial_forcing", "restitution"] = "axial_forcing",
+    parameter_range: Pair,
+    rising: bool = True,
+    first_step: Float = 0.01,
+    largest_step: Float = 0.05,
+    max_points: Int = 10_000,
+    progress: Progress = None,
+) -> Branch:
+    """The branch of periodic orbits through one of them, through folds and along unstable parts.
+
+    Args:
+        orbit: an orbit of this map.
+        parameter: what is varied.
+        parameter_range: its lowest and highest value.
+        rising: whether it goes towards higher values at first.
+        first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].
+        max_points: the most orbits, in [2, 1000000].
+
+    >>> import bouncing_disk as bd
+    >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    >>> orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    >>> branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
+    >>> [(found.kind, round(found.parameter, 6)) for found in branch.bifurcations]
+    [('doubling', 0.486003)]
+    """
+    return native.continued(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class DoublingCascade(Result):
+    """A period-doubling cascade; n doublings, and Feigenbaum's numbers from some of them.
+
+    Attributes:
+        period: impacts of the orbit that loses its stability, shape (n,).
+        axial_forcing, forcing_error: the forcing Gamma_n, and how far rounding may have moved it, shape (n,).
+        multiplier: the multiplier that the search left, -1 but for rounding, shape (n,).
+        width: the largest distance (rad) of an impact from the one half a period later, shape (n,).
+        graze_margin: how near a flight comes to an earlier impact, in units of g/omega^2; infinite where none
+            dips, shape (n,).
+        feigenbaum_number: the last doubling that was used for each estimate, from 1, shape (m,).
+        delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and how far they may be
+            off, shape (m,).
+    """
+
+    period: IntArray
+    axial_forcing: FloatArray
+    forcing_error: FloatArray
+    multiplier: FloatArray
+    width: FloatArray
+    graze_margin: FloatArray
+    feigenbaum_number: IntArray
+    delta: FloatArray
+    delta_error: FloatArray
+    alpha: FloatArray
+    alpha_error: FloatArray
+
+
+def doubling_cascade(*, restitution: Float, count: Int, progress: Progress = None) -> DoublingCascade:
+    """The period doublings of the orbit with one impact per period of the platform, and Feigenbaum's numbers
+    from them.
+
+    Args:
+        restitution: coefficient of restitution, in (0, 1).
+        count: number of doublings, in [1, 13].
+
+    >>> import bouncing_disk as bd
+    >>> bd.doubling_cascade(restitution=0.5, count=3).axial_forcing.round(4)
+    array([0.486 , 0.5307, 0.5401])
+    """
+    return native.doubling_cascade(locals())

@@ -1,0 +1,205 @@
+"""The disk and its platform in SI units, and the rule that ends a chatter."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from typing import Any
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+
+__all__ = [
+    "ChatterCut",
+    "System",
+]
+
+
+class System(Parameters):
+    """A disk on a vibrating and twisting platform, in SI units.
+
+    Every value is checked as the object is made, which never changes after that.
+
+    Args:
+        amplitude: amplitude A of the platform's height (m), not negative.
+        twist_amplitude: amplitude Phi of its angle (rad), not negative.
+        angular_frequency: angular frequency omega (rad/s), positive.
+        phase_lag: phase lag theta of the twist (rad).
+        contact_radius: effective contact radius a_e (m) of the disk, positive.
+        gyration_radius: radius of gyration a_g (m), positive.
+        friction: coefficient of friction mu, not negative.
+        restitution: coefficient of restitution, in [0, 1).
+        preload_acceleration: preload acceleration g (m/s^2), positive.
+        load_acceleration: angular deceleration by a load torque (rad/s^2).
+
+    Attributes:
+        period: period of the platform (s).
+        peak_angular_speed: largest angular speed omega Phi of the platform (rad/s).
+        stroke: stroke c = (A^2 + (a_e Phi)^2)^(1/2) at the contact radius (m), Eq. (13).
+        amplitude_angle: amplitude angle phi_L = arctan(a_e Phi/A) (rad): 0 lifts, pi/2 turns; 0 where nothing
+            moves.
+        axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g).
+        angular_forcing: angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu); None without
+            friction.
+        peak_acceleration: peak acceleration A omega^2/g of the platform in units of the preload acceleration.
+        rise_time: time (s) in which friction that pushes one way gives the disk the platform's largest
+            angular speed.
+
+    >>> import bouncing_disk as bd
+    >>> toss = bd.System.pizza_toss()
+    >>> round(toss.axial_forcing, 3)
+    1.558
+    >>> toss.replace(friction=0.05).friction
+    0.05
+    """
+
+    amplitude: float
+    twist_amplitude: float
+    angular_frequency: float
+    phase_lag: float
+    contact_radius: float
+    gyration_radius: float
+    friction: float
+    restitution: float
+    preload_acceleration: float
+    load_acceleration: float
+    period: float
+    peak_angular_speed: float
+    stroke: float
+    amplitude_angle: float
+    axial_forcing: float
+    angular_forcing: float | None
+    peak_acceleration: float
+    rise_time: float
+
+    def __init__(
+        self,
+        *,
+        amplitude: Float,
+        twist_amplitude: Float,
+        angular_frequency: Float,
+        phase_lag: Float = 0.0,
+        contact_radius: Float,
+        gyration_radius: Float,
+        friction: Float,
+        restitution: Float,
+        preload_acceleration: Float,
+        load_acceleration: Float = 0.0,
+    ) -> None:
+        self.__dict__["_native"] = native.system(locals())
+
+    @staticmethod
+    def pizza_toss() -> System:
+        """The pizza toss of Table I of the paper."""
+        return System._of(native.known_system("pizza_toss"))
+
+    @staticmethod
+    def motor() -> System:
+        """The motor of Table III of the paper."""
+        return System._of(native.known_system("motor"))
+
+    @staticmethod
+    def from_stroke(
+        *,
+        stroke: Float,
+        amplitude_angle: Float,
+        angular_frequency: Float,
+        phase_lag: Float = 0.0,
+        contact_radius: Float,
+        gyration_radius: Float,
+        friction: Float,
+        restitution: Float,
+        preload_acceleration: Float,
+        load_acceleration: Float = 0.0,
+    ) -> System:
+        """A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the
+        paper).
+
+        Args:
+            stroke: stroke c (m), not negative.
+            amplitude_angle: amplitude angle phi_L (rad), in [0, pi/2]: 0 lifts only, pi/2 twists only.
+            friction, restitution, preload_acceleration, load_acceleration: as of :class:`System`.
+
+        >>> import bouncing_disk as bd
+        >>> bd.System.from_stroke(stroke=0.25, amplitude_angle=0.55, angular_frequency=15.0, contact_radius=0.135,
+        ...     gyration_radius=0.11, friction=0.6, restitution=0.5,
+        ...     preload_acceleration=9.8) == bd.System.pizza_toss()
+        True
+        """
+        arguments = locals()
+        amplitude, twist_amplitude = native.amplitudes_of_stroke(arguments)
+        del arguments["stroke"], arguments["amplitude_angle"]
+        return System(amplitude=amplitude, twist_amplitude=twist_amplitude, **arguments)
+
+    def replace(self, **changes: Any) -> System:
+        """The same system with other arguments."""
+        made = System.__new__(System)
+        made.__dict__["_native"] = self._native.replaced(changes)
+        return made
+
+    def with_load_torque(self, *, torque: Float, mass: Float) -> System:
+        """The same system with a load torque.
+
+        Args:
+            torque: load torque T_L (N m); a positive one decelerates a positive rotation.
+            mass: mass m of the disk (kg), positive.
+        """
+        return self.replace(load_acceleration=native.load_acceleration(locals()))
+
+    def platform_motion(self, *, phases: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Height and angle of the platform.
+
+        Args:
+            phases: phases omega t (rad), shape (n,).
+
+        Returns:
+            A sin(omega t) (m) and Phi sin(omega t + theta) (rad), Eq. (1).
+
+        >>> import bouncing_disk as bd
+        >>> import numpy as np
+        >>> pizza = bd.System.pizza_toss()
+        >>> height, angle = pizza.platform_motion(phases=[0.5 * np.pi])
+        >>> float(height[0]) == pizza.amplitude, float(angle[0]) == pizza.twist_amplitude
+        (True, True)
+        """
+        return native.platform_motion(locals())
+
+    def to_dict(self) -> dict[str, Any]:
+        """The parameters as the Rust library stores them: ``{"platform": {...}, "disk": {...}}``."""
+        parts = list(self._given.items())
+        return {"platform": dict(parts[:4]), "disk": dict(parts[4:])}
+
+    @classmethod
+    def from_dict(cls, parameters: dict[str, Any]) -> System:
+        """The system of such a dictionary."""
+        if not isinstance(parameters, dict) or set(parameters) != {"platform", "disk"}:
+            raise TypeError("a system is a dictionary of two: its platform and its disk")
+        return System._of({**parameters["platform"], **parameters["disk"]})
+
+
+class ChatterCut(Parameters):
+    """Put a chattering disk on the platform by a rule, as simulations do that follow it impact by impact.
+
+    Without one (``chatter=None``) the infinite sequence of impacts is summed in closed form.
+
+    Args:
+        smallest_speed: normalised impact speed, not negative, below which the disk is put on the platform.
+        short_flight: duration, not negative, in periods of the platform, below which a flight is short.
+        short_flights: how many consecutive short flights put the disk on the platform, at least 1.
+
+    >>> import bouncing_disk as bd
+    >>> bd.ChatterCut(smallest_speed=1e-6, short_flight=0.01, short_flights=50)
+    ChatterCut(smallest_speed=1e-06, short_flight=0.01, short_flights=50)
+    """
+
+    smallest_speed: float
+    short_flight: float
+    short_flights: int
+
+    def __init__(self, *, smallest_speed: Float, short_flight: Float, short_flights: Int) -> None:
+        self.__dict__["_native"] = native.chatter_cut(locals())
+
+    @staticmethod
+    def paper() -> ChatterCut:
+        """The rule of the paper's simulations."""
+        speed, flight, flights = native.paper_cut()
+        return ChatterCut(smallest_speed=speed, short_flight=flight, short_flights=flights)

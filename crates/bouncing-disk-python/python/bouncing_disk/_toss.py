@@ -1,0 +1,461 @@
+"""Tosses and trajectories: the motion of a disk in SI units."""
+
+# mypy: disable-error-code="no-any-return"
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal, NamedTuple
+
+from bouncing_disk import _native as native
+from bouncing_disk._base import *
+from bouncing_disk._orbits import PeriodicOrbit
+from bouncing_disk._system import ChatterCut, System
+
+__all__ = [
+    "Energy",
+    "EventTable",
+    "RotaryResponse",
+    "TossDesign",
+    "TossOrbit",
+    "TossPerformance",
+    "Trajectory",
+    "TrajectorySamples",
+    "best_toss",
+    "multi_toss",
+    "rotary_response",
+    "simulate",
+    "single_toss",
+    "toss_trajectory",
+]
+
+
+class Energy(NamedTuple):
+    """An energy balance per unit mass (J/kg).
+
+    Attributes:
+        normal_work, friction_work: work of the platform by normal forces and by friction.
+        restitution_loss, friction_loss: what impacts and friction take away.
+        load_work: work done against the load.
+        axial_kinetic_change, potential_change, rotary_kinetic_change: changes of the three energies of the
+            disk.
+    """
+
+    normal_work: float
+    friction_work: float
+    restitution_loss: float
+    friction_loss: float
+    load_work: float
+    axial_kinetic_change: float
+    potential_change: float
+    rotary_kinetic_change: float
+
+
+class TossPerformance(NamedTuple):
+    """What a single toss gives, in SI units.
+
+    Attributes:
+        airborne_speed: rotary speed of the disk in the air (rad/s).
+        efficiency: rotary energy that the disk has gained over the energy that was put in; NaN where none
+            was.
+        speed_ratio: airborne speed over the largest rotary speed of the platform; None without twist.
+        separation_phase: phase of the separation (rad).
+        sliding_at_separation: whether the disk slides as it leaves.
+        launch_speed: vertical speed of the disk as it leaves (m/s).
+        rotary_energy_gain: rotary kinetic energy gained (J/kg).
+        energy: the balance up to the separation.
+    """
+
+    airborne_speed: float
+    efficiency: float
+    speed_ratio: float | None
+    separation_phase: float
+    sliding_at_separation: bool
+    launch_speed: float
+    rotary_energy_gain: float
+    energy: Energy
+
+
+def single_toss(
+    system: System, *, initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest"
+) -> TossPerformance:
+    """The toss of a disk from its platform, up to the separation.
+
+    Args:
+        initial_spin: whether the disk does not turn at first, or turns with the platform.
+
+    >>> import bouncing_disk as bd
+    >>> toss = bd.single_toss(bd.System.pizza_toss())
+    >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
+    14
+    """
+    return native.single_toss(system, initial_spin)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TossOrbit(Result):
+    """What a motion has settled on, in SI units.
+
+    Attributes:
+        kind: ``"periodic"``, ``"chattering"``, ``"chaotic"``, ``"undecided"`` or ``"at-rest"``.
+        period, platform_periods: impacts and platform periods of one round of a periodic or chattering
+            motion, else 0.
+        long_flights: flights of a chattering round that last longer than half a period.
+        multipliers: Floquet multipliers of a periodic orbit: two of the vertical motion, one of the rotation;
+            else NaN, shape (3,).
+        lyapunov_exponent: growth per impact of a motion that does not repeat, where it was measured.
+        mean_angular_speed: mean angular speed (rad/s); None at rest.
+        rotation_repeats: whether the angular speed repeats as well; None where nothing repeats.
+        time, impact_phase: instant (s) and phase (rad) of each collision: of one round, or all that were
+            examined, shape (m,).
+        axial_impact_velocity: axial velocity of the disk relative to the platform just before (m/s), not
+            positive, shape (m,).
+        tangential_impact_velocity: angular speed of the disk relative to the platform just before (rad/s),
+            shape (m,).
+        angular_speed, angle: angular speed of the disk just before (rad/s), and the angle that it has turned
+            (rad), shape (m,).
+        capped: whether friction ended the slip within the impact, shape (m,).
+        lyapunov_exponent_error: standard error of the exponent: scatter, drift and rounding.
+    """
+
+    kind: str
+    period: int
+    platform_periods: int
+    long_flights: int
+    multipliers: ComplexArray
+    lyapunov_exponent: float | None
+    mean_angular_speed: float | None
+    rotation_repeats: bool | None
+    time: FloatArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+    tangential_impact_velocity: FloatArray
+    angular_speed: FloatArray
+    angle: FloatArray
+    capped: BoolArray
+    lyapunov_exponent_error: float | None
+
+
+def multi_toss(
+    system: System,
+    *,
+    phase: Float = 0.0,
+    angular_speed: Float | None = None,
+    gap: Float | None = None,
+    relative_velocity: Float | None = None,
+    transient_impacts: Int = 4000,
+    examined_impacts: Int = 1024,
+    longest_period: Int = 128,
+    tolerance: Float = 1e-09,
+    chatter: ChatterCut | None = None,
+    progress: Progress = None,
+) -> TossOrbit:
+    """What a motion settles on: a periodic orbit, chattering, chaos or rest, with its collisions.
+
+    Args:
+        phase, angular_speed, gap, relative_velocity: the start, as of :func:`simulate`.
+        transient_impacts: impacts that are not looked at.
+        examined_impacts: impacts that are looked at after them, in [2, 10000000].
+        longest_period: the longest period, in impacts, that is recognised, up to 4096.
+        tolerance: phases (rad) and relative speeds that differ by no more are the same.
+        chatter: how a chatter ends; ``None`` sums it.
+
+    >>> import bouncing_disk as bd
+    >>> tossed = bd.System.pizza_toss().replace(amplitude=0.0566)
+    >>> bd.multi_toss(tossed, phase=4.7).kind
+    'chattering'
+    """
+    return native.multi_toss(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TrajectorySamples(Result):
+    """Disk and platform at many instants, in SI units; all arrays have the shape (n,).
+
+    Attributes:
+        time: seconds from phase 0 of the first period.
+        height, axial_velocity: of the disk (m, m/s), above the platform's mean height.
+        angle, angular_speed: of the disk (rad, rad/s); the angle starts at the platform's own.
+        platform_height, platform_axial_velocity, platform_angle, platform_angular_speed: those of the
+            platform.
+        mode: how the disk moves: a place in :attr:`MODES`.
+    """
+
+    MODES: ClassVar[tuple[str, ...]] = ("flight", "sticking", "sliding-forward", "sliding-backward")
+
+    time: FloatArray
+    height: FloatArray
+    axial_velocity: FloatArray
+    angle: FloatArray
+    angular_speed: FloatArray
+    platform_height: FloatArray
+    platform_axial_velocity: FloatArray
+    platform_angle: FloatArray
+    platform_angular_speed: FloatArray
+    mode: ByteArray
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class EventTable(Result):
+    """The events of a motion, in SI units; all arrays have the shape (n,).
+
+    Attributes:
+        time, phase: instant (s) and phase of the platform (rad).
+        kind: what happened: a place in :attr:`KINDS`.
+        mode_before, mode_after: how the disk moves: places in :attr:`TrajectorySamples.MODES`.
+        height, angle: of the disk (m, rad).
+        axial_velocity_before, axial_velocity_after: of the disk (m/s).
+        angular_speed_before, angular_speed_after: of the disk (rad/s).
+        axial_impact_velocity, tangential_impact_velocity: disk minus platform just before an impact (m/s,
+            rad/s), else NaN.
+        capped: whether friction ended the slip within an impact.
+        summed_impacts: impacts that an attachment has summed, else 0.
+        error_bound: bound on the error of an attachment's phase (rad), else NaN.
+    """
+
+    KINDS: ClassVar[tuple[str, ...]] = (
+        "impact",
+        "attachment",
+        "separation",
+        "stick-to-slip",
+        "slip-to-stick",
+        "slip-reversal",
+    )
+
+    time: FloatArray
+    phase: FloatArray
+    kind: ByteArray
+    mode_before: ByteArray
+    mode_after: ByteArray
+    height: FloatArray
+    axial_velocity_before: FloatArray
+    axial_velocity_after: FloatArray
+    angle: FloatArray
+    angular_speed_before: FloatArray
+    angular_speed_after: FloatArray
+    axial_impact_velocity: FloatArray
+    tangential_impact_velocity: FloatArray
+    capped: BoolArray
+    summed_impacts: IntArray
+    error_bound: FloatArray
+
+    def names(self) -> list[str]:
+        """What happened, in words: those of :attr:`KINDS`."""
+        return [self.KINDS[kind] for kind in self.kind]
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Trajectory(Stored):
+    """The motion of a disk up to some event, in SI units.
+
+    Made by :func:`simulate` and :func:`toss_trajectory`.
+
+    Attributes:
+        system: the system.
+        start_time: time of the start (s), from phase 0 of the first period.
+        end_time: time of the last event (s); where no event follows, the time until which the motion was
+            asked for.
+        event_count: number of events.
+        energy: the energy balance of the whole motion, per unit mass.
+    """
+
+    system: System
+    start_time: float
+    end_time: float
+    event_count: int
+    energy: Energy
+
+    def samples(self, *, count: Int) -> TrajectorySamples:
+        """Disk and platform at instants of equal distances from the start to the end.
+
+        Args:
+            count: number of instants, in [2, 2^24].
+
+        Raises:
+            ComputationError: There are no events, and the motion was given no duration.
+
+        >>> import bouncing_disk as bd
+        >>> samples = bd.toss_trajectory(bd.System.pizza_toss()).samples(count=200)
+        >>> round(float(samples.height.max()), 2)  # m
+        0.54
+        """
+        return native.samples(locals())
+
+    def events(self) -> EventTable:
+        """The events.
+
+        >>> import bouncing_disk as bd
+        >>> bd.toss_trajectory(bd.System.pizza_toss()).events().names()
+        ['stick-to-slip', 'separation', 'impact']
+        """
+        return native.events(locals())
+
+    def __len__(self) -> int:
+        """Number of events."""
+        return self.event_count
+
+
+def toss_trajectory(
+    system: System, *, initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest"
+) -> Trajectory:
+    """The whole toss of a disk from its platform, from the start until it lands.
+
+    Args:
+        initial_spin: whether the disk does not turn at first, or turns with the platform.
+    """
+    return native.toss_trajectory(locals())
+
+
+def simulate(
+    system: System,
+    *,
+    phase: Float = 0.0,
+    angular_speed: Float | None = None,
+    gap: Float | None = None,
+    relative_velocity: Float | None = None,
+    events: Int = 1000,
+    duration: Float | None = None,
+    chatter: ChatterCut | None = None,
+    progress: Progress = None,
+) -> Trajectory:
+    """The motion of a disk, event by event.
+
+    The disk starts on the platform if neither ``gap`` nor ``relative_velocity`` is given, leaves it if the
+    latter is given alone, and is in the air if there is a gap.
+
+    Args:
+        phase: phase of the platform at the start (rad).
+        angular_speed: angular speed of the disk (rad/s); by default that of the platform.
+        gap: height above the platform (m), positive.
+        relative_velocity: axial velocity relative to the platform (m/s); not negative without a gap.
+        events: the most events, in [1, 1000000].
+        duration: time (s), positive, after which the next event is the last one; where none follows, the
+            motion ends then.
+        chatter: how a chatter ends; ``None`` sums it.
+
+    >>> import bouncing_disk as bd
+    >>> motion = bd.simulate(bd.System.pizza_toss(), phase=4.7, events=100)
+    >>> len(motion)
+    100
+    """
+    return native.simulate(locals())
+
+
+@dataclass(frozen=True)
+class TossDesign:
+    """The best hand motion, and what it gives.
+
+    Attributes:
+        stroke, amplitude_angle, angular_frequency, phase_lag: the hand motion (m, rad, rad/s, rad).
+        amplitude_ratio: the tangent of the amplitude angle.
+        value: the objective, over the range of friction: rad/s, a share, or turns.
+        toss: the toss at the middle of the range of friction.
+        flight_height: how high the dough flies above the place where it leaves the hand (m).
+        turns: turns until it is back there.
+        grid_points: hand motions on the grid from which the optimum was found.
+        best_on_grid: the best of them.
+        hidden_gain: what the objective could be above the optimum at most.
+    """
+
+    stroke: float
+    amplitude_angle: float
+    angular_frequency: float
+    phase_lag: float
+    amplitude_ratio: float
+    value: float
+    toss: TossPerformance
+    flight_height: float
+    turns: float
+    grid_points: int
+    best_on_grid: float
+    hidden_gain: float
+
+
+def best_toss(
+    *,
+    contact_radius: Float | None = None,
+    gyration_radius: Float | None = None,
+    preload_acceleration: Float | None = None,
+    initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
+    stroke: Float | None = None,
+    friction: Pair | None = None,
+    angular_frequency: Pair | None = None,
+    phase_lag: Pair | None = None,
+    highest_flight: Float | None = None,
+    objective: Literal["airborne-speed", "efficiency", "turns-per-toss"] = "airborne-speed",
+    over_friction: Literal["worst", "mean"] = "worst",
+    progress: Progress = None,
+) -> TossDesign:
+    """The hand motion that tosses best: its frequency, its amplitude angle and its phase lag.
+
+    Whatever is not given is that of the paper's Table I.
+
+    Args:
+        contact_radius, gyration_radius, preload_acceleration: of the dough (m, m, m/s^2), positive.
+        initial_spin: whether the dough does not turn at first, or turns with the hand.
+        stroke: stroke c (m), positive.
+        friction: least and most coefficient of friction, not negative.
+        angular_frequency: least and most angular frequency (rad/s), positive.
+        phase_lag: least and most phase lag (rad).
+        highest_flight: the highest that the dough may fly above the place where it leaves the hand (m),
+            positive.
+        objective: what is to be largest.
+        over_friction: how it is taken over the range of friction.
+
+    >>> import bouncing_disk as bd
+    >>> design = bd.best_toss(friction=(0.5, 0.7), angular_frequency=(10.0, 16.0), highest_flight=0.5)
+    >>> design.value > 15.0 and design.flight_height < 0.5 + 1e-9
+    True
+    """
+    return native.best_toss(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RotaryResponse(Result):
+    """What becomes of the spin of a disk on a periodic orbit of n impacts.
+
+    Attributes:
+        outcome: ``"steady"``: from every spin the disk comes to the one below; ``"kept"``: the load is as
+            large as friction, and every spin repeats itself for which all impacts slide in its direction;
+            ``"runaway"``: the load exceeds friction, and no spin repeats itself.
+        multiplier: that of the spin around the orbit: 0 of a steady one, 1 of one that is kept, NaN of a
+            runaway.
+        angular_speed: A steady disk's angular speed just before each impact (rad/s); empty of all others, as
+            are those below, shape (n,).
+        slip: that speed less the platform's (rad/s), shape (n,).
+        sliding: the slip that an impact leaves: 1 where the disk still turns faster, -1 where slower, 0 where
+            the slip ends, shape (n,).
+        stick_margin: the largest margin (rad/s) by which friction ends a slip: a smaller disturbance of the
+            spin is forgotten within one period of the orbit. NaN of all but a steady one, as is the next.
+        mean_angular_speed: mean angular speed (rad/s).
+        limit: the end of the spins that are kept (rad/s): those below it for a positive load, above it for a
+            negative one; NaN where every spin is, and of all others.
+        change: how much a runaway disk's angular speed changes in one period of the orbit in the end (rad/s),
+            else NaN.
+    """
+
+    outcome: str
+    multiplier: float
+    angular_speed: FloatArray
+    slip: FloatArray
+    sliding: IntArray
+    stick_margin: float
+    mean_angular_speed: float
+    limit: float
+    change: float
+
+
+def rotary_response(system: System, orbit: PeriodicOrbit) -> RotaryResponse:
+    """What becomes of the spin of a disk on a periodic orbit of its vertical motion, stable or unstable.
+
+    Args:
+        orbit: an orbit of ``ImpactMap.of_system(system)``.
+
+    Dough on a hand that the saddle of one impact in one period is tossed by, which no motion settles on:
+
+    >>> import bouncing_disk as bd
+    >>> system = bd.System.pizza_toss().replace(angular_frequency=8.5)
+    >>> orbits = bd.periodic_orbits(bd.ImpactMap.of_system(system), max_impacts=1, max_platform_periods=1)
+    >>> [(orbit.is_stable, bd.rotary_response(system, orbit).outcome) for orbit in orbits]
+    [(False, 'steady'), (False, 'steady')]
+    """
+    return native.rotary_response(locals())

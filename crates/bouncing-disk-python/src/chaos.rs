@@ -1,0 +1,428 @@
+//! What orbits do in the long run: diagrams, lives, exponents, verdicts, manifolds and crises.
+
+use bouncing_disk::Error;
+use bouncing_disk::core::{
+    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict},
+    chaos::{
+        Crisis as CrisisModel, CrisisSearch, LifeAfterRest, LyapunovOutcome, Manifold, ManifoldBranch,
+        ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
+    },
+};
+use numpy::{Complex64, PyArray1};
+use pyo3::prelude::*;
+
+use crate::arguments::{Arguments, Made, Starts};
+use crate::errors;
+use crate::orbits::{PeriodicOrbit, shown_orbit};
+use crate::results::{array, column, complex, holders, holding, make, matrix, room_for, signed};
+
+holders! {
+    /// What a `Crisis` holds.
+    Crisis(CrisisModel) = shown_crisis;
+}
+
+/// Rows of impacts, one after the other.
+struct Rows {
+    offsets: Vec<i64>,
+    phases: Vec<f64>,
+    velocities: Vec<f64>,
+}
+
+impl Rows {
+    fn of<'a>(
+        rows: impl Iterator<Item = &'a [bouncing_disk::core::ImpactState]> + Clone,
+    ) -> Result<Self, Error> {
+        let impacts = rows.clone().map(<[_]>::len).sum();
+        let mut flat = Self { offsets: vec![0], phases: room_for(impacts)?, velocities: room_for(impacts)? };
+        for row in rows {
+            flat.phases.extend(row.iter().map(|state| state.phase().angle()));
+            flat.velocities.extend(row.iter().map(|state| state.velocity()));
+            flat.offsets.push(flat.phases.len() as i64);
+        }
+        Ok(flat)
+    }
+}
+
+/// The impacts of many orbits after their transients.
+#[pyfunction]
+pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
+    let (starts, policy, py) = (Starts::of(&a)?, a.policy()?, a.py());
+    let (transient, recorded) = (a.usize("transient")?, a.usize("recorded")?);
+    let rows = a.run(|observer| {
+        let columns = bouncing_disk::core::sweep::orbit_diagram(
+            &starts.orbits(policy)?,
+            transient,
+            recorded,
+            observer,
+        )?;
+        Rows::of(columns.iter().map(Vec::as_slice))
+    })?;
+    make!(
+        py,
+        "OrbitDiagram",
+        array(py, starts.axial_forcing),
+        array(py, starts.restitution),
+        array(py, rows.offsets),
+        array(py, rows.phases),
+        array(py, rows.velocities),
+    )
+}
+
+/// How many impacts each orbit has before the disk comes to rest.
+#[pyfunction]
+pub(crate) fn survival_times(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<i64>>> {
+    let (starts, most, policy) = (Starts::of(&a)?, a.usize("most")?, a.policy()?);
+    let times = a.run(|observer| {
+        bouncing_disk::core::sweep::survival_times(&starts.orbits(policy)?, most, observer)
+            .map_err(Error::from)
+    })?;
+    Ok(column(a.py(), &times, |time| *time as i64))
+}
+
+/// The largest Lyapunov exponent of each orbit.
+#[pyfunction]
+pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<f64>>> {
+    let (starts, transient, impacts) = (Starts::of(&a)?, a.usize("transient")?, a.usize("impacts")?);
+    let exponents = a.run(|observer| {
+        Ok(bouncing_disk::core::chaos::lyapunov_exponents(&starts.states()?, transient, impacts, observer)?)
+    })?;
+    Ok(column(a.py(), &exponents, |exponent| exponent.unwrap_or(f64::NAN)))
+}
+
+/// The numbers of the exponents of one orbit; NaN where there are none.
+struct Exponents {
+    /// The place in `LyapunovSpectra.OUTCOMES`.
+    outcome: u8,
+    exponents: [f64; 4],
+    impacts: i64,
+    phase: f64,
+}
+
+impl Exponents {
+    fn of(outcome: &LyapunovOutcome) -> Self {
+        let none = Self { outcome: 1, exponents: [f64::NAN; 4], impacts: 0, phase: f64::NAN };
+        match outcome {
+            LyapunovOutcome::Exponents(found) => Self {
+                outcome: 0,
+                exponents: [
+                    found.largest,
+                    found.standard_error,
+                    found.second.unwrap_or(f64::NEG_INFINITY),
+                    found.exact_sum.unwrap_or(f64::NEG_INFINITY),
+                ],
+                impacts: signed(found.impacts),
+                ..none
+            },
+            LyapunovOutcome::Rested { impacts } => Self { impacts: signed(*impacts), ..none },
+            LyapunovOutcome::Grazed { impacts, phase } => {
+                Self { outcome: 2, impacts: signed(*impacts), phase: phase.angle(), ..none }
+            }
+            _ => none,
+        }
+    }
+}
+
+/// Both Lyapunov exponents of each orbit.
+#[pyfunction]
+pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
+    let (starts, transient, impacts) = (Starts::of(&a)?, a.u64("transient")?, a.u64("impacts")?);
+    let all = a.run(|observer| {
+        let outcomes =
+            bouncing_disk::core::chaos::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
+        let mut all = room_for(outcomes.len())?;
+        all.extend(outcomes.iter().map(Exponents::of));
+        Ok(all)
+    })?;
+    let py = a.py();
+    make!(
+        py,
+        "LyapunovSpectra",
+        array(py, starts.axial_forcing),
+        array(py, starts.restitution),
+        column(py, &all, |one| one.outcome),
+        column(py, &all, |one| one.exponents[0]),
+        column(py, &all, |one| one.exponents[1]),
+        column(py, &all, |one| one.exponents[2]),
+        column(py, &all, |one| one.exponents[3]),
+        column(py, &all, |one| one.impacts),
+        column(py, &all, |one| one.phase),
+    )
+}
+
+/// The numbers of one verdict; those that it does not have are 0 or NaN.
+#[derive(Debug, Clone, Copy)]
+struct Evidence {
+    kind: u8,
+    reason: u8,
+    period: u64,
+    platform_periods: u64,
+    after: u64,
+    rests: u64,
+    exponent: f64,
+    standard_error: f64,
+    rounding_error: f64,
+    multipliers: [Complex64; 2],
+}
+
+/// No verdict.
+const NOTHING: Evidence = Evidence {
+    kind: UNDECIDED,
+    reason: 0,
+    period: 0,
+    platform_periods: 0,
+    after: 0,
+    rests: 0,
+    exponent: f64::NAN,
+    standard_error: f64::NAN,
+    rounding_error: f64::NAN,
+    multipliers: [Complex64::new(f64::NAN, f64::NAN); 2],
+};
+
+/// The places of `Verdicts.KINDS`.
+const PERIODIC: u8 = 0;
+const CHAOTIC: u8 = 1;
+const CHATTERING: u8 = 2;
+const AT_REST: u8 = 3;
+const UNDECIDED: u8 = 4;
+
+/// The place of the reason in `Verdicts.REASONS`, with the exponent that it has.
+fn undecided(reason: &UndecidedReason, rests: u64) -> Evidence {
+    let nothing = Evidence { rests, ..NOTHING };
+    match *reason {
+        UndecidedReason::ExponentNearZero { exponent, standard_error } => {
+            Evidence { reason: 1, exponent, standard_error, ..nothing }
+        }
+        UndecidedReason::NoPeriodFound { exponent, standard_error } => {
+            Evidence { reason: 2, exponent, standard_error, ..nothing }
+        }
+        UndecidedReason::Grazing { impacts, .. } => Evidence { reason: 3, after: impacts, ..nothing },
+        UndecidedReason::OnPeriodicOrbit { impacts, platform_periods, multipliers, .. } => Evidence {
+            reason: 4,
+            period: impacts,
+            platform_periods,
+            multipliers: complex(multipliers),
+            ..nothing
+        },
+        UndecidedReason::TransientMayLast { exponent, standard_error, .. } => {
+            Evidence { reason: 5, exponent, standard_error, ..nothing }
+        }
+        _ => nothing,
+    }
+}
+
+fn evidence(verdict: &Verdict) -> Evidence {
+    match verdict {
+        Verdict::Periodic { impacts, platform_periods, multipliers, after, rests, .. } => Evidence {
+            kind: PERIODIC,
+            period: *impacts,
+            platform_periods: *platform_periods,
+            after: *after,
+            rests: *rests,
+            multipliers: complex(*multipliers),
+            ..NOTHING
+        },
+        Verdict::Chaotic { exponent, standard_error, rests, .. } => Evidence {
+            kind: CHAOTIC,
+            exponent: *exponent,
+            standard_error: *standard_error,
+            rests: *rests,
+            ..NOTHING
+        },
+        Verdict::Chattering { cycle, after } => {
+            let (exponent, standard_error) = match cycle.trust {
+                CycleTrust::ChosenByRounding { exponent, standard_error } => (exponent, standard_error),
+                _ => (None, None),
+            };
+            Evidence {
+                kind: CHATTERING,
+                period: cycle.impacts,
+                platform_periods: cycle.platform_periods,
+                after: *after,
+                rests: 1,
+                exponent: exponent.unwrap_or(f64::NAN),
+                standard_error: standard_error.unwrap_or(f64::NAN),
+                rounding_error: cycle.rounding_error,
+                ..NOTHING
+            }
+        }
+        Verdict::AtRest { after, .. } => Evidence { kind: AT_REST, after: *after, rests: 1, ..NOTHING },
+        Verdict::Undecided { reason, rests } => undecided(reason, *rests),
+        _ => NOTHING,
+    }
+}
+
+/// What the orbit of each start does for good.
+#[pyfunction]
+pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
+    let (starts, py) = (Starts::of(&a)?, a.py());
+    let settings = VerdictSettings {
+        transient: a.u64("transient")?,
+        impacts: a.u64("impacts")?,
+        longest_period: a.usize("longest_period")?,
+        tolerance: a.real("tolerance")?,
+    };
+    let all = a.run(|observer| {
+        let count = starts.axial_forcing.len();
+        let mut all = room_for(count)?;
+        // A start that is not legal is refused before any is followed.
+        (0..count).try_for_each(|index| starts.state(index).map(|_| ()))?;
+        let start = |index: usize| starts.state(index).map(Some);
+        each_verdict(count, start, settings, observer, |verdict| all.extend(verdict.as_ref().map(evidence)))?;
+        Ok(all)
+    })?;
+    let multipliers = all.iter().flat_map(|one| one.multipliers).collect();
+    make!(
+        py,
+        "Verdicts",
+        array(py, starts.axial_forcing),
+        array(py, starts.restitution),
+        column(py, &all, |one| one.kind),
+        column(py, &all, |one| one.reason),
+        column(py, &all, |one| signed(one.period)),
+        column(py, &all, |one| signed(one.platform_periods)),
+        column(py, &all, |one| signed(one.after)),
+        column(py, &all, |one| signed(one.rests)),
+        column(py, &all, |one| one.exponent),
+        column(py, &all, |one| one.standard_error),
+        column(py, &all, |one| one.rounding_error),
+        matrix(py, multipliers, [all.len(), 2])?,
+    )
+}
+
+/// The place in `Manifold.PIECE_ENDS`.
+fn piece_end(end: PieceEnd) -> u8 {
+    match end {
+        PieceEnd::Saddle => 0,
+        PieceEnd::Graze => 1,
+        PieceEnd::Rest => 2,
+        PieceEnd::TooFast => 3,
+        PieceEnd::Cut => 4,
+        _ => u8::MAX,
+    }
+}
+
+/// The place in `Manifold.BRANCH_ENDS`.
+fn branch_end(end: ManifoldEnd) -> u8 {
+    match end {
+        ManifoldEnd::Arclength => 0,
+        ManifoldEnd::Points => 1,
+        ManifoldEnd::Generations => 2,
+        ManifoldEnd::Attracted => 3,
+        ManifoldEnd::Lost => 4,
+        _ => u8::MAX,
+    }
+}
+
+/// The stable or the unstable manifold of a saddle.
+#[pyfunction]
+pub(crate) fn manifold(a: Arguments<'_>) -> Made<'_> {
+    let (map, orbit, py) = (a.map()?, a.held::<PeriodicOrbit>("orbit")?, a.py());
+    let kind = a.choice("kind", &[("unstable", ManifoldKind::Unstable), ("stable", ManifoldKind::Stable)])?;
+    let (points, generations) = (a.usize("max_points")?, a.u32("max_generations")?);
+    let (chord, turn, launch) = (a.real("chord")?, a.real("turn")?, a.optional("launch_speed")?);
+    let settings = ManifoldSettings::new(a.real("arclength")?, points)
+        .and_then(|settings| settings.with_resolution(chord, turn)?.with_generations(generations));
+    let settings = match launch {
+        Some(speed) => settings.and_then(|settings| settings.with_launch_speed(speed)),
+        None => settings,
+    };
+    let (settings, orbit) = (settings.map_err(|error| a.refused(error))?, &orbit.get().0);
+    let (found, rows) = a.run(|observer| {
+        let found: Manifold = map.manifold(orbit, kind, &settings, observer)?;
+        let pieces: Vec<_> = found.pieces().map(|piece| piece.states.as_slice()).collect();
+        let rows = Rows::of(pieces.iter().copied())?;
+        Ok((found, rows))
+    })?;
+    let branches: &[ManifoldBranch] = &found.branches;
+    let pieces: Vec<_> = branches
+        .iter()
+        .zip(0_i64..)
+        .flat_map(|(branch, place)| branch.pieces.iter().map(move |piece| (piece, place)))
+        .collect();
+    make!(
+        py,
+        "Manifold",
+        a.get("kind")?,
+        found.multiplier,
+        array(py, rows.offsets),
+        array(py, rows.phases),
+        array(py, rows.velocities),
+        column(py, &pieces, |(_, branch)| *branch),
+        column(py, &pieces, |(piece, _)| piece_end(piece.start)),
+        column(py, &pieces, |(piece, _)| piece_end(piece.end)),
+        column(py, branches, |branch| branch.impact as i64),
+        column(py, branches, |branch| u8::from(branch.side == Side::Earlier)),
+        column(py, branches, |branch| branch.arclength),
+        column(py, branches, |branch| i64::from(branch.generations)),
+        column(py, branches, |branch| branch_end(branch.end)),
+    )
+}
+
+fn shown_crisis(py: Python<'_>, crisis: CrisisModel) -> Made<'_> {
+    let own = crisis.tangency.as_ref().ok();
+    let is_boundary_crisis = match crisis.after_rest {
+        LifeAfterRest::Short { .. } => Some(true),
+        LifeAfterRest::Long { .. } => Some(false),
+        LifeAfterRest::Varied { .. } => None,
+    };
+    let side = |side| if side == Side::Later { "later" } else { "earlier" };
+    let made = make!(
+        py,
+        "Crisis",
+        crisis.restitution,
+        crisis.forcing,
+        crisis.forcing_error,
+        crisis.bracket,
+        is_boundary_crisis,
+        crisis.tangency.as_ref().err().map(ToString::to_string),
+        own.map(|own| shown_orbit(py, own.inside.clone())).transpose()?,
+        own.map(|own| shown_orbit(py, own.touched.clone())).transpose()?,
+        own.map(|own| column(py, &own.orbit, |state| state.phase().angle())),
+        own.map(|own| column(py, &own.orbit, |state| state.velocity())),
+        own.map(|own| side(own.side)),
+        own.map(|own| own.share),
+        own.map(|own| own.curvature),
+        crisis.life_exponent(),
+    )?;
+    holding(made, Crisis(crisis))
+}
+
+/// Where a chaotic attractor begins to lose orbits to rest.
+#[pyfunction]
+pub(crate) fn crisis(a: Arguments<'_>) -> Made<'_> {
+    let (samples, impacts) = (a.u32("samples")?, a.u64("impacts")?);
+    let search = CrisisSearch::new(a.real("restitution")?, a.pair("axial_forcing")?)
+        .and_then(|search| search.with_samples(samples, impacts))
+        .map_err(|error| a.refused(error))?;
+    let saddle = |name: &str| a.given(name)?.map(|_| a.held::<PeriodicOrbit>(name)).transpose();
+    let (inside, touched) = (saddle("inside")?, saddle("touched")?);
+    let first = inside.as_ref().or(touched.as_ref());
+    let saddles = first.map(|first| (&first.get().0, &touched.as_ref().unwrap_or(first).get().0));
+    let found = a.run(|observer| Ok(search.crisis(saddles, observer)?))?;
+    shown_crisis(a.py(), found.map_err(|reason: NoCrisis| errors::no_crisis(a.py(), &reason))?)
+}
+
+/// How long orbits live beyond a crisis.
+#[pyfunction]
+pub(crate) fn lives(a: Arguments<'_>) -> Made<'_> {
+    let (crisis, beyond, py) = (a.held::<Crisis>("self")?, a.row("beyond")?, a.py());
+    let (crisis, orbits, impacts) = (&crisis.get().0, a.usize("orbits")?, a.usize("impacts")?);
+    let found = a.run(|observer| Ok(crisis.lives(&beyond, orbits, impacts, observer)?))?;
+    let (exponent, error, why) = match &found.scaling {
+        Ok(law) => (law.exponent, law.standard_error, None),
+        Err(reason) => (f64::NAN, f64::NAN, Some(reason.to_string())),
+    };
+    let infinite = |number: f64| if number < f64::MAX { number } else { f64::INFINITY };
+    make!(
+        py,
+        "CrisisLives",
+        column(py, &found.lives, |life| life.beyond),
+        column(py, &found.lives, |life| infinite(life.impacts)),
+        column(py, &found.lives, |life| infinite(life.relative_error)),
+        column(py, &found.lives, |life| life.ended as i64),
+        column(py, &found.lives, |life| life.orbits as i64),
+        exponent,
+        error,
+        why,
+    )
+}

@@ -1,0 +1,270 @@
+//! Orbits of the impact map: its steps, periodic orbits, their branches and doublings.
+
+use bouncing_disk::Error;
+use bouncing_disk::core::{
+    Error as CoreError, ImpactMap, ImpactState,
+    orbits::{
+        BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter, OrbitSearch,
+        PeriodicOrbit as OrbitModel, Stability, feigenbaum_estimates,
+    },
+    run::Watch,
+    sweep::OrbitBatch,
+};
+use numpy::PyArray1;
+use pyo3::IntoPyObjectExt;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+use rayon::prelude::*;
+
+use crate::arguments::{Arguments, Made, Starts, common_length, first_impact};
+use crate::errors;
+use crate::parameters::{pair, state};
+use crate::results::{array, column, complex, holders, holding, make, matrix, room_for};
+
+holders! {
+    /// What a `PeriodicOrbit` holds.
+    PeriodicOrbit(OrbitModel) = shown_orbit;
+    /// What a `Branch` holds.
+    Branch(BranchModel) = shown_branch;
+}
+
+/// A periodic orbit as Python has it.
+pub(crate) fn shown_orbit(py: Python<'_>, orbit: OrbitModel) -> Made<'_> {
+    let states = &orbit.states;
+    let (x, y) = (orbit.monodromy.x_axis, orbit.monodromy.y_axis);
+    let made = make!(
+        py,
+        "PeriodicOrbit",
+        column(py, states, |state| state.phase().angle()),
+        column(py, states, |state| state.velocity()),
+        column(py, states, |state| state.normalised_speed()),
+        orbit.period(),
+        orbit.platform_periods,
+        matrix(py, vec![x.x, y.x, x.y, y.y], [2, 2])?,
+        array(py, complex(orbit.multipliers()).to_vec()),
+        orbit.stability() == Stability::Stable,
+        orbit.stability().to_string(),
+    )?;
+    holding(made, PeriodicOrbit(orbit))
+}
+
+/// The impact that is so many steps later.
+#[pyfunction]
+pub(crate) fn iterate(a: Arguments<'_>) -> PyResult<(f64, f64)> {
+    let (map, impacts) = (a.map()?, a.u64("impacts")?);
+    let (phase, velocity) = (a.real("impact_phase")?, a.real("axial_impact_velocity")?);
+    a.run(|observer| Ok(pair(map.iterate(state(phase, velocity)?, impacts, observer)?)))
+}
+
+/// The periodic orbit next to a guess.
+#[pyfunction]
+pub(crate) fn refine(a: Arguments<'_>) -> Made<'_> {
+    let (map, phases) = (a.map()?, a.row("impact_phase")?);
+    let velocities = a.numbers("axial_impact_velocity")?;
+    common_length(&[("impact_phase", Some(phases.len())), ("axial_impact_velocity", velocities.len())])?;
+    let orbit = a.run(|_| {
+        let impacts = phases.iter().enumerate().map(|(index, phase)| state(*phase, velocities.get(index)));
+        Ok(map.refine(&impacts.collect::<Result<Vec<_>, _>>()?)?)
+    })?;
+    shown_orbit(a.py(), orbit)
+}
+
+/// The attracting orbit that a start settles on.
+#[pyfunction]
+pub(crate) fn settled_orbit(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny>>> {
+    let (map, phase, speed) = (a.map()?, a.real("impact_phase")?, a.real("normalised_speed")?);
+    let (transient, longest) = (a.usize("transient")?, a.usize("longest_period")?);
+    let tolerance = a.real("tolerance")?;
+    let orbit = a.run(|observer| {
+        let start = first_impact(phase, speed)?;
+        Ok(map.settled_orbit(start, transient, longest, tolerance, observer)?)
+    })?;
+    orbit.map(|orbit| shown_orbit(a.py(), orbit)).transpose()
+}
+
+/// A radius within which every orbit is proven to end on this one.
+#[pyfunction]
+pub(crate) fn proven_radius(a: Arguments<'_>) -> PyResult<f64> {
+    let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("self")?);
+    orbit.get().0.proven_radius(&map).map_err(|error| a.refused(error))
+}
+
+/// The radius within which a start counts as caught by an orbit.
+#[pyfunction]
+pub(crate) fn trapping_radius(a: Arguments<'_>) -> PyResult<f64> {
+    let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("self")?);
+    let (orbit, samples) = (&orbit.get().0, a.count("samples", 1 << 20, "[1, 1048576]")? as u32);
+    a.run(|observer| Ok(orbit.trapping_radius(&map, samples, observer)?))
+}
+
+/// The periodic orbits of few impacts.
+#[pyfunction]
+pub(crate) fn periodic_orbits(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>>> {
+    let (map, impacts, periods) = (a.map()?, a.usize("max_impacts")?, a.u64("max_platform_periods")?);
+    let (phases, speeds) = (a.u32("phases")?, a.u32("speeds")?);
+    let search = OrbitSearch::new(impacts, periods).and_then(|search| search.with_starts(phases, speeds));
+    let search = search.map_err(|error| a.refused(error))?;
+    let found = a.run(|observer| Ok(map.periodic_orbits(&search, observer)?))?;
+    found.orbits.into_iter().map(|orbit| shown_orbit(a.py(), orbit)).collect()
+}
+
+/// The words of a continuation's parameter.
+const PARAMETERS: [(&str, ContinuationParameter); 2] =
+    [("axial_forcing", ContinuationParameter::Forcing), ("restitution", ContinuationParameter::Restitution)];
+
+/// A kind by its name, and the impact that it is about.
+fn kind(kind: BifurcationKind) -> (&'static str, Option<usize>) {
+    match kind {
+        BifurcationKind::Doubling => ("doubling", None),
+        BifurcationKind::Fold => ("fold", None),
+        BifurcationKind::Graze { flight } => ("graze", Some(flight)),
+        BifurcationKind::VanishingImpact { impact } => ("vanishing-impact", Some(impact)),
+        BifurcationKind::Birth => ("birth", None),
+        _ => ("unknown", None),
+    }
+}
+
+fn shown_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {
+    let points = &branch.points;
+    let period = points.first().map_or(0, |point| point.orbit.period());
+    // A number of each impact of each orbit, orbit by impact.
+    let impacts = |of: fn(&ImpactState) -> f64| {
+        let rows = points.iter().flat_map(|point| {
+            (0..period).map(move |index| point.orbit.states.get(index).map_or(f64::NAN, of))
+        });
+        matrix(py, rows.collect(), [points.len(), period])
+    };
+    let mut bifurcations = Vec::new();
+    for found in &branch.bifurcations {
+        let ((name, impact), point) = (kind(found.kind), &found.point);
+        let orbit = shown_orbit(py, point.orbit.clone())?;
+        bifurcations.push(make!(py, "Bifurcation", name, point.parameter, point.arclength, impact, orbit)?);
+    }
+    let end = match branch.end {
+        BranchEnd::RangeLimit(end) => format!("the parameter reaches {end:?}"),
+        BranchEnd::Bifurcation => "the orbit ends in the last bifurcation".to_owned(),
+        BranchEnd::Closed => "the branch is back at its start".to_owned(),
+        BranchEnd::PointLimit(points) => format!("there are {points} points"),
+        BranchEnd::StepTooSmall(arclength) => format!("no next point at the arclength {arclength:?}"),
+        _ => "unknown".to_owned(),
+    };
+    let parameter = PARAMETERS.into_iter().find(|(_, parameter)| *parameter == branch.parameter);
+    let multipliers = points.iter().flat_map(|point| complex(point.multipliers())).collect();
+    let made = make!(
+        py,
+        "Branch",
+        parameter.map_or("unknown", |(name, _)| name),
+        column(py, points, |point| point.parameter),
+        column(py, points, |point| point.arclength),
+        impacts(|state| state.phase().angle())?,
+        impacts(ImpactState::velocity)?,
+        impacts(ImpactState::normalised_speed)?,
+        matrix(py, multipliers, [points.len(), 2])?,
+        column(py, points, bouncing_disk::core::orbits::BranchPoint::is_stable),
+        end,
+        PyTuple::new(py, bifurcations)?,
+    )?;
+    holding(made, Branch(branch))
+}
+
+fn continuation(a: &Arguments<'_>, parameter: ContinuationParameter, rising: bool) -> PyResult<Continuation> {
+    let (first, largest, points) = (a.real("first_step")?, a.real("largest_step")?, a.usize("max_points")?);
+    Continuation::new(parameter, a.pair("parameter_range")?, rising)
+        .and_then(|settings| settings.with_steps(first, largest, points))
+        .map_err(|error| a.refused(error))
+}
+
+/// The branch of periodic orbits through one of them.
+#[pyfunction]
+pub(crate) fn continued(a: Arguments<'_>) -> Made<'_> {
+    let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("orbit")?);
+    let settings = continuation(&a, a.choice("parameter", &PARAMETERS)?, a.of("rising")?)?;
+    let orbit = &orbit.get().0;
+    shown_branch(a.py(), a.run(|observer| Ok(map.continued(orbit, &settings, observer)?))?)
+}
+
+/// The branch of twice the period that begins at a doubling.
+#[pyfunction]
+pub(crate) fn switched(a: Arguments<'_>) -> Made<'_> {
+    let (branch, index) = (a.held::<Branch>("self")?, a.usize("index")?);
+    let branch = &branch.get().0;
+    let settings = continuation(&a, branch.parameter, true)?;
+    shown_branch(a.py(), a.run(|observer| Ok(branch.switched(index, &settings, observer)?))?)
+}
+
+/// One orbit of a branch.
+#[pyfunction]
+pub(crate) fn branch_orbit(a: Arguments<'_>) -> Made<'_> {
+    let (branch, index) = (a.held::<Branch>("self")?, a.usize("index")?);
+    match branch.get().0.points.get(index) {
+        Some(point) => shown_orbit(a.py(), point.orbit.clone()),
+        None => Err(errors::out_of_range(a.py(), "index", index as f64, "less than the number of orbits")),
+    }
+}
+
+/// The period doublings of the orbit of one impact, and Feigenbaum's numbers from them.
+#[pyfunction]
+pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
+    let (restitution, count, py) = (a.real("restitution")?, a.usize("count")?, a.py());
+    let cascade = a.run(|observer| {
+        bouncing_disk::core::orbits::doubling_cascade(restitution, count, observer)
+            .map_err(|error: CoreError| Error::from(error))
+    })?;
+    let estimates = feigenbaum_estimates(&cascade);
+    make!(
+        py,
+        "DoublingCascade",
+        column(py, &cascade, |one| one.period as i64),
+        column(py, &cascade, |one| one.axial_forcing),
+        column(py, &cascade, |one| one.forcing_error),
+        column(py, &cascade, |one| one.multiplier),
+        column(py, &cascade, |one| one.width),
+        column(py, &cascade, |one| one.graze_margin),
+        column(py, &estimates, |one| one.number as i64),
+        column(py, &estimates, |one| one.delta),
+        column(py, &estimates, |one| one.delta_error),
+        column(py, &estimates, |one| one.alpha),
+        column(py, &estimates, |one| one.alpha_error),
+    )
+}
+
+/// Orbits that one thread advances together: what stays in its cache.
+const TOGETHER: usize = 1024;
+
+/// The impacts that so many steps lead to, of one share of the orbits.
+fn advanced(
+    starts: &[(ImpactMap, ImpactState)],
+    impacts: u64,
+    watch: &Watch<'_>,
+) -> Result<Vec<ImpactState>, Error> {
+    let mut batch = OrbitBatch::new(starts.iter().copied());
+    let mut work = watch.work();
+    for _ in 0..impacts {
+        batch.step()?;
+        watch.finish(starts.len() as u64);
+        work.spend(starts.len() as u64)?;
+    }
+    Ok((0..batch.len()).filter_map(|index| batch.state(index)).collect())
+}
+
+/// The impacts of many orbits that are so many steps later: the bare map, without a question after each impact.
+#[pyfunction]
+pub(crate) fn iterate_orbits(a: Arguments<'_>) -> Made<'_> {
+    let (starts, impacts, py) = (Starts::of(&a)?, a.u64("impacts")?, a.py());
+    let last = a.run(|observer| {
+        let starts = starts.states()?;
+        let total = impacts.saturating_mul(starts.len() as u64);
+        let watch = Watch::begin(observer, 0, total)?;
+        // Collected in order, so that the error is that of the first share whatever the threads do.
+        let shares: Vec<Result<Vec<ImpactState>, Error>> =
+            starts.par_chunks(TOGETHER).map(|share| advanced(share, impacts, &watch)).collect();
+        let mut last = room_for(starts.len())?;
+        for share in shares {
+            last.extend(share?);
+        }
+        watch.end();
+        Ok(last)
+    })?;
+    let of = |number: fn(&ImpactState) -> f64| -> Bound<'_, PyArray1<f64>> { column(py, &last, number) };
+    (of(|state| state.phase().angle()), of(ImpactState::velocity)).into_bound_py_any(py)
+}

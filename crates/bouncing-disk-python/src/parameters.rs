@@ -1,0 +1,439 @@
+//! What the classes of parameters hold, and the numbers that follow from them: systems, motors, maps, cuts.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{ChatterCut as Cut, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::{
+    DiskParameters, Error, Motor as MotorModel, MotorField, MotorParameters, PAPER_CUT, Platform,
+    PlatformParameters, Stroke, System as SystemModel,
+};
+use numpy::PyArray2;
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyTypeError;
+use pyo3::prelude::*;
+use pyo3::types::{IntoPyDict, PyDict};
+
+use crate::arguments::{Arguments, Count, Made, Real};
+use crate::results::{array, matrix};
+use crate::{errors, long_call};
+
+/// What a `System` holds. Its numbers are made when Python asks for the first one.
+#[pyclass(frozen, module = "bouncing_disk._native")]
+pub(crate) struct System(pub(crate) SystemModel);
+
+#[pymethods]
+impl System {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (platform, stroke) = (self.0.platform(), self.0.stroke());
+        let given = named(numbers_of(&self.0));
+        let derived = [
+            ("period", Some(TAU / platform.angular_frequency())),
+            ("peak_angular_speed", Some(platform.peak_angular_speed())),
+            ("stroke", Some(stroke.stroke)),
+            ("amplitude_angle", Some(stroke.amplitude_angle)),
+            ("axial_forcing", Some(self.0.axial_forcing())),
+            ("angular_forcing", self.0.angular_forcing()),
+            ("peak_acceleration", Some(self.0.peak_acceleration())),
+            ("rise_time", Some(self.0.rise_time())),
+        ];
+        numbers(py, &given, given.map(|(name, number)| (name, Some(number))).into_iter().chain(derived))
+    }
+
+    /// The system with other values of some arguments.
+    fn replaced(&self, changes: Arguments<'_>) -> PyResult<Self> {
+        let mut numbers = numbers_of(&self.0);
+        for name in changes.0.keys() {
+            let name: String = name.extract()?;
+            let Some(place) = SYSTEM.iter().position(|known| *known == name) else {
+                return Err(PyTypeError::new_err(format!("System has no argument '{name}'")));
+            };
+            numbers[place] = changes.real(&name)?;
+        }
+        system_of(numbers).map(Self).or_else(|error| {
+            let call = named(numbers).into_py_dict(changes.py())?;
+            Err(errors::of_call(changes.py(), error, &call))
+        })
+    }
+}
+
+/// What a `Motor` holds.
+#[pyclass(frozen, module = "bouncing_disk._native")]
+pub(crate) struct Motor(pub(crate) MotorModel);
+
+#[pymethods]
+impl Motor {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (sheet, motor) = (self.0.parameters(), &self.0);
+        let (platform, disk) = (motor.system().platform(), motor.system().disk());
+        let all = [
+            ("drive_frequency", Some(sheet.drive_frequency)),
+            ("amplitude", Some(sheet.amplitude)),
+            ("peak_angular_speed", Some(platform.peak_angular_speed())),
+            ("twist_amplitude", Some(platform.twist_amplitude())),
+            ("phase_lag", Some(sheet.phase_lag)),
+            ("mass", Some(motor.mass())),
+            ("inertia", Some(motor.inertia())),
+            ("contact_radius", Some(disk.contact_radius())),
+            ("gyration_radius", Some(disk.gyration_radius())),
+            ("preload_force", Some(motor.preload_force())),
+            ("preload_acceleration", Some(motor.preload_acceleration())),
+            ("friction", Some(sheet.friction)),
+            ("restitution", Some(sheet.restitution)),
+            ("load_torque", Some(motor.load_torque())),
+            ("largest_torque", Some(motor.largest_torque())),
+            ("static_deflection", motor.static_deflection()),
+        ];
+        let all = numbers(py, &given_sheet(&sheet), all)?;
+        all.set_item("system", python_system(py, motor.system())?)?;
+        Ok(all)
+    }
+
+    fn to_json(&self) -> String {
+        self.0.to_json()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings().iter().map(ToString::to_string).collect()
+    }
+}
+
+/// What a `ChatterCut` holds.
+#[pyclass(frozen, module = "bouncing_disk._native")]
+pub(crate) struct ChatterCut(pub(crate) Cut);
+
+#[pymethods]
+impl ChatterCut {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let all = PyDict::new(py);
+        all.set_item("smallest_speed", self.0.smallest_speed())?;
+        all.set_item("short_flight", self.0.short_flight())?;
+        all.set_item("short_flights", self.0.short_flights())?;
+        all.set_item("_given", all.copy()?)?;
+        Ok(all)
+    }
+}
+
+/// What an `ImpactMap` holds, and the axial forcing if that was given: what is computed from the peak
+/// acceleration may differ in the last place. Its steps are what loops in Python call themselves.
+#[pyclass(frozen, name = "ImpactMap", module = "bouncing_disk._native")]
+pub(crate) struct Map(pub(crate) ImpactMap, Option<f64>);
+
+#[pymethods]
+impl Map {
+    fn numbers<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let Self(map, forcing) = self;
+        let (peak, restitution) = (map.vibration().peak_acceleration(), map.restitution());
+        let given = forcing.map_or(("peak_acceleration", peak), |forcing| ("axial_forcing", forcing));
+        let all = [
+            ("axial_forcing", Some(forcing.unwrap_or_else(|| map.vibration().axial_forcing()))),
+            ("peak_acceleration", Some(peak)),
+            ("restitution", Some(restitution)),
+            ("normalised_speed_bound", Some(map.impact_speed_bound() / std::f64::consts::PI)),
+        ];
+        numbers(py, &[given, ("restitution", restitution)], all)
+    }
+
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
+        stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step(state)?.into()))
+    }
+
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn step_back(
+        &self,
+        py: Python<'_>,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
+    ) -> PyResult<(f64, f64)> {
+        stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step_back(state)?))
+    }
+
+    /// The derivative of the next impact.
+    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
+    fn derivative<'py>(
+        &self,
+        py: Python<'py>,
+        impact_phase: Real,
+        axial_impact_velocity: Real,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let derivative = |state| Ok(self.0.step_with_derivative(state)?.1);
+        let derivative = with_state(py, impact_phase, axial_impact_velocity, derivative)?;
+        let (x, y) = (derivative.x_axis, derivative.y_axis);
+        matrix(py, vec![x.x, y.x, x.y, y.y], [2, 2])
+    }
+
+    /// The orbit of one impact in closed form.
+    #[pyo3(signature = (*, platform_periods=Count::Fits(1)))]
+    fn period_one(&self, py: Python<'_>, platform_periods: Count) -> PyResult<Option<(f64, f64)>> {
+        let periods = platform_periods.u64(py, "platform_periods")?;
+        if periods == 0 {
+            return Err(errors::out_of_range(py, "platform_periods", 0.0, "at least 1"));
+        }
+        Ok(long_call::caught(|| Ok(self.0.period_one(periods).map(pair)))?.unwrap_or(None))
+    }
+}
+
+fn stepped(
+    py: Python<'_>,
+    phase: Real,
+    velocity: Real,
+    step: impl FnOnce(ImpactState) -> Result<ImpactState, Error>,
+) -> PyResult<(f64, f64)> {
+    with_state(py, phase, velocity, |state| Ok(pair(step(state)?)))
+}
+
+/// What becomes of an impact of these two numbers.
+fn with_state<T>(
+    py: Python<'_>,
+    phase: Real,
+    velocity: Real,
+    work: impl FnOnce(ImpactState) -> Result<T, Error>,
+) -> PyResult<T> {
+    long_call::caught(|| work(state(phase.0, velocity.0)?))?.map_err(|error| {
+        let call = [("impact_phase", phase.0), ("axial_impact_velocity", velocity.0)].into_py_dict(py);
+        call.map_or_else(|failure| failure, |call| errors::of_call(py, error, &call))
+    })
+}
+
+/// An impact of these two numbers.
+pub(crate) fn state(impact_phase: f64, axial_impact_velocity: f64) -> Result<ImpactState, Error> {
+    Ok(ImpactState::new(Phase::new(impact_phase)?, axial_impact_velocity)?)
+}
+
+/// The two numbers of an impact.
+pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
+    (state.phase().angle(), state.velocity())
+}
+
+/// The numbers of an object by their names, with those that were given apart.
+fn numbers<'py>(
+    py: Python<'py>,
+    given: &[(&str, f64)],
+    all: impl IntoIterator<Item = (&'static str, Option<f64>)>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let numbers = PyDict::new(py);
+    for (name, number) in all {
+        numbers.set_item(name, number)?;
+    }
+    numbers.set_item("_given", given.into_py_dict(py)?)?;
+    Ok(numbers)
+}
+
+/// The arguments of a system.
+const SYSTEM: [&str; 10] = [
+    "amplitude",
+    "twist_amplitude",
+    "angular_frequency",
+    "phase_lag",
+    "contact_radius",
+    "gyration_radius",
+    "friction",
+    "restitution",
+    "preload_acceleration",
+    "load_acceleration",
+];
+
+/// The parameters of a system in the order of its arguments.
+fn numbers_of(system: &SystemModel) -> [f64; 10] {
+    let (platform, disk) = (system.platform().parameters(), system.disk().parameters());
+    [
+        platform.amplitude,
+        platform.twist_amplitude,
+        platform.angular_frequency,
+        platform.phase_lag,
+        disk.contact_radius,
+        disk.gyration_radius,
+        disk.friction,
+        disk.restitution,
+        disk.preload_acceleration,
+        disk.load_acceleration,
+    ]
+}
+
+fn named(numbers: [f64; 10]) -> [(&'static str, f64); 10] {
+    std::array::from_fn(|place| (SYSTEM[place], numbers[place]))
+}
+
+/// The system of these parameters.
+fn system_of(numbers: [f64; 10]) -> Result<SystemModel, Error> {
+    let [amplitude, twist_amplitude, angular_frequency, phase_lag, contact_radius, gyration_radius, ..] =
+        numbers;
+    let [.., friction, restitution, preload_acceleration, load_acceleration] = numbers;
+    let platform = PlatformParameters { amplitude, twist_amplitude, angular_frequency, phase_lag };
+    let disk = DiskParameters {
+        contact_radius,
+        gyration_radius,
+        friction,
+        restitution,
+        preload_acceleration,
+        load_acceleration,
+    };
+    SystemModel::new(platform.build()?, disk.build()?)
+}
+
+/// A system by its arguments.
+#[pyfunction]
+pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
+    let mut numbers = [0.0; 10];
+    for (name, number) in SYSTEM.iter().zip(&mut numbers) {
+        *number = a.real(name)?;
+    }
+    system_of(numbers).map(System).map_err(|error| a.refused(error))
+}
+
+/// The system that the library has made, as Python has it.
+pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<'py> {
+    let given = named(numbers_of(system)).into_py_dict(py)?;
+    py.import("bouncing_disk")?.getattr("System")?.call((), Some(&given))
+}
+
+/// The arguments of a system of the paper.
+#[pyfunction]
+pub(crate) fn known_system<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
+    let system = if name == "motor" { SystemModel::motor() } else { SystemModel::pizza_toss() };
+    named(numbers_of(&system)).into_py_dict(py)
+}
+
+/// Both amplitudes of a platform that moves along a stroke.
+#[pyfunction]
+pub(crate) fn amplitudes_of_stroke(a: Arguments<'_>) -> PyResult<(f64, f64)> {
+    let stroke = Stroke {
+        stroke: a.real("stroke")?,
+        amplitude_angle: a.real("amplitude_angle")?,
+        contact_radius: a.real("contact_radius")?,
+        angular_frequency: a.real("angular_frequency")?,
+        phase_lag: a.real("phase_lag")?,
+    };
+    let platform = Platform::from_stroke(stroke).map_err(|error| a.refused(error))?.parameters();
+    Ok((platform.amplitude, platform.twist_amplitude))
+}
+
+/// The acceleration by a load torque.
+#[pyfunction]
+pub(crate) fn load_acceleration(a: Arguments<'_>) -> PyResult<f64> {
+    let loaded = a.system()?.with_load_torque(a.real("torque")?, a.real("mass")?);
+    Ok(loaded.map_err(|error| a.refused(error))?.disk().load_acceleration())
+}
+
+/// Height and angle of the platform at many phases.
+#[pyfunction]
+pub(crate) fn platform_motion(a: Arguments<'_>) -> Made<'_> {
+    let (system, py) = (a.system()?, a.py());
+    let phases = a.row("phases")?.into_iter().map(Phase::new).collect::<Result<Vec<_>, _>>();
+    let phases = phases.map_err(|error| a.refused(error))?;
+    let of = |value: &dyn Fn(Phase) -> f64| array(py, phases.iter().copied().map(value).collect());
+    let platform = system.platform();
+    let both = (of(&|phase| platform.height(phase)), of(&|phase| platform.angle(phase)));
+    both.into_bound_py_any(py)
+}
+
+/// A data sheet as the library has it.
+fn given_sheet(sheet: &MotorParameters) -> Vec<(&'static str, f64)> {
+    let all = [
+        ("drive_frequency", Some(sheet.drive_frequency)),
+        ("amplitude", Some(sheet.amplitude)),
+        ("peak_angular_speed", sheet.peak_angular_speed),
+        ("twist_amplitude", sheet.twist_amplitude),
+        ("phase_lag", Some(sheet.phase_lag)),
+        ("mass", sheet.mass),
+        ("density", sheet.density),
+        ("rotor_radius", sheet.rotor_radius),
+        ("rotor_thickness", sheet.rotor_thickness),
+        ("contact_radius", Some(sheet.contact_radius)),
+        ("gyration_radius", sheet.gyration_radius),
+        ("preload_force", sheet.preload_force),
+        ("preload_acceleration", sheet.preload_acceleration),
+        ("spring_constant", sheet.spring_constant),
+        ("friction", Some(sheet.friction)),
+        ("restitution", Some(sheet.restitution)),
+        ("load_torque", Some(sheet.load_torque)),
+    ];
+    all.into_iter().filter_map(|(name, number)| Some((name, number?))).collect()
+}
+
+/// A motor by its arguments.
+#[pyfunction]
+pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
+    let sheet = MotorParameters {
+        drive_frequency: a.real("drive_frequency")?,
+        amplitude: a.real("amplitude")?,
+        peak_angular_speed: a.optional("peak_angular_speed")?,
+        twist_amplitude: a.optional("twist_amplitude")?,
+        phase_lag: a.real("phase_lag")?,
+        mass: a.optional("mass")?,
+        density: a.optional("density")?,
+        rotor_radius: a.optional("rotor_radius")?,
+        rotor_thickness: a.optional("rotor_thickness")?,
+        contact_radius: a.real("contact_radius")?,
+        gyration_radius: a.optional("gyration_radius")?,
+        preload_force: a.optional("preload_force")?,
+        preload_acceleration: a.optional("preload_acceleration")?,
+        spring_constant: a.optional("spring_constant")?,
+        friction: a.real("friction")?,
+        restitution: a.real("restitution")?,
+        load_torque: a.real("load_torque")?,
+    };
+    sheet.build().map(Motor).map_err(|error| a.refused(error))
+}
+
+/// The motor that the library has made, as Python has it.
+pub(crate) fn shown_motor<'py>(py: Python<'py>, motor: &MotorModel) -> Made<'py> {
+    let given = given_sheet(&motor.parameters()).into_py_dict(py)?;
+    py.import("bouncing_disk")?.getattr("Motor")?.call((), Some(&given))
+}
+
+/// The arguments of a motor of the paper, or of the text of a data sheet.
+#[pyfunction]
+pub(crate) fn known_motor<'py>(py: Python<'py>, kind: &str, text: &str) -> PyResult<Bound<'py, PyDict>> {
+    let read = match kind {
+        "toml" => MotorModel::from_toml(text),
+        "json" => MotorModel::from_json(text),
+        "184" => Ok(MotorModel::paper_184_khz()),
+        _ => Ok(MotorModel::paper_70_khz()),
+    };
+    let motor = read.map_err(|error| errors::of_motor_file(py, &error))?;
+    given_sheet(&motor.parameters()).into_py_dict(py)
+}
+
+/// The fields of a data sheet that exclude this one.
+#[pyfunction]
+pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
+    let field = name.parse::<MotorField>().ok();
+    field.map_or_else(Vec::new, |field| field.excluded().iter().map(|other| other.name()).collect())
+}
+
+/// A map by its arguments, of which one forcing is left out.
+#[pyfunction]
+pub(crate) fn impact_map(a: Arguments<'_>) -> PyResult<Map> {
+    let (one, other) = ("axial_forcing", "peak_acceleration");
+    let (forcing, peak, restitution) = (a.optional(one)?, a.optional(other)?, a.real("restitution")?);
+    let vibration = match (forcing, peak) {
+        (Some(forcing), None) => Vibration::from_axial_forcing(forcing).map_err(Error::from),
+        (None, Some(peak)) => Vibration::new(peak).map_err(Error::from),
+        (None, None) => Err(Error::NeitherGiven { one, other }),
+        (Some(_), Some(_)) => Err(Error::BothGiven { one, other }),
+    };
+    let map = vibration.and_then(|vibration| Ok(ImpactMap::new(vibration, restitution)?));
+    map.map(|map| Map(map, forcing)).map_err(|error| a.refused(error))
+}
+
+/// The map that the library has made, as Python has it.
+pub(crate) fn python_map<'py>(py: Python<'py>, map: &ImpactMap) -> Made<'py> {
+    let given =
+        [("peak_acceleration", map.vibration().peak_acceleration()), ("restitution", map.restitution())];
+    py.import("bouncing_disk")?.getattr("ImpactMap")?.call((), Some(&given.into_py_dict(py)?))
+}
+
+/// A cut by its arguments.
+#[pyfunction]
+pub(crate) fn chatter_cut(a: Arguments<'_>) -> PyResult<ChatterCut> {
+    let flights = a.count("short_flights", u32::MAX.into(), "[1, 4294967295]")? as u32;
+    let cut = Cut::new(a.real("smallest_speed")?, a.real("short_flight")?, flights);
+    cut.map(ChatterCut).map_err(|error| a.refused(error))
+}
+
+/// The arguments of the rule of the paper's simulations.
+#[pyfunction]
+pub(crate) fn paper_cut() -> (f64, f64, u32) {
+    (PAPER_CUT.smallest_speed(), PAPER_CUT.short_flight(), PAPER_CUT.short_flights())
+}

@@ -1,0 +1,250 @@
+"""Motors from their data sheet to fitted parameters and sensitivities: that arguments and results go where they belong."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import bouncing_disk as bd
+import numpy as np
+import pytest
+
+from good_calls import MOTOR
+
+
+def test_a_data_sheet_is_its_system() -> None:
+    system = bd.System.motor()
+    assert MOTOR.system == system
+    assert MOTOR.largest_torque == pytest.approx(0.1 * 1e-3 * 9.8 * 1.25e-3)
+    assert MOTOR.inertia == pytest.approx(1e-3 * 6.3e-3**2)
+    loaded = MOTOR.replace(load_torque=1e-7)
+    assert loaded.system == system.with_load_torque(torque=1e-7, mass=1e-3)
+    same = MOTOR.replace(peak_angular_speed=None, twist_amplitude=system.twist_amplitude)
+    assert same.peak_angular_speed == pytest.approx(30.0)
+    # A value takes the place of its alternative, as on the command line.
+    assert MOTOR.replace(twist_amplitude=system.twist_amplitude) == same
+    pressed = MOTOR.replace(preload_force=0.02)
+    assert pressed.preload_acceleration == 0.02 / 1e-3
+    assert pressed.replace(mass=2e-3).preload_acceleration == 0.01 / 1e-3
+    with pytest.raises(bd.InvalidError, match="preload_force"):
+        MOTOR.replace(preload_force=0.02, preload_acceleration=20.0)
+
+
+def test_a_report_tells_what_is_known_before_anything_turns() -> None:
+    report = MOTOR.report()
+    assert report.axial_forcing == MOTOR.system.axial_forcing
+    assert report.angular_forcing == MOTOR.system.angular_forcing
+    assert report.regime in ("long-chattering", "chaotic")
+    assert report.warnings == MOTOR.warnings() == ()
+    assert str(report) == report.text and "\n" in report.text
+    resting = MOTOR.replace(amplitude=1e-12).report()
+    assert resting.regime == "no-lift-off" and resting.periods_per_flight is None
+    # Radii in millimetres.
+    assert len(MOTOR.replace(contact_radius=1.25, gyration_radius=6.3).warnings()) == 2
+
+
+def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
+    stall = bd.stall_load(MOTOR, relative_error=0.05)
+    assert stall.bracket[0] < stall.torque < stall.bracket[1]
+    assert stall.share == pytest.approx(stall.torque / MOTOR.largest_torque)
+    loads = np.array([0.0, 0.5 * stall.torque, 2.0 * MOTOR.largest_torque])
+    curve = bd.torque_speed_curve(MOTOR, load_torques=loads, relative_error=0.05)
+    assert curve.load_torque.tolist() == loads.tolist()
+    assert curve.names() == ["steady", "steady", "runaway"]
+    assert curve.speed[0] > curve.speed[1] > 0.0
+    assert abs(curve.speed[0] - stall.no_load_speed) < 5.0 * (
+        curve.speed_error[0] + stall.no_load_speed_error
+    )
+    assert math.isnan(curve.speed[2]) and curve.acceleration[2] < 0.0
+    assert curve.mechanical_power[1] == pytest.approx(curve.load_torque[1] * curve.speed[1])
+    assert curve.efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.input_power[1])
+    assert (np.abs(curve.energy_residual[:2]) < 1e-9).all()
+    point = bd.operating_point(MOTOR, load_torque=loads[1], relative_error=0.05)
+    own = bd.operating_point(MOTOR.replace(load_torque=loads[1]), relative_error=0.05)
+    assert point == own
+    assert point.status == "steady" and point.shortfall == "" and point.impacts > 0
+    few = bd.operating_point(MOTOR, relative_error=1e-6, most_impacts=1)
+    assert few.status == "unsettled" and few.shortfall != ""
+
+
+def test_the_spread_over_inputs_is_more_than_an_error() -> None:
+    quick: dict[str, Any] = {"relative_error": 0.05, "draws": 12}
+    free, overpowered = bd.input_spreads(MOTOR, load_torques=[0.0, 2.0 * MOTOR.largest_torque], **quick)
+    assert overpowered is None and free is not None and free.draws == 12 and free.without == 0
+    assert free.from_to[0] < free.mean < free.from_to[1]
+    exact = bd.input_spreads(MOTOR, load_torques=[0.0], tolerance=0.0, perturbation_decades=0.0, **quick)[0]
+    assert exact is not None and exact.standard_deviation < free.standard_deviation
+    (stall,) = bd.input_spreads(MOTOR, **quick)
+    assert stall is not None and 0.0 < stall.mean < MOTOR.largest_torque
+
+
+def test_measured_speeds_are_read_as_instruments_write_them(tmp_path: Path) -> None:
+    file = tmp_path / "run.csv"
+    file.write_text("% mine\nt (ms);n (rpm)\n0,5;60\n1,5;120\n2,5;180\n")
+    ((times, speeds),) = bd.read_speeds(file)
+    assert times.tolist() == [0.0005, 0.0015, 0.0025]
+    assert speeds / (2.0 * np.pi) == pytest.approx([1.0, 2.0, 3.0])
+    with pytest.raises(ValueError, match="line 2, field 1: the unit of the time is .ms. here"):
+        bd.read_speeds(file, time_unit="s")
+    with pytest.raises(ValueError, match="furlong"):
+        bd.read_speeds(file, speed_unit="furlong")
+    with pytest.raises(OSError, match="absent"):
+        bd.read_speeds(tmp_path / "absent.csv")
+
+
+def test_many_transients_are_those_of_one_by_one() -> None:
+    systems = [MOTOR.system, MOTOR.system.replace(friction=0.2)]
+    many = bd.transients(systems, phases=[0.5, 1.5], seeds=[3, 4], duration=0.02, intervals=20)
+    assert many.times.shape == many.speeds.shape == (20, 2)
+    for k, (system, phase, seed) in enumerate(zip(systems, (0.5, 1.5), (3, 4), strict=True)):
+        one = bd.transient(system, phase=phase, seed=seed, duration=0.02, intervals=20)
+        assert many.times[:, k].tolist() == one.times.tolist()
+        assert many.speeds[:, k].tolist() == one.speeds.tolist()
+        assert (many.impacts[k], many.separations[k]) == (one.impacts, one.separations)
+    spread = bd.transients(MOTOR.system, phases=0.5, seeds=[3, 3], duration=0.02, intervals=20)
+    assert spread.speeds[:, 0].tolist() == spread.speeds[:, 1].tolist() == many.speeds[:, 0].tolist()
+    with pytest.raises(ValueError, match="systems and seeds"):
+        bd.transients(systems, seeds=[1, 2, 3])
+    with pytest.raises(TypeError, match="systems"):
+        bd.transients([MOTOR.system, 1])  # type: ignore[list-item]
+
+
+def test_fits_find_what_made_the_runs() -> None:
+    runs = bd.ensemble(MOTOR.system, members=8, duration=4.0, intervals=200, seed=77)
+    assert runs.steady_speed.mean == pytest.approx(runs.steady_speeds.mean())
+    single = bd.fit_exponential(times=runs.times[:, 0], speeds=runs.speeds[:, 0])
+    assert single.steady_speed == runs.steady_speeds[0] and single.time_constant == runs.time_constants[0]
+    assert single.stall_acceleration == pytest.approx(single.steady_speed / single.time_constant)
+    fit = bd.fit_transients(times=runs.times[:, 0], speeds=runs.speeds, resamples=200)
+    low, high = fit.exponential.steady_speed.low, fit.exponential.steady_speed.high
+    assert fit.members == 8 and low < runs.steady_speed.mean < high
+    found = bd.fit_parameters(
+        MOTOR.replace(friction=0.12),
+        transients=[(runs.times[:, 0], runs.speeds, 9.8)],
+        ranges={"friction": (0.05, 0.2)},
+        members=24,
+        resamples=200,
+        windows=4,
+    )
+    friction = found.estimates["friction"]
+    assert friction is not None and friction.low < 0.1 < friction.high
+    assert found.motor.friction == friction.value and found.nominal == {"friction": 0.12}
+    with pytest.raises(ValueError, match="mass"):
+        bd.fit_parameters(MOTOR, transients=[], ranges={"mass": (0.1, 1.0)})
+
+
+def test_the_best_lag_turns_the_motor_fastest() -> None:
+    best = bd.best_phase_lag(MOTOR, relative_error=0.05)
+    assert best.good_from_to[0] < best.phase_lag < best.good_from_to[1]
+    there = bd.operating_point(MOTOR.replace(phase_lag=best.phase_lag), relative_error=0.05)
+    assert there.speed == pytest.approx(best.speed, rel=0.2)
+
+
+def test_one_transient_alone_has_no_error() -> None:
+    alone = bd.ensemble(bd.System.motor(), members=1, duration=0.5, intervals=50)
+    for spread in (alone.steady_speed, alone.time_constant, alone.stall_acceleration):
+        assert np.isfinite(spread.mean) and np.isnan(spread.deviation) and np.isnan(spread.standard_error)
+    both = bd.ensemble(bd.System.motor(), members=2, duration=0.5, intervals=50)
+    assert both.steady_speed.standard_error > 0.0
+
+
+LOOSE: dict[str, Any] = {"relative_error": 0.05}
+
+
+def test_a_map_has_the_operating_points_of_its_cells() -> None:
+    loads = np.array([0.0, 0.5, 1.5]) * MOTOR.largest_torque
+    found = bd.motor_map(MOTOR, axes={"friction": [0.1, 0.2], "load_torque": loads}, **LOOSE)
+    assert found.motor == MOTOR and list(found.axes) == ["friction", "load_torque"]
+    assert np.array_equal(found.axes["load_torque"], loads)
+    assert found.speed.shape == found.status.shape == found.impacts.shape == (2, 3)
+    assert np.array_equal(found.load_torque, np.tile(loads, (2, 1)))
+    assert found.names() == [["steady", "steady", "runaway"], ["steady", "steady", "steady"]]
+    assert (
+        found.speed[0, 0] > found.speed[0, 1]
+        and np.isnan(found.speed[0, 2])
+        and found.acceleration[0, 2] < 0.0
+    )
+    one = bd.operating_point(MOTOR, **LOOSE)
+    assert abs(found.speed[0, 0] - one.speed) < 6.0 * np.hypot(found.speed_error[0, 0], one.speed_error) + 0.5
+    line = bd.motor_map(MOTOR, axes={"amplitude": [1e-8]}, **LOOSE)
+    assert line.speed.shape == (1,) and line.names() == [["steady"]]
+
+
+def test_axes_that_are_refused_name_the_argument() -> None:
+    outside: list[dict[str, list[float]]] = [
+        {},
+        {"friction": [0.1], "mass": [1e-3], "amplitude": [1e-8]},
+        {"friction": [np.nan]},
+        {"amplitude": [1e308]},
+    ]
+    for axes in outside:
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            bd.motor_map(MOTOR, axes=axes, **LOOSE)
+        assert refused.value.field == "axes"
+    kinds = []
+    unfitting: list[dict[str, list[float]]] = [
+        {"friction": []},
+        {"mass": [1e-3], "density": [8e3]},
+    ]
+    for axes in unfitting:
+        with pytest.raises(bd.InvalidError) as invalid:
+            bd.motor_map(MOTOR, axes=axes, **LOOSE)
+        kinds.append(invalid.value.kind)
+    assert kinds == ["empty-axis", "both-given"]
+    with pytest.raises(ValueError, match="frikshun.*drive_frequency"):
+        bd.motor_map(MOTOR, axes={"frikshun": [0.1]}, **LOOSE)
+    with pytest.raises(ValueError, match="friction must be a 1-d array"):
+        bd.motor_map(MOTOR, axes={"friction": 0.1}, **LOOSE)
+    with pytest.raises(bd.TooLargeError):
+        bd.motor_map(MOTOR, axes={"friction": np.full(1000, 0.1), "phase_lag": np.zeros(1000)}, **LOOSE)
+
+
+def test_local_sensitivities_are_those_of_the_speed() -> None:
+    found = bd.local_sensitivities(MOTOR, parameters=["peak_angular_speed", "friction"], **LOOSE)
+    assert found.parameters == ("peak_angular_speed", "friction") and found.quantity == "steady-speed"
+    assert found.derivative[0] > 0.7 and abs(found.derivative[1]) < 0.5
+    assert found.method == ("shared-motion", "shared-motion") and found.traps.tolist() == [0, 0]
+    drawn = bd.local_sensitivities(
+        MOTOR, parameters=["amplitude"], points=5, half_range=0.1, relative_error=0.1
+    )
+    assert drawn.method == ("regression",) and np.isfinite(drawn.derivative).all()
+    assert bd.local_sensitivities(MOTOR, parameters=[], **LOOSE).derivative.shape == (0,)
+    stall = bd.local_sensitivities(
+        MOTOR, parameters=["friction"], quantity="stall-torque", relative_error=0.1
+    )
+    assert stall.quantity == "stall-torque" and stall.derivative[0] > 0.3
+
+
+def test_shares_of_the_variance_and_effects_agree() -> None:
+    ranges = {"peak_angular_speed": (20.0, 40.0), "friction": (0.1, 0.11)}
+    shares = bd.sobol_indices(MOTOR, ranges=ranges, rows=24, **LOOSE)
+    assert shares.parameters == ("peak_angular_speed", "friction")
+    assert shares.total[0] > 0.8 > 0.2 > shares.total[1]
+    effects = bd.elementary_effects(MOTOR, ranges=ranges, rows=8, **LOOSE)
+    assert effects.mean[0] > 5.0 * effects.mean_size[1] and (effects.mean_size >= np.abs(effects.mean)).all()
+    assert shares == bd.sobol_indices(MOTOR, ranges=ranges, rows=24, **LOOSE)
+    assert shares != bd.sobol_indices(MOTOR, ranges=ranges, rows=24, sampling_seed=2, **LOOSE)
+
+
+def test_what_sensitivities_refuse() -> None:
+    for call in (bd.sobol_indices, bd.elementary_effects):
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            call(MOTOR, ranges={"friction": (0.2, 0.1)}, rows=8, **LOOSE)
+        assert refused.value.field == "ranges"
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            call(MOTOR, ranges={}, rows=8, **LOOSE)
+        assert refused.value.field == "ranges"
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            call(MOTOR, ranges={"friction": (0.1, 0.2)}, rows=7, **LOOSE)
+        assert (refused.value.field, refused.value.value) == ("rows", 7.0)
+        with pytest.raises(ValueError, match="twist"):
+            call(MOTOR, ranges={"twist": (0.1, 0.2)}, rows=8, **LOOSE)
+        pairs: Any = [("friction", (0.1, 0.2))]
+        with pytest.raises(TypeError):
+            call(MOTOR, ranges=pairs, rows=8, **LOOSE)
+    wrong: Any = "friction"
+    with pytest.raises(TypeError, match="one text"):
+        bd.local_sensitivities(MOTOR, parameters=wrong, **LOOSE)
+    with pytest.raises(ValueError, match="quantity"):
+        bd.local_sensitivities(MOTOR, quantity="torque", **LOOSE)  # type: ignore[arg-type]

@@ -1,0 +1,463 @@
+"""Orbits, tosses, attractors, manifolds and crises: that arguments and results go where they belong."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from typing import Any
+
+import bouncing_disk as bd
+import numpy as np
+import pytest
+
+from good_calls import MAP, STARTS, TOSS
+
+
+def starts(count: int) -> dict[str, Any]:
+    random = np.random.default_rng(5)
+    return {
+        "axial_forcing": random.uniform(0.1, 3.0, count),
+        "restitution": random.uniform(0.3, 0.9, count),
+        "impact_phase": random.uniform(0.0, 2.0 * np.pi, count),
+        "normalised_speed": random.uniform(0.5, 4.0, count),
+    }
+
+
+@pytest.mark.parametrize("impacts", [0, 1, 7])
+def test_the_bits_of_single_orbits(impacts: int) -> None:
+    # More than one share of the threads, and one that is not full.
+    given = starts(2_100)
+    phases, velocities = bd.iterate_orbits(**given, impacts=impacts)
+    for k in [0, 1, 1_023, 1_024, 2_047, 2_048, 2_099]:
+        forcing, restitution, phase, speed = (values[k] for values in given.values())
+        alone = bd.ImpactMap(axial_forcing=forcing, restitution=restitution).iterate(
+            impact_phase=phase, axial_impact_velocity=-np.pi * speed, impacts=impacts
+        )
+        assert (phases[k], velocities[k]) == alone
+
+
+def test_threads_change_nothing_and_progress_ends_with_all() -> None:
+    given = starts(3_000)
+    told: list[tuple[int, int]] = []
+    many = bd.iterate_orbits(**given, impacts=50, progress=lambda done, total: told.append((done, total)))
+    assert told[-1] == (150_000, 150_000)
+    bd.set_threads(count=1)
+    try:
+        one = bd.iterate_orbits(**given, impacts=50)
+    finally:
+        bd.set_threads()
+    assert all(a.tobytes() == b.tobytes() for a, b in zip(many, one, strict=True))
+
+
+def test_seams() -> None:
+    none = bd.iterate_orbits(
+        axial_forcing=[], restitution=0.5, impact_phase=0.0, normalised_speed=1.0, impacts=3
+    )
+    assert [len(values) for values in none] == [0, 0]
+    one: dict[str, Any] = {
+        "axial_forcing": 0.5,
+        "restitution": 0.5,
+        "impact_phase": 0.0,
+        "normalised_speed": 1.0,
+    }
+    assert bd.iterate_orbits(**one, impacts=2)[0].shape == (1,)
+    for field, value in [("restitution", 1.5), ("normalised_speed", np.nan), ("axial_forcing", -1.0)]:
+        with pytest.raises(bd.OutOfRangeError):
+            bd.iterate_orbits(**{**one, field: value}, impacts=2)
+    with pytest.raises((bd.OutOfRangeError, OverflowError)):
+        bd.iterate_orbits(**one, impacts=-1)
+
+    def stop(done: int, total: int) -> None:
+        raise LookupError("enough")
+
+    with pytest.raises(LookupError):
+        bd.iterate_orbits(**one, impacts=10**12, progress=stop)
+
+
+def saddle(bouncing: bd.ImpactMap = MAP) -> bd.PeriodicOrbit:
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
+    return next(orbit for orbit in orbits if abs(orbit.multipliers[0]) > 1.0)
+
+
+def test_spectra_have_the_sum_of_the_map() -> None:
+    found = bd.lyapunov_spectra(axial_forcing=[0.2, 0.44, 0.56], **STARTS)
+    assert found.names() == ["rested", "exponents", "exponents"]
+    assert np.isnan(found.largest[0]) and found.impacts[0] < 100
+    assert np.allclose((found.largest + found.second)[1:], found.exact_sum[1:], rtol=0.0, atol=1e-11)
+    assert np.allclose(found.exact_sum[1:], 2.0 * math.log(0.5), atol=1e-2)
+    alone = bd.lyapunov_exponents(axial_forcing=[0.44, 0.56], **STARTS)
+    assert np.allclose(found.largest[1:], alone, rtol=1e-9)
+    assert found.impacts[1:].tolist() == [10_000, 10_000]
+    forgets = bd.lyapunov_spectra(axial_forcing=0.6, **{**STARTS, "restitution": 0.0}, impacts=16)
+    assert forgets.names() != ["exponents"] or forgets.second[0] == -np.inf
+    assert bd.lyapunov_spectra(axial_forcing=[], **STARTS).names() == []
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.lyapunov_spectra(axial_forcing=0.5, impacts=15, **STARTS)
+    assert (refused.value.field, refused.value.value) == ("impacts", 15.0)
+
+
+def test_a_step_back_is_undone_by_a_step() -> None:
+    for phase in np.linspace(0.0, 6.2, 30):
+        ahead = MAP.step(impact_phase=phase, axial_impact_velocity=-4.0)
+        back = MAP.step_back(impact_phase=ahead[0], axial_impact_velocity=ahead[1])
+        assert back == pytest.approx((phase, -4.0), abs=1e-11)
+    forgets = bd.ImpactMap(axial_forcing=0.5, restitution=0.0)
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        forgets.step_back(impact_phase=1.0, axial_impact_velocity=-4.0)
+    assert refused.value.field == "restitution"
+
+
+@pytest.mark.parametrize("kind", ["stable", "unstable"])
+def test_a_manifold_is_mapped_into_itself(kind: Any) -> None:
+    start = saddle()
+    found = bd.manifold(MAP, start, kind=kind, arclength=4.0, chord=0.02, turn=0.05)
+    assert found.kind == kind and (abs(found.multiplier) > 1.0) == (kind == "unstable")
+    assert found.offsets[0] == 0 and found.offsets[-1] == len(found.impact_phase)
+    pieces, branches = len(found.offsets) - 1, len(found.branch_impact)
+    assert branches == 2 * start.period and len(found.piece_branch) == len(found.piece_end) == pieces
+    assert set(found.piece_branch.tolist()) <= set(range(branches))
+    assert found.branch_side.tolist() == [0, 1]
+    assert (found.branch_arclength <= 4.0 + 0.02).all() and found.piece_start[0] == 0
+    assert sum(len(found.of(piece)[0]) for piece in range(pieces)) == found.offsets[-1]
+    # The image of an impact lies on the curve again: next to one of its points.
+    place = int(found.offsets[1]) // 4
+    phase, velocity = MAP.step(
+        impact_phase=found.impact_phase[place], axial_impact_velocity=found.axial_impact_velocity[place]
+    )
+    turned = np.abs(np.angle(np.exp(1j * (found.impact_phase - phase))))
+    speed = np.abs(found.axial_impact_velocity - velocity) / (1.0 + MAP.peak_acceleration)
+    assert np.hypot(turned, speed).min() < 0.02
+
+
+def test_what_is_no_saddle_has_no_manifold() -> None:
+    attracting = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert attracting is not None
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.manifold(MAP, attracting, arclength=1.0)
+    assert refused.value.field == "orbit"
+    other = bd.ImpactMap(axial_forcing=0.7, restitution=0.5)
+    with pytest.raises(bd.BouncingDiskError):
+        bd.manifold(other, saddle(), arclength=1.0)
+    with pytest.raises(ValueError, match="kind"):
+        bd.manifold(MAP, saddle(), kind="both", arclength=1.0)  # type: ignore[arg-type]
+
+
+def edge() -> bd.PeriodicOrbit:
+    bouncing = bd.ImpactMap(axial_forcing=0.56, restitution=0.5)
+    orbits = bd.periodic_orbits(bouncing, max_impacts=3, max_platform_periods=3)
+    return next(
+        orbit
+        for orbit in orbits
+        if orbit.period == orbit.platform_periods == 3 and orbit.multipliers.real.min() > 0.0
+    )
+
+
+def test_a_crisis_lies_where_the_attractor_of_fig_6_is_lost() -> None:
+    found = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
+    low, high = found.bracket
+    assert low < 0.56075 < high and low < found.axial_forcing < high and found.is_boundary_crisis
+    assert abs(found.axial_forcing - 0.5607507) < found.forcing_error < 1e-3
+    assert found.restitution == 0.5 and found.side is not None and found.share is not None
+    assert found.no_tangency is None and found.curvature is not None
+    assert found.inside is not None and found.touched is not None and found.touched.period == 3
+    assert found.life_exponent is not None and 0.5 < found.life_exponent < 1.5
+    assert found.impact_phase is not None and found.axial_impact_velocity is not None
+    assert len(found.impact_phase) == len(found.axial_impact_velocity) > 3
+    lives = found.lives(beyond=[1e-5, 1e-4, 1e-3], orbits=60, impacts=50_000)
+    assert (np.diff(lives.impacts) < 0.0).all() and (lives.orbits == 60).all()
+    assert (lives.ended <= 60).all() and (lives.no_power_law is None) == np.isfinite(lives.exponent)
+    none = found.lives(beyond=[1e-12], orbits=1, impacts=1)
+    assert none.impacts.tolist() == [np.inf] and none.relative_error.tolist() == [np.inf]
+    assert none.no_power_law is not None and np.isnan(none.exponent)
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        found.lives(beyond=[0.0])
+    assert refused.value.field == "beyond"
+
+
+def test_no_crisis_says_why() -> None:
+    with pytest.raises(bd.ComputationError) as failed:
+        bd.crisis(edge(), restitution=0.5, axial_forcing=(0.559, 0.5600), impacts=20_000)
+    assert failed.value.kind == "none-rests" and failed.value.details["samples"] == 64
+    with pytest.raises(bd.ComputationError) as failed:
+        bd.crisis(edge(), restitution=0.5, axial_forcing=(0.5615, 0.562), impacts=20_000)
+    assert failed.value.kind == "rests-before"
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.crisis(edge(), restitution=0.5, axial_forcing=(0.562, 0.559))
+    assert (refused.value.field, refused.value.value) == ("axial_forcing", 0.559)
+
+
+def painted(labels: Any) -> bd.Basins:
+    """Basins with these labels."""
+    rows, columns = np.shape(labels)
+    whole = bd.basins(MAP, phases=columns, speeds=rows, max_impacts=1)
+    return dataclasses.replace(whole, labels=np.asarray(labels, dtype=np.uint8))
+
+
+def test_the_entropy_of_four_boxes_is_that_by_hand() -> None:
+    labels = np.full((4, 5), bd.ATTACHED)
+    labels[:2, 1] = labels[3, 3] = labels[:, 4] = bd.FIRST_ORBIT
+    entropy = bd.basin_entropy(painted(labels), box_side=2)
+    assert (entropy.boxes, entropy.boundary_boxes, entropy.labels, entropy.box_side) == (4, 2, 2, 2)
+    total = math.log(2.0) - (0.75 * math.log(0.75) + 0.25 * math.log(0.25))
+    assert entropy.entropy == pytest.approx(total / 4.0, rel=1e-14)
+    assert entropy.boundary_entropy == pytest.approx(total / 2.0, rel=1e-14)
+    # An array that is laid out in another way is the same.
+    turned = bd.basin_entropy(painted(labels.T), box_side=2)
+    assert turned == bd.basin_entropy(painted(np.ascontiguousarray(labels.T)), box_side=2)
+    one = bd.basin_entropy(painted(np.full((9, 9), bd.UNDECIDED)))
+    assert (one.entropy, one.boundary_entropy, one.undecided_cells) == (0.0, None, 25)
+
+
+def test_a_straight_boundary_has_dimension_one() -> None:
+    labels = np.full((100, 120), bd.ATTACHED)
+    labels[50:] = bd.FIRST_ORBIT
+    scaling = bd.boundary_scaling(painted(labels))
+    assert scaling.distance.tolist() == [1, 2, 4, 8] and scaling.cells == 84 * 104
+    assert scaling.uncertain.tolist() == [2 * distance * 104 for distance in (1, 2, 4, 8)]
+    assert scaling.share.tolist() == (scaling.uncertain / scaling.cells).tolist()
+    assert scaling.fit == "power-law" and scaling.exponent_error < 1e-12
+    assert scaling.exponent == pytest.approx(1.0) and scaling.dimension == pytest.approx(1.0)
+    assert scaling.slopes == pytest.approx((1.0, 1.0))
+    flat = bd.boundary_scaling(painted(np.full((30, 30), bd.ATTACHED)), distances=[1, 2])
+    assert flat.fit == "too-few" and math.isnan(flat.dimension) and flat.uncertain.tolist() == [0, 0]
+    noise = np.random.default_rng(1).integers(1, 3, (60, 60))
+    crowded = bd.boundary_scaling(painted(noise), distances=[1, 2, 4])
+    assert crowded.fit in ("power-law", "no-power-law")
+    calls: list[tuple[int, int]] = []
+    bd.boundary_scaling(painted(labels), progress=lambda done, total: calls.append((done, total)))
+    assert calls[-1] == (4 * 84, 4 * 84)
+
+
+def test_what_is_no_grid_of_basins_is_refused() -> None:
+    small = painted(np.full((7, 5), bd.ATTACHED))
+    cases: list[tuple[Callable[[], Any], str, float]] = [
+        (lambda: bd.basin_entropy(small, box_side=6), "box_side", 6.0),
+        (lambda: bd.basin_entropy(small, box_side=1), "box_side", 1.0),
+        (lambda: bd.boundary_scaling(small, distances=[1, 3]), "distances", 3.0),
+        (lambda: bd.boundary_scaling(small, distances=[2, 1]), "distances", 1.0),
+        (lambda: bd.basin_entropy(painted(np.full((5, 5), 255))), "basins", 255.0),
+    ]
+    for call, field, value in cases:
+        with pytest.raises(bd.OutOfRangeError) as refused:
+            call()
+        assert (refused.value.field, refused.value.value) == (field, value)
+    for wrong in (None, np.zeros((5, 5), dtype=np.uint8), MAP):
+        with pytest.raises(TypeError, match="basins"):
+            bd.basin_entropy(wrong)  # type: ignore[arg-type]
+
+
+def test_attractors_are_followed_over_the_forcing() -> None:
+    search: dict[str, Any] = {"starts": 200, "impacts": 1000}
+    whole = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], **search)
+    assert (whole.restitution, whole.axial_forcing.tolist(), len(whole)) == (0.5, [0.32, 0.36, 0.4], 2)
+    assert whole.appears.tolist() == [0, 1] and whole.vanishes.tolist() == [2, 2]
+    assert whole.share.shape == whole.share_low.shape == whole.share_high.shape == whole.moved.shape == (2, 3)
+    assert np.isnan(whole.share[1, 0]) and whole.share[0, 0] == 1.0
+    there = np.isfinite(whole.share)
+    assert (whole.share_low <= whole.share)[there].all() and (whole.share <= whole.share_high)[there].all()
+    assert np.isnan(whole.moved[0]).all() and np.isnan(whole.moved[1, :2]).all() and 0.0 < whole.moved[1, 2] < 0.3
+    for place, (attractors, followed) in enumerate(zip(whole.attractors, whole.followed, strict=True)):
+        assert attractors == bd.attractors(
+            bd.ImpactMap(axial_forcing=whole.axial_forcing[place], restitution=0.5), **search
+        )
+        for attractor, number in zip(attractors.all, followed, strict=True):
+            assert whole.share[number, place] == attractor.share
+    begun = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.32], **search)
+    assert bd.BasinFractions.from_json(begun.to_json()).extended(axial_forcing=[0.36, 0.4], **search) == whole
+    assert repr(begun).startswith("BasinFractions(restitution=0.5, axial_forcing=[0.32], attractors=<1 Attractors>")
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.3], reach=-1.0)
+    assert (refused.value.field, refused.value.value) == ("reach", -1.0)
+
+
+def test_a_motor_whose_flight_lands_softly_is_trapped() -> None:
+    motor = bd.Motor.paper_70_khz()
+    soft = motor.preload_acceleration * motor.system.axial_forcing / 12.51
+    traps = bd.low_period_traps(motor, preload_accelerations=soft * np.array([0.97, 1.0, 1.03]))
+    assert traps.is_trap.tolist() == [False, True, False]
+    assert traps.preload_acceleration.tolist() == (soft * np.array([0.97, 1.0, 1.03])).tolist()
+    assert traps.axial_forcing[1] == pytest.approx(12.51)
+    assert (traps.long_flights[1], traps.relaunches[1]) == (1, 64) and traps.returns[1] > 32
+    assert traps.mean_platform_periods[1] == pytest.approx(traps.platform_periods[1], rel=0.05)
+    assert (np.isnan(traps.mean_platform_periods) == (traps.impacts == 0)).all()
+    trapped = bd.nearest_trap(motor.replace(preload_acceleration=soft))
+    assert trapped is not None and trapped.relative_distance == 0.0
+    assert trapped.forcing_from_to[0] < 12.51 < trapped.forcing_from_to[1]
+    assert (trapped.long_flights, trapped.platform_periods) == (1, traps.platform_periods[1])
+    beside = bd.nearest_trap(motor.replace(preload_acceleration=0.99 * soft))
+    assert beside is not None and 0.0 <= beside.relative_distance < 0.02
+    assert bd.low_period_traps(
+        motor, preload_accelerations=[beside.preload_acceleration]
+    ).is_trap.tolist() == [True]
+    assert bd.nearest_trap(motor.replace(amplitude=1e-13)) is None
+    with pytest.raises(bd.OutOfRangeError) as refused:
+        bd.low_period_traps(motor, preload_accelerations=[9.8, -1.0])
+    assert (refused.value.field, refused.value.value) == ("preload_accelerations", -1.0)
+
+
+def test_the_spin_on_an_orbit_is_in_si() -> None:
+    system = TOSS.replace(angular_frequency=8.5)
+    (saddle, *_) = bd.periodic_orbits(bd.ImpactMap.of_system(system), max_impacts=1, max_platform_periods=1)
+    steady = bd.rotary_response(system, saddle)
+    assert (steady.outcome, steady.multiplier, steady.sliding.tolist()) == ("steady", 0.0, [0])
+    # The disk sticks at every impact, so that it turns with the platform there.
+    platform = system.peak_angular_speed * math.cos(saddle.impact_phase[0] + system.phase_lag)
+    assert steady.angular_speed[0] == pytest.approx(platform, rel=1e-9)
+    assert steady.mean_angular_speed == pytest.approx(platform, rel=1e-9)
+    assert steady.slip[0] == pytest.approx(0.0, abs=1e-9) and steady.stick_margin > 0.0
+    assert math.isnan(steady.limit) and math.isnan(steady.change)
+    loaded = system.replace(friction=0.0, load_acceleration=2.0)
+    runaway = bd.rotary_response(loaded, saddle)
+    assert runaway.outcome == "runaway" and math.isnan(runaway.multiplier) and len(runaway.slip) == 0
+    assert runaway.change == pytest.approx(-2.0 * system.period)
+    kept = bd.rotary_response(system.replace(friction=0.0), saddle)
+    assert (kept.outcome, kept.multiplier) == ("kept", 1.0) and math.isnan(kept.limit)
+    with pytest.raises(bd.InvalidError) as refused:
+        bd.rotary_response(TOSS, saddle)
+    assert refused.value.kind == "not-an-orbit"
+
+
+def test_a_trajectory_is_a_flight_above_the_platform() -> None:
+    motion = bd.toss_trajectory(TOSS)
+    toss = bd.single_toss(TOSS)
+    events, samples = motion.events(), motion.samples(count=500)
+    separation = events.names().index("separation")
+    assert events.axial_velocity_after[separation] == toss.launch_speed
+    assert events.angular_speed_after[separation] == toss.airborne_speed
+    assert events.phase[separation] == toss.separation_phase
+    assert samples.time[0] == motion.start_time and samples.time[-1] == pytest.approx(motion.end_time)
+    flying = samples.mode == 0
+    assert flying.any() and not flying.all()
+    above = samples.height - samples.platform_height
+    assert (above[flying][1:-1] > 0.0).all()
+    assert np.abs(above[~flying]).max() < 1e-12
+    fastest = np.abs(np.diff(samples.height) / np.diff(samples.time) - samples.axial_velocity[:-1]).max()
+    assert fastest < 0.1
+    assert (samples.angular_speed[flying][:-1] == toss.airborne_speed).all()
+
+
+def test_the_energy_of_a_motion_is_balanced() -> None:
+    energy = bd.simulate(TOSS, phase=4.7, events=500).energy
+    into = energy.normal_work - energy.restitution_loss
+    assert energy.axial_kinetic_change + energy.potential_change == pytest.approx(into, rel=1e-12)
+    turned = energy.friction_work - energy.friction_loss - energy.load_work
+    assert energy.rotary_kinetic_change == pytest.approx(turned, rel=1e-10)
+
+
+def test_a_motion_starts_as_it_is_told() -> None:
+    on = bd.simulate(TOSS, phase=4.7, events=3).samples(count=2)
+    assert on.mode[0] in (1, 2, 3) and on.angular_speed[0] == pytest.approx(on.platform_angular_speed[0])
+    still = bd.simulate(TOSS, phase=4.7, angular_speed=0.0, events=3).samples(count=2)
+    assert still.angular_speed[0] == 0.0
+    thrown = bd.simulate(TOSS, phase=1.0, relative_velocity=2.0, angular_speed=3.0, events=1).samples(count=2)
+    assert thrown.mode[0] == 0 and thrown.angular_speed[0] == pytest.approx(3.0)
+    assert thrown.axial_velocity[0] - thrown.platform_axial_velocity[0] == pytest.approx(2.0)
+    dropped = bd.simulate(TOSS, phase=1.0, gap=0.5, events=1).samples(count=2)
+    assert dropped.height[0] - dropped.platform_height[0] == pytest.approx(0.5)
+    assert dropped.axial_velocity[0] == pytest.approx(dropped.platform_axial_velocity[0])
+    wrong: list[dict[str, Any]] = [
+        {"gap": -1.0},
+        {"relative_velocity": -1.0},
+        {"phase": np.nan},
+        {"angular_speed": np.inf},
+    ]
+    for start in wrong:
+        with pytest.raises(bd.OutOfRangeError):
+            bd.simulate(TOSS, **start)
+
+
+def test_a_motion_ends_as_it_is_told() -> None:
+    assert len(bd.simulate(TOSS, phase=4.7, events=7)) == 7
+    long = bd.simulate(TOSS, phase=4.7, duration=2.0, events=10**5)
+    assert long.end_time - long.start_time >= 2.0
+    assert long.events().time[-2] - long.start_time < 2.0
+    # It rests and sticks for ever.
+    assert len(bd.simulate(TOSS.replace(amplitude=0.0, twist_amplitude=0.0))) == 0
+    for wrong in (0, -1, 10**6 + 1):
+        with pytest.raises(bd.OutOfRangeError):
+            bd.simulate(TOSS, events=wrong)
+    for duration in (0.0, -1.0, np.nan, np.inf):
+        with pytest.raises(bd.OutOfRangeError):
+            bd.simulate(TOSS, duration=duration)
+    with pytest.raises(bd.OutOfRangeError):
+        bd.toss_trajectory(TOSS).samples(count=1)
+
+
+def test_a_toss_that_repeats_is_told_by_its_collisions() -> None:
+    bouncing = TOSS.replace(amplitude=0.45 * np.pi * 9.8 / 15.0**2)
+    # Thrown next to the orbit.
+    orbit = bd.multi_toss(bouncing, phase=0.74, relative_velocity=0.5 * 4.2 * 9.8 / 15.0)
+    expected = bd.ImpactMap.of_system(bouncing).period_one()
+    assert (
+        expected is not None and orbit.kind == "periodic" and (orbit.period, orbit.platform_periods) == (1, 1)
+    )
+    assert orbit.impact_phase == pytest.approx([expected[0]])
+    assert orbit.axial_impact_velocity == pytest.approx([expected[1] * 9.8 / 15.0])
+    assert np.abs(orbit.multipliers[0]) == pytest.approx(0.5)
+    resting = bd.multi_toss(TOSS.replace(amplitude=0.01))
+    assert resting.kind == "at-rest" and resting.mean_angular_speed is None and len(resting.time) == 0
+
+
+def test_basins_of_attractors_have_their_labels() -> None:
+    found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
+    assert [attractor.kind for attractor in found.all] == ["rest", "periodic", "periodic"]
+    assert [attractor.label for attractor in found.all] == [bd.ATTACHED, bd.FIRST_ORBIT, bd.FIRST_ORBIT + 1]
+    shares = sum(attractor.share for attractor in found.all) + found.undecided
+    assert shares == pytest.approx(1.0)
+    basins = found.basins(phases=80, speeds=60)
+    assert basins.labels.shape == (60, 80) and basins.labels.flags.c_contiguous
+    assert basins.meaning == ("undecided", *(attractor.meaning for attractor in found.all))
+    assert set(np.unique(basins.labels)) <= {0, 1, 2, 3}
+    assert (basins.phase[0], basins.phase[-1]) == (0.5 / 80, 79.5 / 80)
+    # Each cell is what becomes of its start.
+    row, column = 17, 33
+    start = {"impact_phase": 2.0 * np.pi * basins.phase[column], "normalised_speed": basins.speed[row]}
+    verdict = bd.verdicts(axial_forcing=0.486, restitution=0.5, **start)
+    label = basins.labels[row, column]
+    expected = {1: verdict.rests[0] > 0}.get(
+        int(label), verdict.names()[0] == "periodic" and verdict.rests[0] == 0
+    )
+    assert expected
+    if label >= bd.FIRST_ORBIT:
+        orbit = found.all[int(label) - 1].orbit
+        assert orbit is not None and orbit.period == verdict.period[0]
+
+
+def test_a_branch_is_continued_through_its_doubling() -> None:
+    bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
+    orbit = bouncing.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
+    assert orbit is not None
+    branch = bd.continued(bouncing, orbit, parameter_range=(0.1, 0.6))
+    assert branch.impact_phase.shape == (len(branch), 1)
+    doubling = branch.bifurcations[0]
+    first = bd.doubling_cascade(restitution=0.5, count=1).axial_forcing[0]
+    assert doubling.parameter == pytest.approx(first, abs=1e-13)
+    assert (branch.is_stable == (branch.values < doubling.parameter)).all()
+    assert branch.orbit(0).impact_phase == pytest.approx(orbit.impact_phase, abs=1e-14)
+    doubled = branch.switched(index=0, parameter_range=(0.1, 0.6))
+    assert doubled.impact_phase.shape[1] == 2 and doubled.orbit(0).period == 2
+    with pytest.raises(bd.OutOfRangeError):
+        branch.orbit(len(branch))
+    with pytest.raises(bd.InvalidError, match="1 of 1 is not a doubling"):
+        branch.switched(index=1, parameter_range=(0.1, 0.6))
+
+
+def test_a_trajectory_without_events_says_that_it_has_no_samples() -> None:
+    still = bd.System.pizza_toss().replace(amplitude=0.0, twist_amplitude=0.0)
+    resting = bd.simulate(still)
+    assert len(resting) == 0 and resting.start_time == resting.end_time
+    assert resting.events().names() == []
+    with pytest.raises(bd.ComputationError, match="no events") as refused:
+        resting.samples(count=10)
+    assert refused.value.kind == "no-events"
+    # Friction, 60.06 rad/s^2, does not hold the load: it slides for ever.
+    loaded = still.replace(
+        angular_frequency=100.0, contact_radius=0.1, gyration_radius=0.07, friction=0.3,
+        preload_acceleration=9.81, load_acceleration=120.12,
+    )  # fmt: skip
+    sliding = bd.simulate(loaded, duration=1.0)
+    assert len(sliding) == 0 and abs(sliding.end_time - 1.0) < 1e-12
+    friction = 0.3 * 9.81 * 0.1 / 0.07**2
+    assert abs(sliding.samples(count=3).angular_speed[-1] - (friction - 120.12)) < 1e-9
+    assert sliding.energy.friction_loss > 0.0

@@ -1,0 +1,406 @@
+/** A picture with a window that one can zoom and point into by wheel, pinch, rectangle and keyboard. */
+
+import { button, element, oncePerFrame } from "../elements";
+import type { Range } from "../protocol";
+import {
+  clamp, clippedTo, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Box, type Plot,
+} from "./axes"; // prettier-ignore
+import { CanvasPen, contextOf, type Pen } from "./pen";
+
+export interface Window2 {
+  readonly x: Range;
+  readonly y: Range;
+}
+
+export type Point = readonly [number, number];
+
+interface Place {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** What gestures ask of a picture; they do nothing where they are not heard. */
+interface GestureHost {
+  plot(): Plot | null;
+  window(): Window2;
+  /** Asks for another window; `settled` is false while the gesture goes on. */
+  move?(window: Window2, settled: boolean): void;
+  reset?(): void;
+  /** The pointer or the keyboard's cross is at this value; null: it left. */
+  point(at: Point | null): void;
+  pick(at: Point): void;
+  /** The rectangle that is being drawn. */
+  rectangle?(box: Box | null): void;
+}
+
+interface WindowPictureHost extends Omit<GestureHost, "plot" | "rectangle"> {
+  readonly className: string;
+  /** What a screen reader says of the picture, with its keys. */
+  readonly label: string;
+  axes(): Axes;
+  /** Draws the data into the plot, clipped to it. */
+  paint(pen: Pen, plot: Plot): void;
+}
+
+const KEYS =
+  "Plus and minus zoom, arrows move, 0 shows all; Shift with an arrow moves the cross, Enter chooses what is under it.";
+
+const LETTERS = 13;
+const SMALL_LETTERS = 12;
+
+export class WindowPicture {
+  readonly layers: Layers;
+  readonly tools: HTMLElement;
+  /** Where the axes are; null as long as the picture has no size. */
+  private plot: Plot | null = null;
+  private cross: Point | null = null;
+  private box: Box | null = null;
+  readonly redraw = oncePerFrame(() => this.paintData());
+  private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
+
+  constructor(private readonly host: WindowPictureHost) {
+    this.layers = new Layers(host.className, `${host.label} ${KEYS}`);
+    const gestures = new Gestures(this.layers.surface, {
+      ...host,
+      plot: () => this.plot,
+      point: (at) => {
+        this.cross = at;
+        this.redrawCursor();
+        host.point(at);
+      },
+      rectangle: (box) => {
+        this.box = box;
+        this.redrawCursor();
+      },
+    });
+    this.tools = element(
+      "div",
+      { class: "picture-tools", role: "group", "aria-label": "Zoom" },
+      button("+", () => gestures.zoom(0.5), { "aria-label": "Zoom in", title: "Zoom in (+)" }),
+      button("\u2212", () => gestures.zoom(2), { "aria-label": "Zoom out", title: "Zoom out (-)" }),
+      button("All", () => host.reset?.(), { "aria-label": "Show all", title: "Show all (0)" }),
+    );
+  }
+
+  /** Lays the axes out for the present size and window; the number of device pixels of the plot, or null. */
+  layOut(): { plot: Plot; columns: number; rows: number } | null {
+    this.layers.fit();
+    const { width, height, ratio } = this.layers;
+    if (width < 60 || height < 60) return null;
+    const size = width < 480 ? SMALL_LETTERS : LETTERS;
+    const plot = layOut(this.layers.more(), width, height, this.host.axes(), size);
+    this.plot = plot;
+    return { plot, columns: Math.round(plot.width * ratio), rows: Math.round(plot.height * ratio) };
+  }
+
+  private paintData(): void {
+    const plot = this.layOut()?.plot;
+    if (plot === undefined) return;
+    const pen = this.layers.data();
+    clippedTo(plot, pen, () => this.host.paint(pen, plot));
+    paintAxes(pen, plot);
+    this.paintCursor();
+  }
+
+  private paintCursor(): void {
+    const pen = this.layers.cursor();
+    const { plot, box, cross } = this;
+    if (plot === null) return;
+    if (cross !== null) {
+      const lines = hairsAt(plot, cross);
+      clippedTo(plot, pen, () => {
+        pen.path(lines, { stroke: "--picture-paper", width: 3, opacity: 0.6 });
+        // In no colour of data, and fine: a cross is not taken for a line of the picture.
+        pen.path(lines, { stroke: "--picture-text", width: 1, dash: [1, 2] });
+      });
+    }
+    if (box !== null) {
+      const stroke = "--picture-selection";
+      pen.rect(box.left, box.top, box.width, box.height, { fill: stroke, opacity: 0.15 });
+      pen.rect(box.left, box.top, box.width, box.height, { stroke, width: 1.5 });
+    }
+  }
+}
+
+/** Draws a picture of one window into a plot of another, stretched as it has to be. */
+export function paintStretched(pen: Pen, plot: Plot, image: HTMLCanvasElement, { x, y }: Window2): void {
+  const left = pixelX(plot, x[0]);
+  const top = pixelY(plot, y[1]);
+  pen.image(image, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);
+}
+
+const SETTLE = 350;
+const SMALLEST_DRAG = 6;
+
+/** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
+export class Gestures {
+  private readonly pointers = new Map<number, Place>();
+  private begun: (Place & { window: Window2; touch: boolean }) | null = null;
+  private pinch: { window: Window2; distance: number; at: Point } | null = null;
+  private moved = false;
+  private cross: [number, number] | null = null;
+  private settleTimer: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(
+    private readonly surface: HTMLElement,
+    private readonly host: GestureHost,
+  ) {
+    surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    surface.addEventListener("pointerdown", (event) => this.down(event));
+    surface.addEventListener("pointermove", (event) => this.follow(event));
+    surface.addEventListener("pointerup", (event) => this.up(event));
+    surface.addEventListener("pointercancel", (event) => this.abandon(event));
+    surface.addEventListener("pointerleave", (event) => {
+      if (event.pointerType === "mouse" && this.begun === null) host.point(null);
+    });
+    surface.addEventListener("keydown", (event) => this.key(event));
+    // Two fingers zoom the picture and not the page; one finger still scrolls the page.
+    const keepTwo = (event: TouchEvent) => {
+      if (event.touches.length >= 2) event.preventDefault();
+    };
+    surface.addEventListener("touchstart", keepTwo, { passive: false });
+    surface.addEventListener("touchmove", keepTwo, { passive: false });
+    surface.style.touchAction = "pan-y";
+  }
+
+  /** Zooms about the middle: for buttons. */
+  zoom(factor: number): void {
+    const { x, y } = this.host.window();
+    this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
+  }
+
+  private place(event: MouseEvent): Place {
+    const box = this.surface.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  }
+
+  private wheel(event: WheelEvent): void {
+    const plot = this.host.plot();
+    if (plot === null) return;
+    event.preventDefault();
+    const { x, y } = this.place(event);
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    const factor = Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.002);
+    const window = this.host.window();
+    // Beside an axis, only that axis; inside, both, or one of them with Shift or Alt.
+    const onlyX = y > plot.top + plot.height || event.shiftKey;
+    const onlyY = x < plot.left || event.altKey;
+    this.move({
+      x: onlyY ? window.x : scaled(window.x, valueX(plot, x), factor),
+      y: onlyX ? window.y : scaled(window.y, valueY(plot, y), factor),
+    });
+  }
+
+  /** Moves now, and says that it is settled when nothing has come for a while. */
+  private move(window: Window2): void {
+    this.host.move?.(window, false);
+    clearTimeout(this.settleTimer);
+    this.settleTimer = setTimeout(() => this.host.move?.(this.host.window(), true), SETTLE);
+  }
+
+  private down(event: PointerEvent): void {
+    const plot = this.host.plot();
+    if (plot === null || event.button > 0) return;
+    const at = this.place(event);
+    this.pointers.set(event.pointerId, at);
+    this.surface.setPointerCapture(event.pointerId);
+    if (this.pointers.size === 2) {
+      const [one, two] = [...this.pointers.values()] as [Place, Place];
+      this.begun = null;
+      this.host.rectangle?.(null);
+      this.pinch = {
+        window: this.host.window(),
+        distance: Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10),
+        at: [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)],
+      };
+    } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
+      this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
+      this.moved = false;
+    }
+  }
+
+  private follow(event: PointerEvent): void {
+    const plot = this.host.plot();
+    if (plot === null) return;
+    const at = this.place(event);
+    if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
+    if (this.pinch !== null && this.pointers.size >= 2) {
+      const [one, two] = [...this.pointers.values()] as [Place, Place];
+      const factor = this.pinch.distance / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
+      const { window, at: centre } = this.pinch;
+      this.moved = true;
+      this.move({ x: scaled(window.x, centre[0], factor), y: scaled(window.y, centre[1], factor) });
+    } else if (this.begun !== null) {
+      const { begun } = this;
+      if (!this.moved && Math.hypot(at.x - begun.x, at.y - begun.y) < SMALLEST_DRAG) return;
+      this.moved = true;
+      if (begun.touch) {
+        const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
+        this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
+      } else {
+        this.host.rectangle?.(boxOf(plot, begun, at));
+      }
+    } else {
+      this.host.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
+    }
+  }
+
+  private up(event: PointerEvent): void {
+    const plot = this.host.plot();
+    const { begun } = this;
+    const at = this.place(event);
+    this.release(event);
+    if (plot === null || begun === null) return;
+    if (!this.moved) {
+      const value: [number, number] = [valueX(plot, at.x), valueY(plot, at.y)];
+      this.host.point(value);
+      this.host.pick(value);
+    } else if (!begun.touch) {
+      const box = boxOf(plot, begun, at);
+      // A flat rectangle chooses a range of one axis.
+      const wide = box.width >= SMALLEST_DRAG;
+      const high = box.height >= SMALLEST_DRAG;
+      this.host.rectangle?.(null);
+      this.host.move?.(
+        {
+          x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
+          y: high ? [valueY(plot, box.top + box.height), valueY(plot, box.top)] : begun.window.y,
+        },
+        true,
+      );
+    }
+  }
+
+  private abandon(event: PointerEvent): void {
+    this.release(event);
+    this.host.rectangle?.(null);
+  }
+
+  private release(event: PointerEvent): void {
+    this.pointers.delete(event.pointerId);
+    this.begun = null;
+    if (this.pointers.size < 2) this.pinch = null;
+  }
+
+  private key(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey) return;
+    const window = this.host.window();
+    const arrow = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
+    if (arrow !== undefined) {
+      const [right = 0, up = 0] = arrow;
+      if (event.shiftKey) this.moveCross(right, up, window);
+      else this.move({ x: shifted(window.x, right * 0.1), y: shifted(window.y, up * 0.1) });
+    } else if (event.key === "+" || event.key === "=") this.zoom(0.5);
+    else if (event.key === "-") this.zoom(2);
+    else if (event.key === "0") this.host.reset?.();
+    else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
+    else if (event.key === "Escape") {
+      this.begun = null;
+      this.host.rectangle?.(null);
+      this.host.point(null);
+    } else return;
+    event.preventDefault();
+  }
+
+  /** The keyboard's own cursor, by a fiftieth of the window; it begins in the middle. */
+  private moveCross(right: number, up: number, { x, y }: Window2): void {
+    const from = this.cross ?? [(x[0] + x[1]) / 2, (y[0] + y[1]) / 2];
+    this.cross = [
+      clamp(from[0] + (right * (x[1] - x[0])) / 50, x[0], x[1]),
+      clamp(from[1] + (up * (y[1] - y[0])) / 50, y[0], y[1]),
+    ];
+    this.host.point(this.cross);
+  }
+}
+
+function scaled([low, high]: Range, centre: number, factor: number): Range {
+  return [centre + (low - centre) * factor, centre + (high - centre) * factor];
+}
+
+function shifted([low, high]: Range, share: number): Range {
+  const by = (high - low) * share;
+  return [low + by, high + by];
+}
+
+function boxOf(plot: Plot, from: Place, to: Place): Box {
+  const x = (value: number) => clamp(value, plot.left, plot.left + plot.width);
+  const y = (value: number) => clamp(value, plot.top, plot.top + plot.height);
+  const left = Math.min(x(from.x), x(to.x));
+  const top = Math.min(y(from.y), y(to.y));
+  return { left, top, width: Math.abs(x(from.x) - x(to.x)), height: Math.abs(y(from.y) - y(to.y)) };
+}
+
+/**
+ * A window no larger than `most` and no smaller than `least`, moved into `[low, high]`. A zoom of the window `before` that
+ * reaches a limit stops there about its own centre: at the limit it moves nothing.
+ */
+export function confined(wanted: Range, [least, most]: Range, [bottom, top]: Range, before?: Range): Range {
+  const [low, high] = wanted;
+  const width = clamp(high - low, least, Math.min(most, top - bottom));
+  const middle = clamp(middleOf(wanted, width, before), bottom + width / 2, top - width / 2);
+  return [middle - width / 2, middle + width / 2];
+}
+
+function middleOf([low, high]: Range, width: number, before: Range | undefined): number {
+  const middle = (low + high) / 2;
+  if (before === undefined || width === high - low) return middle;
+  const old = before[1] - before[0];
+  const factor = (high - low) / old;
+  if (!(Math.abs(factor - 1) > 1e-9)) return middle;
+  const centre = (low - factor * before[0]) / (1 - factor);
+  return centre + ((before[0] + before[1]) / 2 - centre) * (width / old);
+}
+
+/** Two canvases on each other at the screen's own pixels: data below, and the cursor, which moves often, above. */
+export class Layers {
+  /** The upper one, which takes the keyboard and the pointer. */
+  readonly surface: HTMLCanvasElement;
+  private readonly lower = element("canvas", { "aria-hidden": "true" });
+  readonly root: HTMLElement;
+  width = 0;
+  height = 0;
+  ratio = 1;
+
+  constructor(className: string, label: string) {
+    this.surface = element("canvas", { tabindex: 0, role: "application", "aria-label": label });
+    this.root = element("div", { class: `picture ${className}` }, this.lower, this.surface);
+  }
+
+  /** Takes the size of the element. True if it is another one, which empties both canvases. */
+  fit(): boolean {
+    const { clientWidth: width, clientHeight: height } = this.root;
+    const ratio = window.devicePixelRatio || 1;
+    if (width === this.width && height === this.height && ratio === this.ratio) return false;
+    Object.assign(this, { width, height, ratio });
+    for (const canvas of [this.lower, this.surface]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    return true;
+  }
+
+  /** A pen for the data, on clean paper. */
+  data(): Pen {
+    const pen = this.more();
+    pen.rect(0, 0, this.width, this.height, { fill: "--picture-paper" });
+    return pen;
+  }
+
+  /** A pen for the data, over what is there already. */
+  more(): Pen {
+    return new CanvasPen(this.scaled(this.lower));
+  }
+
+  /** A pen for the cursor, on a clean transparent sheet. */
+  cursor(): Pen {
+    const context = this.scaled(this.surface);
+    context.clearRect(0, 0, this.width, this.height);
+    return new CanvasPen(context);
+  }
+
+  private scaled(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+    const context = contextOf(canvas);
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    return context;
+  }
+}

@@ -1,0 +1,288 @@
+/** What stands around the views: tabs, the stage, the menu of files, dialogs and the theme. */
+
+import type { Context, State, View, ViewKind, ViewName } from "./contract";
+import { button, closeButton, element, kept, roved } from "./elements";
+import { PRESETS, type Preset } from "./presets";
+
+/** The tabs of the views: arrow keys move between them, as everywhere. */
+export class Tabs {
+  private readonly buttons: readonly HTMLButtonElement[];
+
+  constructor(
+    list: HTMLElement,
+    private readonly kinds: readonly ViewKind[],
+    choose: (name: ViewName) => void,
+  ) {
+    this.buttons = kinds.map(({ name, title }) =>
+      button(title, () => choose(name), { role: "tab", id: `tab-${name}`, "aria-controls": `view-${name}` }),
+    );
+    list.append(...this.buttons);
+    list.addEventListener("keydown", (event) => {
+      const at = this.buttons.indexOf(document.activeElement as HTMLButtonElement);
+      const target = roved(event.key, at, kinds.length);
+      if (at < 0 || target === undefined) return;
+      event.preventDefault();
+      this.buttons[target]?.click();
+      this.buttons[target]?.focus();
+    });
+  }
+
+  show(present: ViewName): void {
+    this.buttons.forEach((tab, index) => {
+      const shown = this.kinds[index]?.name === present;
+      tab.setAttribute("aria-selected", String(shown));
+      tab.tabIndex = shown ? 0 : -1;
+      if (shown) tab.scrollIntoView({ block: "nearest", inline: "nearest" });
+    });
+  }
+}
+
+/** Shows one view at a time, and keeps it at the size of its place. */
+export class Stage {
+  private readonly hosts: ReadonlyMap<ViewName, HTMLElement>;
+  private readonly made = new Map<ViewName, View>();
+  private present: ViewName | null = null;
+  private frame = 0;
+
+  constructor(
+    place: HTMLElement,
+    private readonly kinds: readonly ViewKind[],
+    private readonly context: Context,
+  ) {
+    this.hosts = new Map(
+      kinds.map(({ name, description }) => [
+        name,
+        element("div", { class: `view view-${name}`, id: `view-${name}`, role: "tabpanel", tabindex: -1,
+          "aria-labelledby": `tab-${name}`, "aria-description": description, hidden: true }),
+      ]),
+    ); // prettier-ignore
+    place.append(...this.hosts.values());
+    const observer = new ResizeObserver(() => this.redraw());
+    for (const host of this.hosts.values()) observer.observe(host);
+  }
+
+  get view(): View | undefined {
+    return this.present === null ? undefined : this.made.get(this.present);
+  }
+
+  get host(): HTMLElement | undefined {
+    return this.present === null ? undefined : this.hosts.get(this.present);
+  }
+
+  show(state: State): void {
+    if (this.present !== state.view) {
+      this.view?.hide();
+      this.present = state.view;
+      for (const [name, host] of this.hosts) host.hidden = name !== state.view;
+      this.context.status("");
+    }
+    const { host } = this;
+    const kind = this.kinds.find(({ name }) => name === state.view);
+    if (this.view === undefined && kind && host) this.made.set(kind.name, kind.make(host, this.context));
+    this.view?.show(state);
+  }
+
+  /** Once in the next frame, however often it is asked for. */
+  redraw(): void {
+    cancelAnimationFrame(this.frame);
+    this.frame = requestAnimationFrame(() => this.view?.redraw());
+  }
+}
+
+interface Item {
+  readonly label: string;
+  /** Set apart at the end of the line. */
+  readonly note: string;
+  act(): void;
+}
+
+/** A button that opens a list of things to do, by mouse, touch and keyboard. */
+export class Menu {
+  readonly element: HTMLElement;
+  private readonly list = element("div", { class: "items", role: "menu", hidden: true });
+
+  constructor(
+    private readonly opener: HTMLButtonElement,
+    private readonly items: () => Item[],
+  ) {
+    opener.setAttribute("aria-haspopup", "menu");
+    opener.setAttribute("aria-expanded", "false");
+    opener.addEventListener("click", () => (this.list.hidden ? this.open() : this.close()));
+    opener.addEventListener("keydown", (event) => {
+      if (event.key !== "ArrowDown") return;
+      event.preventDefault();
+      this.open();
+    });
+    this.list.addEventListener("keydown", (event) => this.pressed(event));
+    this.element = element("div", { class: "menu" }, opener, this.list);
+    document.addEventListener("pointerdown", (event) => {
+      if (!this.element.contains(event.target as Node)) this.close(false);
+    });
+    this.element.addEventListener("focusout", (event) => {
+      if (event.relatedTarget !== null && !this.element.contains(event.relatedTarget as Node)) this.close(false);
+    });
+  }
+
+  private open(): void {
+    const buttons = this.items().map(({ label, note, act }) => {
+      const chosen = () => {
+        this.close();
+        act();
+      };
+      const words = [element("span", {}, label), element("span", { class: "kind" }, note)];
+      return button(words, chosen, { role: "menuitem", tabindex: -1 });
+    });
+    this.list.replaceChildren(...buttons);
+    this.list.hidden = false;
+    this.opener.setAttribute("aria-expanded", "true");
+    buttons[0]?.focus();
+  }
+
+  private close(focus = true): void {
+    if (this.list.hidden) return;
+    this.list.hidden = true;
+    this.opener.setAttribute("aria-expanded", "false");
+    if (focus) this.opener.focus();
+  }
+
+  private pressed(event: KeyboardEvent): void {
+    const buttons = [...this.list.querySelectorAll("button")];
+    const target = roved(event.key, buttons.indexOf(document.activeElement as HTMLButtonElement), buttons.length);
+    if (event.key === "Escape") this.close();
+    else if (target !== undefined) buttons[target]?.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}
+
+const THEMES = ["automatic", "light", "dark"] as const;
+const dark = window.matchMedia("(prefers-color-scheme: dark)");
+
+/** Light, dark, or as the system has it. `data-scheme` on the root element is what the style sheet looks at. */
+export class Themes {
+  private theme: (typeof THEMES)[number];
+
+  constructor(
+    private readonly opener: HTMLButtonElement,
+    private readonly changed: () => void,
+  ) {
+    const name = kept.read("theme");
+    this.theme = THEMES.find((theme) => theme === name) ?? "automatic";
+    dark.addEventListener("change", () => this.apply());
+    this.apply();
+  }
+
+  /** Takes the next one, and says its name. */
+  next(): string {
+    this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
+    kept.write("theme", this.theme);
+    this.apply();
+    return `Colours: ${this.theme}`;
+  }
+
+  private apply(): void {
+    this.opener.dataset["theme"] = this.theme;
+    this.opener.setAttribute("aria-label", `Colours: ${this.theme}`);
+    const scheme = this.theme === "automatic" ? (dark.matches ? "dark" : "light") : this.theme;
+    const { dataset } = document.documentElement;
+    if (dataset["scheme"] === scheme) return;
+    dataset["scheme"] = scheme;
+    this.changed();
+  }
+}
+
+function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
+  const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
+  const heading = element("h2", { id: `${name}-title` }, title);
+  made.append(
+    element(
+      "div",
+      { class: "sheet" },
+      heading,
+      closeButton("Close", () => made.close()),
+      ...content,
+    ),
+  );
+  // A click beside the sheet closes it.
+  made.addEventListener("click", (event) => {
+    if (event.target === made) made.close();
+  });
+  document.body.append(made);
+  return made;
+}
+
+/** The figures and tables of the paper to choose from. */
+export function presetDialog(choose: (preset: Preset) => void): HTMLDialogElement {
+  const cards = PRESETS.map((preset) => {
+    const chosen = () => {
+      made.close();
+      choose(preset);
+    };
+    const words = [element("b", {}, preset.place), element("span", {}, preset.title)];
+    return button(words, chosen, { class: "card", "data-preset": preset.id });
+  });
+  const made = dialog(
+    "Figures and tables of the paper",
+    "presets",
+    element("p", {}, "Each opens the view and the parameters that come nearest to it, and says what to see."),
+    element("div", { class: "cards" }, ...cards),
+  );
+  made.addEventListener("keydown", (event) => {
+    const at = cards.indexOf(document.activeElement as HTMLButtonElement);
+    const target = roved(event.key, at, cards.length);
+    if (target === undefined || at < 0) return;
+    event.preventDefault();
+    cards[target]?.focus();
+  });
+  return made;
+}
+
+const KEYS: readonly [string, string][] = [
+  ["1 2 3 4", "Toss, orbit diagram, basins, motor"],
+  ["p", "figures and tables of the paper"],
+  ["t", "guided tour; in it → next, ← back, Esc end"],
+  ["e", "export data and pictures of the view"],
+  ["l", "copy a link to what you see"],
+  ["d", "light, dark or automatic colours"],
+  ["?", "this help"],
+  ["↑ ↓", "in a number: one step; with Shift ten"],
+  ["Esc", "in a number: back to the last legal value"],
+  ["+ − 0", "in a diagram or basins: nearer, farther, all"],
+  ["← → ↑ ↓", "there: move what is seen"],
+  ["Shift ← → ↑ ↓", "there: move the cross"],
+  ["Enter", "there: choose what is under the cross"],
+];
+
+/** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
+export const shortcutsOn = (): boolean => kept.read("keys") !== "off";
+
+/** The keyboard's help and what this is. */
+export function helpDialog(): HTMLDialogElement {
+  const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
+  box.addEventListener("change", () => kept.write("keys", box.checked ? "on" : "off"));
+  const keys = KEYS.map(([key, what]) => {
+    const caps = key.split(" ").map((one) => element("kbd", {}, one));
+    return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));
+  });
+  const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
+  return dialog(
+    "Keyboard and about",
+    "help",
+    element("dl", { class: "keys" }, ...keys),
+    paragraph(element("label", {}, box, " Keys without Ctrl or Alt work")),
+    element("h3", {}, "What this is"),
+    paragraph(
+      "A disk bounces on a platform that vibrates and twists: a pizza dough on a hand, a steel ball on a chaotic " +
+        "table, or the rotor of an ultrasonic motor. Everything is computed in this page by the library of the " +
+        "project, with the same bits as on any other machine; nothing is sent anywhere, and nothing is loaded " +
+        "from anywhere.",
+    ),
+    paragraph(
+      "The model is that of K.-C. Liu, J. Friend and L. Yeo, ",
+      element("cite", {}, "Rotating bouncing disks, tossing pizza dough, and the behavior of ultrasonic motors"),
+      ", Phys. Rev. E 80, 046201 (2009), doi:10.1103/PhysRevE.80.046201. Please cite it for the physics.",
+    ),
+    paragraph("Licence: MIT or Apache-2.0, as you prefer."),
+  );
+}

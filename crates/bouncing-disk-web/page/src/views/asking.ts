@@ -1,0 +1,63 @@
+/** Orbits asked for their verdict, what views do with answers that do not come, and cycles that rounding chose. */
+
+import { Cancelled, messageOf, type Context, type State } from "../contract";
+import { element } from "../elements";
+import type { ImpactStart, VerdictJson } from "../protocol";
+import { axialForcing } from "../state";
+
+/** The map of the vertical motion of the shared system. */
+export const mapOf = ({ system }: State) => ({
+  axial_forcing: axialForcing(system),
+  restitution: system.restitution,
+});
+
+/** The impact with which the orbits of a state begin. */
+export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): ImpactStart => ({
+  impact_phase,
+  normalised_speed,
+});
+
+export async function verdictOf(
+  context: Context,
+  slot: string,
+  map: ReturnType<typeof mapOf>,
+  start: ImpactStart,
+): Promise<VerdictJson> {
+  return (await context.client.ask<VerdictJson>(slot, { call: "orbit", ...map, start })).json;
+}
+
+/** Says what went wrong; a request that another one replaced went not wrong. */
+export function tellFailure(context: Context, error: unknown): void {
+  if (!(error instanceof Cancelled)) context.status(messageOf(error), "error");
+}
+
+/** A disk at rest on the platform at its lowest point: the cycle after a rest does not depend on what was before. */
+const REST = { impact_phase: 1.5 * Math.PI, normalised_speed: 0 };
+
+/** Says so where rounding, and not the model, decides what a disk does after a rest. */
+export class RoundingCaution {
+  readonly root: HTMLElement;
+  private asked = "";
+
+  constructor(
+    private readonly slot: string,
+    text: string,
+  ) {
+    this.root = element("p", { class: "caution", hidden: true }, `Rounding-dependent: ${text}`);
+  }
+
+  /** Asks once for each map. A map of which no verdict comes has no caution, and its own view says why. */
+  async show(context: Context, state: State): Promise<void> {
+    const map = mapOf(state);
+    const key = JSON.stringify(map);
+    if (key === this.asked) return;
+    this.asked = key;
+    this.root.hidden = true;
+    try {
+      const verdict = await verdictOf(context, this.slot, map, REST);
+      if (this.asked === key) this.root.hidden = !verdict.rounding_dependent;
+    } catch (error) {
+      if (error instanceof Cancelled && this.asked === key) this.asked = "";
+    }
+  }
+}

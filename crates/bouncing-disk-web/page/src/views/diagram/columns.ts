@@ -1,0 +1,117 @@
+/** What is drawn over the forcing, and the columns of a window: where they take long, every eighth first, then all. */
+
+import type { Context, Quantity } from "../../contract";
+import type { DiagramJson, ImpactStart, Range, Request, SystemParameters } from "../../protocol";
+
+export interface Described {
+  readonly name: string;
+  /** With markup and unit. */
+  readonly label: string;
+  /** A number as wide as those of usual ranges: the plot's width, and with it the columns, must not depend on these. */
+  readonly widest: string;
+  /** How wide a window may be, and between which values it lies. */
+  readonly widths: Range;
+  readonly bounds: Range;
+}
+
+/** In the order in which they are offered. */
+export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
+  impact_phase: {
+    name: "phase of impact",
+    label: "phase of impact *τ*_{imp}/2π (periods)",
+    widest: "0.0",
+    widths: [1e-9, 1],
+    bounds: [-1, 2],
+  },
+  normalised_speed: {
+    name: "normalised impact speed",
+    label: "normalised impact speed |*w*_{A}Γ/(*ωA*)|",
+    widest: "00.0",
+    widths: [1e-9, 1000],
+    bounds: [0, 1000],
+  },
+  angular_speed: {
+    name: "angular speed after the impact",
+    label: "angular speed after the impact / *ω*Φ",
+    widest: "\u221200.0",
+    widths: [1e-9, 100],
+    bounds: [-100, 100],
+  },
+};
+
+/** Where the quantity is in a row of `DIAGRAM_COLUMNS` and, but for the last one, of `BRANCH_COLUMNS`. */
+export const columnOf = (quantity: Quantity): number => 1 + Object.keys(DESCRIBED).indexOf(quantity);
+
+/** The value of the axis: phases in periods, of which that in `[low, low + 1)` is taken. */
+export function axisValue(quantity: Quantity, value: number, low: number): number {
+  if (quantity !== "impact_phase") return value;
+  const periods = value / (2 * Math.PI);
+  return periods - Math.floor(periods - low);
+}
+
+export interface Columns {
+  readonly numbers: Float64Array;
+  readonly from: number;
+  readonly to: number;
+  readonly coarse: boolean;
+}
+
+export interface Wanted {
+  readonly system: SystemParameters;
+  readonly start: ImpactStart;
+  readonly axial_forcing: Range;
+  readonly count: number;
+  readonly rotation: boolean;
+}
+
+export const TRANSIENT = 300;
+export const RECORDED = 200;
+/** An orbit that has not settled is followed for so many impacts; near a doubling it would take any number. */
+export const PATIENCE = 3000;
+/** A coarse column stands for so many. */
+export const COARSE = 8;
+/** Columns of a request: some 10 ms of work, so that one that is not wanted any more is soon over; their way between the
+ * workers takes longer than 32 columns of the vertical motion. */
+const CHUNK = { vertical: 256, rotation: 64 };
+
+/** What is known of all orbits of the diagram. */
+export type Told = DiagramJson;
+
+/** Gives each answer to `take`; what there is to tell of the orbits when all are there. */
+export async function computeColumns(
+  context: Context,
+  wanted: Wanted,
+  take: (columns: Columns) => void,
+): Promise<Told> {
+  const places: Omit<Columns, "numbers">[] = [];
+  const chunk = wanted.rotation ? CHUNK.rotation : CHUNK.vertical;
+  const coarseCount = Math.ceil(wanted.count / COARSE);
+  const add = (count: number, coarse: boolean) => {
+    for (let from = 0; from < count; from += chunk) places.push({ from, to: Math.min(from + chunk, count), coarse });
+  };
+  // The vertical motion of all columns is there before a coarse picture of it could be looked at.
+  if (wanted.rotation) add(coarseCount, true);
+  add(wanted.count, false);
+  const requests = places.map(({ from, to, coarse }): Request => ({
+    call: "diagram",
+    ...wanted,
+    count: coarse ? coarseCount : wanted.count,
+    columns: [from, to],
+    transient: TRANSIENT,
+    recorded: RECORDED,
+    patience: coarse ? TRANSIENT : PATIENCE,
+  }));
+  let told: Told = { resting: 0, unsettled: 0, left_out: TRANSIENT };
+  await context.client.series<DiagramJson>("diagram", requests, ({ json, numbers }, index) => {
+    const place = places[index] as (typeof places)[number];
+    if (!place.coarse) {
+      told = {
+        resting: told.resting + json.resting,
+        unsettled: told.unsettled + json.unsettled,
+        left_out: Math.max(told.left_out, json.left_out),
+      };
+    }
+    take({ ...place, numbers });
+  });
+  return told;
+}

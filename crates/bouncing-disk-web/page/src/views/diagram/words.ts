@@ -1,0 +1,153 @@
+/** What the orbit under the cursor does for good, and the whole diagram in words, by the library's verdicts. */
+
+import type { Context, State } from "../../contract";
+import { debounced, element, Facts, setText } from "../../elements";
+import { brief, grouped, plain, withError } from "../../numbers";
+import type { VerdictJson } from "../../protocol";
+import { impactOf, tellFailure, verdictOf } from "../asking";
+import { endText, forcingText } from "./branches";
+import { DESCRIBED, RECORDED, TRANSIENT, type Told } from "./columns";
+
+const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as const;
+const HINT = "Point at the diagram: the orbit of that forcing from the shared start.";
+const CAUTION =
+  "Rounding-dependent: after a rest the orbit is in the same state again, and the cycle shown was chosen by rounding.";
+
+export class Verdict {
+  readonly root: HTMLElement;
+  private readonly facts = new Facts(NAMES, "Orbit under the cursor");
+  private readonly sentence = element("p", {}, HINT);
+  private readonly caution = element("p", { class: "caution", hidden: true }, CAUTION);
+  private asked = NaN;
+  private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
+
+  constructor(private readonly context: Context) {
+    const title = element("h3", {}, "Orbit under the cursor");
+    const parts = [title, this.facts.root, this.sentence, this.caution];
+    this.root = element("section", { class: "panel", "aria-label": "Orbit under the cursor" }, ...parts);
+  }
+
+  point(forcing: number, state: State): void {
+    this.asked = forcing;
+    this.facts.set("Γ", plain(forcing, 6));
+    this.ask(forcing, state);
+  }
+
+  stop(): void {
+    this.ask.stop();
+    this.context.client.cancel("diagram-orbit");
+  }
+
+  private async fetch(forcing: number, state: State): Promise<void> {
+    const map = { axial_forcing: forcing, restitution: state.system.restitution };
+    try {
+      const verdict = await verdictOf(this.context, "diagram-orbit", map, impactOf(state));
+      if (this.asked === forcing) this.tell(forcing, verdict);
+    } catch (error) {
+      tellFailure(this.context, error);
+    }
+  }
+
+  private tell(forcing: number, verdict: VerdictJson): void {
+    const { impacts, platform_periods: periods } = verdict;
+    const kind = verdict.kind.replace("-", " ");
+    const round = impacts === null ? "–" : `${count(impacts, "impact")} in ${count(periods ?? 0, "period")}`;
+    this.facts.set("Orbit", kind);
+    this.facts.set("Period", round);
+    this.facts.set("Multipliers", verdict.multipliers?.map(complex).join(", ") ?? "–");
+    this.facts.set("Exponent per impact", withError(verdict.exponent, verdict.exponent_error));
+    // The library writes for terminals, too.
+    setText(this.sentence, verdict.text.replaceAll("+-", "±"));
+    this.caution.hidden = !verdict.rounding_dependent;
+    const words = verdict.rounding_dependent ? ", rounding-dependent" : "";
+    this.context.announce(`Γ ${plain(forcing, 4)}: ${kind}, ${round}${words}`);
+  }
+}
+
+function count(number: number, word: string): string {
+  return `${number} ${word}${number === 1 ? "" : "s"}`;
+}
+
+function complex([real, imaginary]: readonly [number, number]): string {
+  if (imaginary === 0) return plain(real, 3);
+  return `${plain(real, 3)} ${imaginary < 0 ? "\u2212" : "+"} ${plain(Math.abs(imaginary), 3)}i`;
+}
+
+const SAMPLES = 5;
+const slotOf = (sample: number): string => `diagram-words-${sample}`;
+
+/** The orbit diagram for those who do not see it: what some of its orbits do for good. */
+export class Description {
+  private key = "";
+  private coming = Promise.resolve();
+  private verdicts: readonly VerdictJson[] = [];
+
+  constructor(private readonly context: Context) {}
+
+  /** Asks for the verdicts on the samples of a state, unless they are there or on their way. */
+  fetch(state: State): Promise<void> {
+    const start = impactOf(state);
+    const { restitution } = state.system;
+    const key = JSON.stringify([state.diagram.axial_forcing, restitution, start]);
+    if (key === this.key) return this.coming;
+    this.key = key;
+    const asked = samplesOf(state).map((axial_forcing, sample) =>
+      verdictOf(this.context, slotOf(sample), { axial_forcing, restitution }, start),
+    );
+    this.coming = Promise.all(asked).then(
+      (verdicts) => {
+        if (this.key === key) this.verdicts = verdicts;
+      },
+      (error: unknown) => {
+        // What did not come is asked for when it is wanted again.
+        if (this.key === key) this.key = "";
+        throw error;
+      },
+    );
+    return this.coming;
+  }
+
+  cancel(): void {
+    for (let sample = 0; sample < SAMPLES; sample += 1) this.context.client.cancel(slotOf(sample));
+  }
+
+  words(state: State, count: number, told: Told): string {
+    const { axial_forcing, quantity, branches } = state.diagram;
+    const [low, high] = axial_forcing;
+    const samples = samplesOf(state);
+    const does = this.verdicts.map(
+      (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
+    );
+    return (
+      `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
+      `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
+      `of restitution of ${brief(state.system.restitution)}. What the vertical motion does for good: ` +
+      `${does.join(", ")}.${unsettled(count, told, quantity !== "angular_speed" && branches)}`
+    );
+  }
+}
+
+function samplesOf({ diagram }: State): number[] {
+  const [low, high] = diagram.axial_forcing;
+  return Array.from({ length: SAMPLES }, (_, sample) => low + ((high - low) * (sample + 0.5)) / SAMPLES);
+}
+
+function leftOut({ left_out }: Told): string {
+  const more = left_out > TRANSIENT ? ` (where that is not enough, up to ${grouped(String(left_out))})` : "";
+  return `${TRANSIENT}${more}`;
+}
+
+function unsettled(count: number, { unsettled: number, left_out }: Told, lines: boolean): string {
+  if (number === 0) return "";
+  const some = `${number} of the ${count} orbits ${number === 1 ? "has" : "have"} not`;
+  const of = number === count ? "None of the orbits has" : some;
+  const end = lines ? "; the lines are where they end." : ".";
+  return ` ${of} settled after ${grouped(String(left_out))} impacts: their dots are still on their way${end}`;
+}
+
+function behaviour({ kind, impacts }: VerdictJson): string {
+  if (kind === "periodic") return `period ${impacts ?? 0}`;
+  if (kind === "chaotic") return "chaos";
+  if (kind === "chattering") return `a rest every ${count(impacts ?? 0, "impact")}`;
+  return kind === "at-rest" ? "rest for ever" : "undecided";
+}

@@ -1,0 +1,138 @@
+/** What the motor's view asks for, in the order in which it matters to a reader, and the panel of its data sheet. */
+
+import type { Context, State } from "../../contract";
+import { save } from "../../drawing/files";
+import { button, element } from "../../elements";
+import {
+  OPERATION_COLUMNS, type MotorSheet, type OperationsJson, type ReportJson, type SheetJson, type StallJson,
+  type TransientJson,
+} from "../../protocol"; // prettier-ignore
+import { tellFailure } from "../asking";
+
+/** The seed of all random numbers, so that everybody gets the same ones. */
+export const SEED = 1;
+export const MEMBERS = 16;
+const TRANSIENT_POINTS = 160;
+/** The curve is there soon, roughly, and then sharpens: a motor that settles late takes more impacts. */
+export const PASSES = [
+  { relative_error: 0.1, most_impacts: 5_000_000 },
+  { relative_error: 0.02, most_impacts: 20_000_000 },
+] as const;
+const STALL_ERROR = 0.02;
+
+const WIDTH = OPERATION_COLUMNS.length;
+
+/** One load: a row by the names of `OPERATION_COLUMNS`. */
+export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
+  readonly shortfall: string | null;
+  /** The relative error that was asked for. */
+  readonly wanted: number;
+};
+
+export interface Transient {
+  readonly json: TransientJson;
+  readonly numbers: Float64Array;
+}
+
+/** The sheet of the shared system. */
+export async function sheetOf({ client }: Context, { system, mass }: State): Promise<MotorSheet> {
+  return (await client.ask<SheetJson>("motor-sheet", { call: "sheet_of_system", system, mass })).json.sheet;
+}
+
+export async function reportOf({ client }: Context, sheet: MotorSheet): Promise<ReportJson> {
+  return (await client.series<ReportJson>("motor-report", [{ call: "motor_report", sheet }])).json;
+}
+
+export function transientOf({ client }: Context, sheet: MotorSheet, rise_times: number): Promise<Transient> {
+  const request = { sheet, members: MEMBERS, rise_times, points: TRANSIENT_POINTS, seed: SEED };
+  return client.series<TransientJson>("motor-transient", [{ call: "motor_transient", ...request }]);
+}
+
+/** All loads on one vertical motion: points of a curve that share their impacts are told apart best, and cost little
+ * more than one of them. */
+export async function operate(
+  { client }: Context,
+  sheet: MotorSheet,
+  load_torques: readonly number[],
+  pass: (typeof PASSES)[number],
+): Promise<Operation[]> {
+  const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
+  const { json, numbers } = await client.series<OperationsJson>("motor-loads", [request]);
+  return load_torques.map((_, row) => {
+    const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
+    const shortfall = json.shortfalls[row] ?? null;
+    return { ...Object.fromEntries(columns), shortfall, wanted: pass.relative_error } as Operation;
+  });
+}
+
+export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<StallJson> {
+  const request = { call: "motor_stall", sheet, relative_error: STALL_ERROR, seed: SEED } as const;
+  return (await client.series<StallJson>("motor-stall", [request])).json;
+}
+
+/** A data sheet has some dozen numbers. */
+const LONGEST_SHEET = 100_000;
+const REMARK =
+  "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it.";
+
+/** The data sheet: imported by pasting or from a file, shown and exported as JSON. */
+export class SheetPanel {
+  readonly root: HTMLElement;
+  private readonly text = element("textarea", {
+    rows: 9, spellcheck: "false", "aria-label": "Data sheet as JSON", class: "sheet-text",
+    oninput: () => (this.typed = true),
+  }); // prettier-ignore
+  private readonly file = element("input", {
+    type: "file", accept: ".json,application/json", hidden: true, onchange: () => void this.readFile(),
+  }); // prettier-ignore
+  private typed = false;
+
+  constructor(
+    private readonly context: Context,
+    private readonly take: (imported: SheetJson) => void,
+  ) {
+    const bar = element(
+      "div",
+      { class: "bar" },
+      button("Use this sheet", () => void this.read(this.text.value)),
+      button("Open a file", () => this.file.click()),
+      button("Save as JSON", () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
+      this.file,
+    );
+    const parts = [element("h3", {}, "Data sheet"), this.text, bar, element("p", { class: "remark" }, REMARK)];
+    this.root = element("section", { class: "panel", "aria-label": "Data sheet" }, ...parts);
+  }
+
+  /** Shows a text, unless somebody is about to write another one. */
+  show(text: string): void {
+    if (!this.typed) this.text.value = text;
+  }
+
+  private async read(text: string): Promise<void> {
+    if (text.length > LONGEST_SHEET) {
+      this.context.status("This is too long for a data sheet.", "error");
+      return;
+    }
+    try {
+      const { json } = await this.context.client.ask<SheetJson>("motor-read", { call: "sheet_read", text });
+      this.typed = false;
+      this.take(json);
+      this.context.status("The data sheet is read: system and mass are those of it now.");
+    } catch (error) {
+      tellFailure(this.context, error);
+    }
+  }
+
+  private async readFile(): Promise<void> {
+    const file = this.file.files?.[0];
+    this.file.value = "";
+    if (file === undefined) return;
+    if (file.size > LONGEST_SHEET) {
+      this.context.status(`${file.name} is too long for a data sheet.`, "error");
+      return;
+    }
+    this.text.value = await file.text();
+    this.typed = true;
+    await this.read(this.text.value);
+  }
+}

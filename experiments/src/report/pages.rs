@@ -1,0 +1,531 @@
+//! The committed pages and pictures: `docs/results.md`, `docs/errata.md`, `docs/figures` and `docs/extras`.
+//!
+//! They are made in paper quality. Whether they are out of date must be known without the minutes that takes: [`Digests`],
+//! written with the pictures, holds for each figure a digest of what it was made from in *both* qualities: data, drawing and
+//! section. A draft run sees every change of model, drawing, caption, claims and printed numbers. It does not see one that only
+//! the paper grids feel, nor one of the page's head (docs/architecture.md).
+
+use std::collections::BTreeMap;
+
+use bouncing_disk::core::numerics::digest::Digest;
+use bouncing_disk::{Provenance, StorageError};
+use minijinja::{Value, context};
+use serde::{Deserialize, Serialize};
+
+use super::counts::Counts;
+use super::{Section, TemplateError, digits, environment};
+use crate::cache_key::Stale;
+use crate::claims::{Claim, Computed, Source};
+use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
+use crate::output::{OutputError, OutputFolder};
+use crate::registry::is_extra;
+use crate::{json, provenance};
+
+/// Figure by figure the picture, what it shows, the parameters, and printed against computed.
+pub const RESULTS_FILE: &str = "results.md";
+/// Prose by hand, every number in it from the data of a figure.
+pub const ERRATA_FILE: &str = "errata.md";
+/// The digests, in the folder of the pictures.
+pub const DIGESTS_FILE: &str = "digests.json";
+/// How large the file of a picture may be (bytes), where a smaller width helps.
+pub const LARGEST_PICTURE: usize = 300_000;
+/// Widths of a picture (pixels), from the best on: the first counts whose file is small enough.
+const PICTURE_WIDTHS: [u16; 4] = [1100, 950, 800, 650];
+
+/// The template of the errata. What it writes out itself are numbers that the paper prints: a test reads all of them. A
+/// number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or that of the claim that
+/// answers an entry of the catalogue, `{{ claims["section4.merging"]|number(".4") }}`: the computed number, or the share
+/// of the inputs that print alike for which it holds.
+const ERRATA: &str = include_str!("errata.md");
+/// Its name among the digests.
+pub const TEMPLATE: &str = "errata template";
+const RESULTS: &str = include_str!("results.md");
+const SECTION: &str = include_str!("section.md");
+
+/// Which pictures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pictures {
+    /// Those of the paper's figures, with the pages.
+    Paper,
+    /// Those of the figures beyond the paper.
+    Extras,
+}
+
+impl Pictures {
+    /// Their folder, in that of the documentation.
+    pub fn folder(self) -> &'static str {
+        match self {
+            Self::Paper => "figures",
+            Self::Extras => "extras",
+        }
+    }
+}
+
+/// Why the pages could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PagesError {
+    /// A figure that the page needs is not there or cannot be drawn.
+    #[error("{id}")]
+    Figure {
+        /// The figure.
+        id: &'static str,
+        /// What went wrong.
+        source: Box<ExperimentError>,
+    },
+    /// There are no files of a figure in the output folder.
+    #[error("{id} has not been made")]
+    Missing {
+        /// The figure.
+        id: &'static str,
+    },
+    /// The files of a figure are not those that were written for the page.
+    #[error(
+        "the files of {id} were changed since they were made, or made again in another quality or with measurements"
+    )]
+    Changed {
+        /// The figure.
+        id: &'static str,
+    },
+    /// A page refers to what is not there.
+    #[error("a page refers to what is not there")]
+    Template(#[from] TemplateError),
+    /// A file cannot be read or written.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// What a file says of its origin cannot be stored, or is of a newer format.
+    #[error(transparent)]
+    Provenance(#[from] Box<StorageError>),
+}
+
+/// What the committed pages and pictures were made from.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Digests {
+    /// Which version of the program wrote them.
+    provenance: Provenance,
+    /// Of the pages that belong to the pictures, and of the template of the errata.
+    pub pages: BTreeMap<String, String>,
+    /// By identifier of the figure.
+    pub figures: BTreeMap<String, FigureDigests>,
+}
+
+/// What the picture of one figure, and its section of the page where it has one, were made from.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FigureDigests {
+    /// Digest of data, drawing and section in draft quality.
+    draft: String,
+    /// The same in paper quality, of which the picture is.
+    paper: String,
+    /// Digest of the picture's file.
+    pub picture: String,
+}
+
+/// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
+pub fn digest(bytes: &[u8]) -> String {
+    Digest::of(bytes).to_string()
+}
+
+/// A figure as it lies in an output folder, with its section of the page.
+struct Figure {
+    made: Made,
+    origin: Provenance,
+    section: String,
+    digest: String,
+}
+
+impl Figure {
+    /// The documentation shows no measurements: what was made with some, or in another quality by a run since, is
+    /// not taken for it.
+    fn read(
+        entry: &RegisteredExperiment,
+        folder: &OutputFolder,
+        quality: Quality,
+    ) -> Result<Self, PagesError> {
+        let id = entry.id;
+        let data = folder.read(&format!("{id}.json"))?.ok_or(PagesError::Missing { id })?;
+        let state = folder.cache_key(id).map(|key| {
+            let read = |name: &str| folder.read(name).ok().flatten();
+            let whole = key.names().all(|name| read(name).is_some_and(|bytes| key.holds(name, &bytes)));
+            whole && key.quality == quality && !key.shows_measurements()
+        });
+        match state {
+            Ok(true) => {}
+            Err(Stale::Missing) => return Err(PagesError::Missing { id }),
+            _ => return Err(PagesError::Changed { id }),
+        }
+        let failed = |source| PagesError::Figure { id, source: Box::new(source) };
+        let (made, _, origin) = entry.read(&data).map_err(failed)?;
+        let mut section = String::new();
+        if !is_extra(id) {
+            let values = Value::from_serialize(Section::of(entry, &made)?);
+            section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
+        }
+        // Another version of the program does not make another figure.
+        let mut record: serde_json::Value = serde_json::from_slice(&data).unwrap_or_default();
+        record.as_object_mut().map(|members| members.remove("provenance"));
+        let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
+        let digest = digest([json::to_text(&record), drawing, section.clone()].concat().as_bytes());
+        Ok(Self { made, origin, section, digest })
+    }
+
+    /// The file of the picture.
+    fn picture(&self, id: &'static str) -> Result<Vec<u8>, PagesError> {
+        let failed = |source: ExperimentError| PagesError::Figure { id, source: Box::new(source) };
+        let mut picture = Vec::new();
+        for width in PICTURE_WIDTHS {
+            let drawn = self.made.figure.to_png_within(width).map_err(|error| failed(error.into()))?;
+            picture = provenance::in_png(&self.origin, &drawn);
+            if picture.len() <= LARGEST_PICTURE {
+                break;
+            }
+        }
+        Ok(picture)
+    }
+}
+
+/// Writes the pictures and their digests into `docs` from the figures in both output folders, and the pages of those of the
+/// paper: nothing before everything is drawn, and the digests, which all is compared with, last.
+pub fn write(
+    pictures: Pictures,
+    entries: &[&RegisteredExperiment],
+    paper: &OutputFolder,
+    draft: &OutputFolder,
+    docs: &OutputFolder,
+) -> Result<(), PagesError> {
+    write_with(ERRATA, pictures, entries, [paper, draft], docs)
+}
+
+fn write_with(
+    template: &str,
+    pictures: Pictures,
+    entries: &[&RegisteredExperiment],
+    [paper, draft]: [&OutputFolder; 2],
+    docs: &OutputFolder,
+) -> Result<(), PagesError> {
+    let folder = OutputFolder::create(docs.path().join(pictures.folder()))?;
+    let origin = provenance::new(provenance::DIGESTS).with("quality", &Quality::Paper).map_err(Box::new)?;
+    let mut digests = Digests { provenance: origin, pages: BTreeMap::new(), figures: BTreeMap::new() };
+    let (mut figures, mut files) = (Vec::new(), Vec::new());
+    // No other run may put figures of its own there meanwhile.
+    let _held = (draft.lock()?, paper.lock()?);
+    for entry in entries {
+        let drafted = Figure::read(entry, draft, Quality::Draft)?.digest;
+        let figure = Figure::read(entry, paper, Quality::Paper)?;
+        let picture = figure.picture(entry.id)?;
+        let known = FigureDigests { draft: drafted, paper: figure.digest.clone(), picture: digest(&picture) };
+        digests.figures.insert(entry.id.to_owned(), known);
+        files.push((format!("{}.png", entry.id), picture));
+        figures.push((entry.id, figure));
+    }
+    let mut pages = Vec::new();
+    if pictures == Pictures::Paper {
+        pages = vec![(RESULTS_FILE, results(&figures)?), (ERRATA_FILE, errata(template, &figures)?)];
+        digests.pages.insert(TEMPLATE.to_owned(), digest(template.as_bytes()));
+    }
+    for (name, page) in &pages {
+        digests.pages.insert((*name).to_owned(), digest(page.as_bytes()));
+    }
+    let text = serde_json::to_value(&digests).map(|digests| json::to_text(&digests)).unwrap_or_default();
+    files.push((DIGESTS_FILE.to_owned(), text.into_bytes()));
+    let pages: Vec<_> = pages.iter().map(|(name, page)| (*name, page.as_bytes())).collect();
+    let files: Vec<_> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    docs.write_all(&pages)?;
+    Ok(folder.write_all(&files)?)
+}
+
+/// Names of committed files that are missing, were edited, or were made from other figures than those of `quality`
+/// in `made`. Of figures that have not been made there, the picture's file alone is checked.
+pub fn outdated(
+    pictures: Pictures,
+    entries: &[&RegisteredExperiment],
+    quality: Quality,
+    made: &OutputFolder,
+    docs: &OutputFolder,
+) -> Result<Vec<String>, PagesError> {
+    outdated_with(ERRATA, pictures, entries, (quality, made), docs)
+}
+
+fn outdated_with(
+    template: &str,
+    pictures: Pictures,
+    entries: &[&RegisteredExperiment],
+    (quality, made): (Quality, &OutputFolder),
+    docs: &OutputFolder,
+) -> Result<Vec<String>, PagesError> {
+    let folder = OutputFolder::existing(docs.path().join(pictures.folder()));
+    let stored = folder.read(DIGESTS_FILE)?.unwrap_or_default();
+    let stored: serde_json::Value = serde_json::from_slice(&stored).unwrap_or_default();
+    provenance::refuse_newer(provenance::DIGESTS, stored.get("provenance"), DIGESTS_FILE)
+        .map_err(Box::new)?;
+    let digests = Digests::deserialize(stored).ok();
+    let mut outdated = Vec::new();
+    for name in if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] } {
+        let known = |name: &str| digests.as_ref().and_then(|digests| digests.pages.get(name));
+        let other_template = *name == ERRATA_FILE && known(TEMPLATE) != Some(&digest(template.as_bytes()));
+        let edited = docs.read(name)?.is_none_or(|page| known(name) != Some(&digest(&page)));
+        if other_template || edited {
+            outdated.push((*name).to_owned());
+        }
+    }
+    for entry in entries {
+        let known = digests.as_ref().and_then(|digests| digests.figures.get(entry.id));
+        let known = known.cloned().unwrap_or_default();
+        let expected = if quality == Quality::Draft { &known.draft } else { &known.paper };
+        let current = match Figure::read(entry, made, quality) {
+            Ok(figure) => figure.digest == *expected,
+            Err(PagesError::Missing { .. }) => true,
+            Err(PagesError::Output(error)) => return Err(error.into()),
+            Err(_) => false,
+        };
+        let name = format!("{}.png", entry.id);
+        if !current || folder.read(&name)?.is_none_or(|picture| digest(&picture) != known.picture) {
+            outdated.push(format!("{}/{name}", pictures.folder()));
+        }
+    }
+    Ok(outdated)
+}
+
+fn results(figures: &[(&str, Figure)]) -> Result<String, TemplateError> {
+    let all = Counts::of(figures.iter().flat_map(|(_, figure)| &figure.made.claims));
+    let row = |(id, figure): &(&str, Figure)| {
+        context! { id, name => super::name(id), counts => Counts::of(&figure.made.claims).row() }
+    };
+    let values = context! {
+        headline => all.headline(),
+        beside => all.beside(),
+        figures => figures.iter().map(row).collect::<Vec<_>>(),
+        together => all.row(),
+        sections => figures.iter().map(|(_, figure)| figure.section.as_str()).collect::<Vec<_>>(),
+    };
+    environment().render_named_str("results.md", RESULTS, values)
+}
+
+fn errata(template: &str, figures: &[(&str, Figure)]) -> Result<String, TemplateError> {
+    let cited = environment().template_from_str(template)?.undeclared_variables(false);
+    let cited = figures.iter().filter(|(id, _)| cited.contains(*id));
+    let mut values: BTreeMap<&str, Value> =
+        cited.map(|(id, figure)| (*id, Value::from_serialize(&figure.made.data))).collect();
+    let claims = claim_numbers(figures.iter().flat_map(|(_, figure)| &figure.made.claims));
+    values.insert("claims", Value::from_serialize(claims));
+    let page = environment().render_named_str("errata.md", template, Value::from_serialize(values))?;
+    Ok(digits::rounded(&page))
+}
+
+/// The numbers of the claims that answer entries of the catalogue, by key: shares where a statement is judged by them.
+fn claim_numbers<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> BTreeMap<&'a str, f64> {
+    let number = |claim: &'a Claim| {
+        let Source::Entry(key) = &claim.source else { return None };
+        let number = match claim.computed {
+            Computed::Number(number) => Some(number),
+            _ => claim.share,
+        };
+        Some((key.as_str(), number?))
+    };
+    claims.into_iter().filter_map(number).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+    use crate::claims::{Cases, catalogue};
+    use crate::measured::Measurements;
+    use crate::progress::Silent;
+    use crate::testing::demo_entries;
+
+    const PROSE: &str = "The last phase is {{ demo.impact_phase_rad[0]|number(\".2\") }}.\n";
+
+    struct Folders {
+        _scratch: tempfile::TempDir,
+        demo: RegisteredExperiment,
+        paper: OutputFolder,
+        draft: OutputFolder,
+        docs: OutputFolder,
+    }
+
+    impl Folders {
+        fn new() -> Self {
+            let scratch = tempfile::tempdir().expect("writable");
+            let create = |name: &str| OutputFolder::create(scratch.path().join(name)).expect("writable");
+            let (paper, draft, docs) = (create("paper"), create("draft"), create("docs"));
+            let folders = Self { _scratch: scratch, demo: demo_entries().remove(0), paper, draft, docs };
+            folders.make(&folders.paper, Quality::Paper, "");
+            folders.make(&folders.draft, Quality::Draft, "");
+            folders
+        }
+
+        fn make(&self, folder: &OutputFolder, quality: Quality, measured: &str) {
+            let files = self.demo.files(quality, &Measurements::none(), &Silent).expect("works");
+            folder.write_set("demo", quality, measured, 0.1, &files).expect("writable");
+        }
+
+        fn write(&self, pictures: Pictures) -> Result<(), PagesError> {
+            let folders = [&self.paper, &self.draft];
+            write_with(PROSE, pictures, &[&self.demo], folders, &self.docs)
+        }
+
+        fn outdated(&self, pictures: Pictures, quality: Quality) -> Vec<String> {
+            let made = if quality == Quality::Draft { &self.draft } else { &self.paper };
+            let found = outdated_with(PROSE, pictures, &[&self.demo], (quality, made), &self.docs);
+            found.expect("readable")
+        }
+    }
+
+    #[test]
+    fn the_page_holds_picture_discussion_parameters_and_verdicts() {
+        let folders = Folders::new();
+        let figure =
+            || vec![("demo", Figure::read(&folders.demo, &folders.paper, Quality::Paper).expect("made"))];
+        let page = results(&figure()).expect("filled in");
+        for part in [
+            "\n\n<a id=\"demo\"></a>\n\n## demo. A demonstration\n\n![A demonstration](figures/demo.png)\n\nIt shows that | is escaped.\n\n*Caption.* 50 phases",
+            "\n\n| parameter | value |\n| --- | --- |\n| restitution ε | 0.5 |\n\n| place |",
+            "| Sec. 1 | last phase | 0.36\u{a0}rad | 0.36\u{a0}rad | 0.005 | this work | agrees |  |\n",
+            "| [demo](#demo) | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |\n| together | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |\n\n<a id",
+        ] {
+            assert!(page.contains(part), "{part}\n\n{page}");
+        }
+        assert_eq!(errata(PROSE, &figure()).expect("filled in"), "The last phase is 0.09.\n");
+        errata("{{ demo.none|number(\".1\") }}", &figure()).expect_err("no such number");
+    }
+
+    /// The numbers of verdicts that the README names are those of the page.
+    #[test]
+    fn the_readme_counts_like_the_page() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let read = |name: &str| std::fs::read_to_string(root.join(name)).expect("committed");
+        let page = read("docs/results.md");
+        let headline =
+            page.lines().find_map(|line| line.strip_prefix("**Of ")?.split_once("**")).expect("a headline");
+        let readme = read("README.md").replace('\n', " ");
+        assert!(readme.contains(&format!("Of {}", headline.0)), "{}", headline.0);
+    }
+
+    #[test]
+    fn every_way_to_be_out_of_date_is_seen() {
+        use Quality::{Draft, Paper};
+        for pictures in [Pictures::Extras, Pictures::Paper] {
+            let folders = Folders::new();
+            let name = format!("{}/demo.png", pictures.folder());
+            let picture = std::slice::from_ref(&name);
+            let folder = OutputFolder::existing(folders.docs.path().join(pictures.folder()));
+            let pages = if pictures == Pictures::Paper { &[RESULTS_FILE, ERRATA_FILE][..] } else { &[] };
+            let all: Vec<_> = pages.iter().copied().chain([name.as_str()]).collect();
+            assert_eq!(folders.outdated(pictures, Draft), all);
+            let write = || folders.write(pictures).expect("writable");
+            write();
+            let current =
+                || [Draft, Paper].iter().all(|quality| folders.outdated(pictures, *quality).is_empty());
+            assert!(current());
+            for page in pages {
+                folders.docs.write(page, b"edited").expect("writable");
+                assert_eq!(folders.outdated(pictures, Draft), [*page]);
+                write();
+            }
+            folder.write("demo.png", b"edited").expect("writable");
+            assert_eq!(folders.outdated(pictures, Draft), picture);
+            write();
+            // What has not been made is not compared; another drawing of the draft alone is.
+            let nothing = OutputFolder::existing(folders.docs.path());
+            let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
+            assert!(unmade.expect("readable").is_empty() && current());
+            let other = outdated_with("", pictures, &[&folders.demo], (Draft, &folders.draft), &folders.docs);
+            assert_eq!(other.expect("readable"), pages.get(1..).unwrap_or_default());
+            folders.draft.write("demo.svg", b"<svg/>").expect("writable");
+            assert_eq!(folders.outdated(pictures, Draft), picture);
+            assert!(folders.outdated(pictures, Paper).is_empty());
+            assert!(matches!(folders.write(pictures), Err(PagesError::Changed { .. })));
+            folder.write(DIGESTS_FILE, b"").expect("writable");
+            assert_eq!(folders.outdated(pictures, Paper), all);
+        }
+    }
+
+    /// Another run may make the figure again between the two steps of `--docs`.
+    #[test]
+    fn the_page_is_not_made_of_drafts_or_measurements() {
+        let folders = Folders::new();
+        for (quality, measured) in [(Quality::Draft, ""), (Quality::Paper, "0123")] {
+            folders.make(&folders.paper, quality, measured);
+            assert!(matches!(folders.write(Pictures::Extras), Err(PagesError::Changed { .. })));
+        }
+        folders.make(&folders.paper, Quality::Paper, "");
+        folders.write(Pictures::Extras).expect("made for it");
+    }
+
+    #[test]
+    fn claims_are_referred_to_by_their_keys() {
+        let claims = [
+            Claim::printed("section4.merging", 0.560_750_7),
+            Claim::printed_statement("section5.linear_rise", Cases { holding: 1, tried: 4 }, ""),
+            Claim::printed_statement("section4.coexistence", true, ""),
+        ];
+        let numbers = claim_numbers(&claims);
+        assert_eq!(
+            numbers,
+            BTreeMap::from([("section4.merging", 0.560_750_7), ("section5.linear_rise", 0.25)])
+        );
+    }
+
+    #[test]
+    fn every_reference_of_the_errata_is_to_a_figure_or_an_entry() {
+        let environment = environment();
+        let template = environment.template_from_str(ERRATA).expect("well formed");
+        let entries = crate::registry::all();
+        for variable in template.undeclared_variables(false) {
+            assert!(variable == "claims" || entries.iter().any(|entry| entry.id == variable), "{variable}");
+        }
+        for reference in ERRATA.split("{{").skip(1).filter_map(|rest| rest.split("}}").next()) {
+            // The length of a cycle that rounding chooses is no number: only that of a `robust_cycle` is one.
+            assert!(!reference.contains(".cycle."), "{reference}");
+            if let Some(key) = reference.split('"').nth(1).filter(|_| reference.contains("claims[")) {
+                catalogue::find(key).expect("an entry");
+            }
+        }
+    }
+
+    /// The numbers in a text, with a sign only where it is an exponent's.
+    fn numbers(text: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut current = String::new();
+        for c in text.chars().chain([' ']) {
+            if c.is_ascii_digit() || (c == '.' && !current.is_empty()) {
+                current.push(c);
+            } else if !current.is_empty() {
+                found.push(std::mem::take(&mut current).trim_end_matches('.').to_owned());
+            }
+        }
+        found
+    }
+
+    /// What is written out beside the references is printed in the paper, or names a place in it.
+    #[test]
+    fn every_other_number_of_the_errata_is_printed_in_the_paper() {
+        /// Numbers that are neither results nor the paper's: of definitions and years.
+        const WRITTEN_OUT: [&str; 3] = ["2", "3", "2009"];
+        let entries = catalogue::entries().expect("reads");
+        let printed = entries.iter().flat_map(|entry| {
+            let texts = [entry.printed.as_deref().unwrap_or_default(), &entry.quantity, &entry.place];
+            texts.into_iter().flat_map(numbers).collect::<Vec<_>>()
+        });
+        let printed: BTreeSet<String> = printed.chain(WRITTEN_OUT.map(str::to_owned)).collect();
+        let text: String = ERRATA.split("{{").map(|piece| piece.split("}}").last().unwrap_or("")).collect();
+        // Names in code, and the figures, tables, sections, equations and indices that are referred to.
+        let plain: String = text.split('`').step_by(2).collect::<Vec<_>>().join(" ");
+        let mut unknown: Vec<String> = Vec::new();
+        for line in plain.lines() {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            for (index, word) in words.iter().enumerate() {
+                let before = index.checked_sub(1).map_or("", |before| words[before]);
+                let refers = ["Fig.", "Figs.", "Table", "Tables", "Eq.", "Eqs.", "Sec.", "Secs.", "panel"];
+                let is_place = refers.iter().any(|name| before.trim_start_matches(['(', '[']) == *name);
+                if !is_place && !word.contains('_') {
+                    unknown.extend(numbers(word).into_iter().filter(|number| !printed.contains(number)));
+                }
+            }
+        }
+        assert!(
+            unknown.is_empty(),
+            "neither printed in the paper nor from the data of a figure: {unknown:?}"
+        );
+    }
+}
