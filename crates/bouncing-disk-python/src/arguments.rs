@@ -135,7 +135,7 @@ impl<'py> Arguments<'py> {
 
     /// The exception of an error of the library, in the words of this call.
     pub(crate) fn refused(&self, error: impl Into<FitError>) -> PyErr {
-        errors::of_call(self.py(), error.into(), &self.0)
+        errors::of_call(self.py(), error, &self.0)
     }
 
     /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.

@@ -215,7 +215,8 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
 }
 
 /// The exception of an error, with the name that the call has for the quantity it is about.
-pub(crate) fn of_call(py: Python<'_>, error: FitError, call: &Bound<'_, PyDict>) -> PyErr {
+pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'_, PyDict>) -> PyErr {
+    let error = error.into();
     let FitError::Model(
         Error::OutOfRange { field, value, legal }
         | Error::Core(CoreError::OutOfRange { field, value, legal }),
