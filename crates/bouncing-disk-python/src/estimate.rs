@@ -129,7 +129,7 @@ fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'
 pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
     let (system, members, settings) = (a.system()?, a.usize("members")?, settings(&a, a.u64("seed")?)?);
     let (runs, matrices) = a.run(|observer| {
-        let runs = bouncing_disk::ensemble(&system, &settings, members, observer)?;
+        let runs = bouncing_disk::TransientEnsemble::new(&system, &settings, members, observer)?;
         let matrices = Matrices::of(&runs.curves, settings.intervals)?;
         Ok((runs, matrices))
     })?;

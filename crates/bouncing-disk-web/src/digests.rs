@@ -18,7 +18,7 @@ use bouncing_disk::core::{
 use bouncing_disk::{
     Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
     SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,
-    SweepQuantity, System, TransientSettings, ensemble, single_toss,
+    SweepQuantity, System, TransientEnsemble, TransientSettings, single_toss,
 };
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -156,7 +156,7 @@ fn tosses() -> Result<Digest, Error> {
 
 fn motors() -> Result<Digest, Error> {
     let settings = TransientSettings { duration: 0.5, intervals: 50, ..TransientSettings::default() };
-    let runs = ensemble(&System::motor(), &settings, 16, &Unobserved)?;
+    let runs = TransientEnsemble::new(&System::motor(), &settings, 16, &Unobserved)?;
     let curves = runs.curves.iter().flat_map(|curve| curve.times.iter().chain(&curve.speeds)).copied();
     let ends = [runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error];
     Ok(digest_of(curves.chain(ends)))

@@ -4,7 +4,7 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
     Error, Estimate, FitError, FitRefusal, FitSettings, Motor, MotorParameters, OperatingPoint,
     OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
-    TransientSettings, ensemble_members, transients,
+    TransientMember, TransientSettings, transients,
 };
 use serde_json::{Value, json};
 
@@ -60,7 +60,7 @@ pub(crate) fn transient(
     let system = *sheet.build()?.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals: points, seed, ..TransientSettings::default() };
-    let runs = ensemble_members(&system, &settings, members)?;
+    let runs = TransientMember::of_ensemble(&system, &settings, members)?;
     let curves = transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::with_capacity(3 * times.len());

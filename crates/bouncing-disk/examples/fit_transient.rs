@@ -5,14 +5,14 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
-    FitError, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientSettings, ensemble,
+    FitError, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientEnsemble, TransientSettings,
 };
 
 fn main() -> Result<(), FitError> {
     // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
     // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
-    let synthetic = ensemble(&System::motor(), &settings, 10, &Unobserved)?.curves;
+    let synthetic = TransientEnsemble::new(&System::motor(), &settings, 10, &Unobserved)?.curves;
     let runs: Vec<MeasuredRun> = synthetic
         .into_iter()
         .zip(1..)

@@ -27,12 +27,12 @@
 //! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
 //! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
 //! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
-//! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`BrakingRotor::friction`] |
+//! | the motor | [`transient`], [`transients`], [`TransientEnsemble`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`BrakingRotor::friction`] |
 //! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitError`], [`FitRefusal`] |
 //! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`], [`TimeUnit`], [`SpeedUnit`] (from files with the feature `csv`: `CsvColumns`) |
 //! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
 //! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
-//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
+//! | long calls | [`Observer`], [`Progress`], [`MotorSweepRun`] |
 //! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `MotorSweep::run_with_journal`; `StorageError` |
 //! | vertical motion | [`mod@core`] |
 //!
@@ -81,7 +81,7 @@ pub use bouncing_disk_core as core;
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
 pub use estimate::braking_fit::{BrakingFit, BrakingRotor};
-pub use estimate::ensemble::{Spread, TransientEnsemble, ensemble};
+pub use estimate::ensemble::{Spread, TransientEnsemble};
 pub use estimate::fit::{ExponentialFit, RampFit};
 pub use estimate::interval::IntervalEstimate;
 #[cfg(feature = "csv")]
@@ -118,10 +118,8 @@ pub use motion::si::{SiEnergy, SiState};
 pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use motion::trajectory::Trajectory;
 pub use motion::transition::{EventKind, ModeKind, Transition};
-pub use motor::batch::members::TransientMember;
-pub use motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS, ensemble_members};
-pub use motor::batch::shared_orbit::transients::shared_transients;
-pub use motor::batch::transients::{TransientsRun, transients};
+pub use motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
+pub use motor::batch::transients::transients;
 pub use motor::data_sheet::Motor;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub use motor::data_sheet::file::MotorFileError;

@@ -89,11 +89,7 @@ fn motors() {
     let settings = TransientSettings { duration: 0.02, intervals: 5, ..TransientSettings::default() };
     check(&settings, &[("/duration", json!(0.0), "duration"), ("/intervals", json!(2), "intervals")]);
     check(&OperatingSettings::default(), &[("/members", json!(1), "members")]);
-    let members = ensemble_members(&motor, &settings, 2).expect("few");
-    let mut run = TransientsRun::new(2);
-    run.advance(&members, &Unobserved).expect("nobody stops it");
-    check(&run, &[("/total", json!(1), "index of a finished item")]);
-    let runs = ensemble(&motor, &settings, 2, &Unobserved).expect("no failure");
+    let runs = TransientEnsemble::new(&motor, &settings, 2, &Unobserved).expect("no failure");
     check(&runs.curves[0], &[("/times", json!([]), "number of points")]);
     // JSON holds no such number; a binary format does.
     refused(&SpeedCurve { speeds: vec![f64::NAN; 5], ..runs.curves[0].clone() }, "speed");

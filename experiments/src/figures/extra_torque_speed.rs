@@ -4,7 +4,7 @@ use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{
     Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation,
-    TransientFit, TransientSettings, ensemble,
+    TransientEnsemble, TransientFit, TransientSettings,
 };
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
@@ -89,7 +89,7 @@ impl Experiment for ExtraTorqueSpeed {
         let (system, transients) = (motor.system(), quality.choose(12, 64));
         let duration = RISES * system.rise_time();
         let run_up = TransientSettings { duration, intervals: 240, ..TransientSettings::default() };
-        let runs = ensemble(system, &run_up, transients, &Unobserved)?;
+        let runs = TransientEnsemble::new(system, &run_up, transients, &Unobserved)?;
         let estimate = TransientFit::new(&runs.curves, &FitSettings::default())?.stall_acceleration();
         let [value, low, high] =
             [estimate.value, estimate.low, estimate.high].map(|own| motor.inertia() * own);

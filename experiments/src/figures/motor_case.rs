@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::{
     ChatteringCycle, DiskParameters, EXAMINED_IMPACTS, OrbitClass, PlatformParameters, Spread, System,
-    TransientSettings, ensemble, unperturbed_orbit,
+    TransientEnsemble, TransientSettings, unperturbed_orbit,
 };
 pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
 use serde::{Deserialize, Serialize};
@@ -131,7 +131,7 @@ impl MotorCase {
             ..TransientSettings::default()
         };
         let motor = self.system()?;
-        let runs = ensemble(&motor, &settings, members, &Unobserved)?;
+        let runs = TransientEnsemble::new(&motor, &settings, members, &Unobserved)?;
         let statistics =
             bouncing_disk::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
         Ok(statistics.into())

@@ -13,8 +13,8 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::error::{Error, check, finite, not_negative, room_for};
 use crate::estimate::fit::ExponentialFit;
-use crate::motor::batch::members::{MAX_MEMBERS, ensemble_members};
-use crate::motor::batch::transients::TransientsRun;
+use crate::motor::batch::members::{MAX_MEMBERS, TransientMember};
+use crate::motor::batch::transients::transients;
 use crate::motor::rotor::transient::{SpeedCurve, TransientSettings};
 use crate::parameters::system::System;
 
@@ -68,30 +68,27 @@ pub struct TransientEnsemble {
     pub stall_acceleration: Spread,
 }
 
-/// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
-/// from `settings.seed` ([`ensemble_members`]). The result is the same for any number of threads.
-///
-/// The items of `observer` are the members, counted once when their transients are computed, and once more
-/// when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for each
-/// interval.  To keep the finished members of a call that is stopped, compute the [`ensemble_members`] with
-/// a [`TransientsRun`] and give its results to [`TransientEnsemble::of_results`].
-///
-/// # Errors
-/// Those of [`ensemble_members`] and [`transient`](crate::transient()).
-pub fn ensemble(
-    system: &System,
-    settings: &TransientSettings,
-    members: usize,
-    observer: &dyn Observer,
-) -> Result<TransientEnsemble, Error> {
-    let members = ensemble_members(system, settings, members)?;
-    let mut run = TransientsRun::new(members.len());
-    run.advance(&members, observer)?;
-    TransientEnsemble::of_results(run.into_results()?, observer)
-}
-
 impl TransientEnsemble {
-    /// The ensemble of the transients of all members: see [`TransientsRun`].
+    /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
+    /// from `settings.seed` ([`TransientMember::of_ensemble`]). The result is the same for any number of threads.
+    ///
+    /// The items of `observer` are the members, counted once when their transients are computed, and once more
+    /// when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for each
+    /// interval.
+    ///
+    /// # Errors
+    /// Those of [`TransientMember::of_ensemble`] and [`transient`](crate::transient()).
+    pub fn new(
+        system: &System,
+        settings: &TransientSettings,
+        members: usize,
+        observer: &dyn Observer,
+    ) -> Result<Self, Error> {
+        let members = TransientMember::of_ensemble(system, settings, members)?;
+        Self::of_results(transients(&members, observer)?, observer)
+    }
+
+    /// The ensemble of the [`transients`] of all members.
     ///
     /// The items of `observer` are the fits.
     ///
@@ -199,7 +196,7 @@ mod tests {
         let system = motor(1e-8, 0.0);
         let settings =
             TransientSettings { duration: 0.2, intervals: 20, seed: 1, ..TransientSettings::default() };
-        let all = ensemble(&system, &settings, 4, &Unobserved).expect("no failure");
+        let all = TransientEnsemble::new(&system, &settings, 4, &Unobserved).expect("no failure");
         let seeds = [1, 2, 3, 4].map(|counted| SplitMix64::new(counted).next_number());
         for (k, curve) in all.curves.iter().enumerate() {
             let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
@@ -284,7 +281,7 @@ mod tests {
                     relaunch_perturbation,
                     ..TransientSettings::default()
                 };
-                let runs = ensemble(&system, &settings, 16, &Unobserved).expect("no failure");
+                let runs = TransientEnsemble::new(&system, &settings, 16, &Unobserved).expect("no failure");
                 let means: Vec<f64> =
                     runs.curves.iter().map(|curve| curve.mean_over_last(0.6).expect("legal")).collect();
                 let spread = Spread::of(&means).expect("finite");
@@ -298,26 +295,21 @@ mod tests {
     }
 
     #[test]
-    fn the_finished_members_of_an_ensemble_are_kept() {
+    fn an_ensemble_is_that_of_its_transients_and_can_be_stopped() {
         let system = motor(1e-8, 0.0);
         let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
-        let members = ensemble_members(&system, &settings, 5).expect("legal");
-        let mut run = TransientsRun::new(members.len());
+        let members = TransientMember::of_ensemble(&system, &settings, 5).expect("legal");
+        let results = transients(&members, &Unobserved).expect("unobserved");
         let stop_at = |done| {
             move |progress: Progress| {
                 if progress.done < done { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             }
         };
-        let mut stops = 0;
-        while run.advance(&members, &stop_at(stops)).is_err() {
-            stops += 1;
-        }
-        let results = run.into_results().expect("done");
         let in_parts = TransientEnsemble::of_results(results.clone(), &Unobserved).expect("fitted");
-        assert_eq!(Ok(in_parts), ensemble(&system, &settings, 5, &Unobserved));
+        assert_eq!(Ok(in_parts), TransientEnsemble::new(&system, &settings, 5, &Unobserved));
         for stopped in [
             TransientEnsemble::of_results(results, &stop_at(0)),
-            ensemble(&system, &settings, 5, &stop_at(0)),
+            TransientEnsemble::new(&system, &settings, 5, &stop_at(0)),
         ] {
             let expected = bouncing_disk_core::Error::Stopped { done: 0, total: 5 };
             assert_eq!(stopped, Err(Error::Core(expected)));
@@ -331,7 +323,7 @@ mod tests {
         let settings = TransientSettings { duration: 0.2, intervals: 50, ..TransientSettings::default() };
         let run = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-            pool.install(|| ensemble(&system, &settings, 5, &Unobserved)).expect("no failure")
+            pool.install(|| TransientEnsemble::new(&system, &settings, 5, &Unobserved)).expect("no failure")
         };
         let all = run(1);
         assert_eq!(all, run(2));
@@ -348,9 +340,12 @@ mod tests {
             TransientSettings { intervals: 2, ..TransientSettings::default() },
             TransientSettings { relaunch_perturbation: -1.0, ..TransientSettings::default() },
         ] {
-            assert!(matches!(ensemble(&system, &settings, 2, &Unobserved), Err(Error::OutOfRange { .. })));
+            assert!(matches!(
+                TransientEnsemble::new(&system, &settings, 2, &Unobserved),
+                Err(Error::OutOfRange { .. })
+            ));
         }
-        assert!(ensemble(&system, &TransientSettings::default(), 0, &Unobserved).is_err());
+        assert!(TransientEnsemble::new(&system, &TransientSettings::default(), 0, &Unobserved).is_err());
     }
 
     #[test]
@@ -358,7 +353,8 @@ mod tests {
         let system = motor(1e-8, 0.0);
         for (members, intervals) in [(usize::MAX, 600), (MAX_MEMBERS + 1, 3), (MAX_MEMBERS, 1_000_000)] {
             let settings = TransientSettings { intervals, ..TransientSettings::default() };
-            let error = ensemble(&system, &settings, members, &Unobserved).expect_err("too many");
+            let error =
+                TransientEnsemble::new(&system, &settings, members, &Unobserved).expect_err("too many");
             let asked = if intervals > 600 { members * intervals } else { members };
             assert!(
                 matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { count, .. }) if count == asked as u64),

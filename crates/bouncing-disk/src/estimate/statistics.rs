@@ -150,7 +150,7 @@ mod tests {
     use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 
     use super::*;
-    use crate::estimate::ensemble::ensemble;
+    use crate::estimate::ensemble::TransientEnsemble;
     use crate::motor::rotor::transient::TransientSettings;
 
     fn statistics(motor: &System, members: usize) -> MotorStatistics {
@@ -159,7 +159,7 @@ mod tests {
             intervals: 240,
             ..TransientSettings::default()
         };
-        let runs = ensemble(motor, &settings, members, &Unobserved).expect("no failure");
+        let runs = TransientEnsemble::new(motor, &settings, members, &Unobserved).expect("no failure");
         MotorStatistics::of(motor, &runs, settings.duration, settings.policy).expect("no failure")
     }
 

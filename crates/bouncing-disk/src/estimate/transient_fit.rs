@@ -126,16 +126,16 @@ pub struct RiseEstimate {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{FitError, FitRefusal, FitSettings, System, TransientFit, TransientSettings, ensemble};
+/// use bouncing_disk::{FitError, FitRefusal, FitSettings, System, TransientFit, TransientSettings, TransientEnsemble};
 ///
 /// let motor = System::motor();
 /// let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
-/// let fit = TransientFit::new(&ensemble(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default())?;
+/// let fit = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default())?;
 /// assert!(fit.steady_speed().low > 15.0 && fit.steady_speed().high < 23.0);
 ///
 /// // Too short for any statement: the speed still rises at the end.
 /// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
-/// let refused = TransientFit::new(&ensemble(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
+/// let refused = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
 /// assert!(matches!(refused, Err(FitError::Refused(_))));
 /// # Ok::<(), bouncing_disk::FitError>(())
 /// ```

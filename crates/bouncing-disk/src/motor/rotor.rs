@@ -148,6 +148,7 @@ impl Rotor {
 
     /// Comes to rest after an impact at `now` that left it with angular `speed`: what its share of a vertical
     /// motion that is computed elsewhere asks of it. Its contact ends with a [`RotorStep::Separation`].
+    #[cfg(feature = "fit")]
     pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
         self.now = now;
         self.speed = speed;

@@ -5,7 +5,7 @@ use std::ops::Range as Rows;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::{
     FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
-    TransientMember, TransientSettings, ensemble_members, transients,
+    TransientMember, TransientSettings, transients,
 };
 use serde::{Deserialize, Serialize};
 
@@ -94,7 +94,7 @@ impl GridJob for TransientJob {
     }
 
     fn prepare(&self, _: &dyn Observer) -> Result<Vec<TransientMember>, Failure> {
-        Ok(ensemble_members(self.motor.system(), &self.settings, self.members)?)
+        Ok(TransientMember::of_ensemble(self.motor.system(), &self.settings, self.members)?)
     }
 
     fn compute(

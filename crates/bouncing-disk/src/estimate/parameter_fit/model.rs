@@ -15,7 +15,7 @@ use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
 use crate::estimate::parameter_fit::settings::ParameterFitSettings;
 use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
 use crate::motor::batch::shared_orbit::is_shared;
-use crate::motor::batch::shared_orbit::transients::with_instructions;
+use crate::motor::batch::shared_orbit::transients::shared_transients;
 use crate::motor::data_sheet::Motor;
 use crate::motor::rotor::transient::TransientSettings;
 
@@ -98,7 +98,7 @@ impl Model<'_> {
             let phase = Phase::new(TAU * (member as f64 + 0.5) / members as f64)?;
             let mut means = Vec::with_capacity(candidates.len() * windows.count());
             for group in systems[preload].chunk_by(is_shared) {
-                for curve in with_instructions(group, phase, &settings, InstructionSet::best(), &mut work)? {
+                for curve in shared_transients(group, phase, &settings, InstructionSet::best(), &mut work)? {
                     means.extend(windows.of_curve(&curve.speeds));
                 }
             }

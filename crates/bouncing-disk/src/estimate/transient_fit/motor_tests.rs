@@ -1,7 +1,7 @@
 //! Fits of a motor whose short and coarse transients gave speeds far above that of its stator.
 
 use super::*;
-use crate::estimate::ensemble::{TransientEnsemble, ensemble};
+use crate::estimate::ensemble::TransientEnsemble;
 use crate::motor::rotor::transient::TransientSettings;
 use crate::testing::tried_motor;
 
@@ -10,7 +10,7 @@ const STATOR_SPEED: f64 = 12.0;
 
 fn curves(duration: f64, intervals: usize, members: usize, seed: u64) -> Vec<SpeedCurve> {
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
-    ensemble(&tried_motor(), &settings, members, &Unobserved).expect("no failure").curves
+    TransientEnsemble::new(&tried_motor(), &settings, members, &Unobserved).expect("no failure").curves
 }
 
 fn fit(duration: f64, intervals: usize, members: usize, seed: u64) -> Result<TransientFit, FitError> {

@@ -29,6 +29,34 @@ pub struct TransientMember {
 }
 
 impl TransientMember {
+    /// The members of a [`TransientEnsemble`](crate::TransientEnsemble): `members` >= 1 transients with starting phases
+    /// spread evenly over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`. Ensembles
+    /// that are to be independent of each other need seeds that lie at least `members` apart.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
+    /// [`MAX_SPEEDS`] speeds of all together or than there is memory for.
+    pub fn of_ensemble(
+        system: &System,
+        settings: &TransientSettings,
+        members: usize,
+    ) -> Result<Vec<Self>, Error> {
+        settings.check_for(&system.scales())?;
+        check(members > 0, "members", 0.0, "[1, 1000000]")?;
+        let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+        // The memory for them is asked for where they are computed.
+        within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
+        let member = |index: usize| -> Result<Self, Error> {
+            let phase = starting_phase(settings.seed, index, members)?;
+            let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
+            Ok(Self { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
+        };
+        for index in 0..members {
+            starts.push(member(index)?);
+        }
+        Ok(starts)
+    }
+
     /// As [`transient`](crate::transient()).
     pub(crate) fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
         SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
@@ -44,34 +72,6 @@ pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<
     let turn = seed.wrapping_sub(1).wrapping_mul(GOLDEN).wrapping_add(1 << 63) >> 11;
     let step = turn as f64 / (1_u64 << 53) as f64;
     Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
-}
-
-/// The members of an [`ensemble`](crate::ensemble()): `members` >= 1 transients with starting phases spread evenly
-/// over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`: ensembles that are to be independent of each other need
-/// seeds that lie at least `members` apart.
-///
-/// # Errors
-/// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
-/// [`MAX_SPEEDS`] speeds of all together or than there is memory for.
-pub fn ensemble_members(
-    system: &System,
-    settings: &TransientSettings,
-    members: usize,
-) -> Result<Vec<TransientMember>, Error> {
-    settings.check_for(&system.scales())?;
-    check(members > 0, "members", 0.0, "[1, 1000000]")?;
-    let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
-    // The memory for them is asked for where they are computed.
-    within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
-    let member = |index: usize| -> Result<TransientMember, Error> {
-        let phase = starting_phase(settings.seed, index, members)?;
-        let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
-        Ok(TransientMember { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
-    };
-    for index in 0..members {
-        starts.push(member(index)?);
-    }
-    Ok(starts)
 }
 
 #[cfg(test)]

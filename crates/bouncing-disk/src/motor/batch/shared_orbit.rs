@@ -6,6 +6,7 @@
 //! differs between them is sharper than what each is by itself (common random numbers), and their errors are not
 //! independent of each other. See docs/numerics/motors.md.
 
+#[cfg(feature = "fit")]
 pub(crate) mod transients;
 pub(crate) mod vertical;
 

@@ -25,7 +25,7 @@ const BATCHES: usize = 8;
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
 ///
-/// The items of `observer` are the members. A [`TransientsRun`] keeps the finished ones of a call that is stopped.
+/// The items of `observer` are the members.
 ///
 /// ```
 /// use bouncing_disk::core::{Phase, Unobserved};
@@ -54,115 +54,24 @@ pub fn transients(
     members: &[TransientMember],
     observer: &dyn Observer,
 ) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
-    let mut run = TransientsRun::new(members.len());
-    run.advance(members, observer)?;
-    run.into_results()
+    with_instructions(members, observer, InstructionSet::best())
 }
 
-/// Many transients under way: the curves of the members that are finished.
-///
-/// A run that is stopped, written, read and gone on with gives the curves of one call of [`transients`]
-/// without a stop, bit for bit, for any number of threads. The members are not stored: whoever goes on brings
-/// the same ones. Nor are errors of members, which are found again.
-///
-/// ```
-/// use std::ops::ControlFlow;
-///
-/// use bouncing_disk::core::{Progress, Unobserved};
-/// use bouncing_disk::{
-///     System, TransientEnsemble, TransientSettings, TransientsRun, ensemble, ensemble_members,
-/// };
-///
-/// let motor = System::motor();
-/// let settings = TransientSettings { duration: 0.05, ..TransientSettings::default() };
-/// let members = ensemble_members(&motor, &settings, 8)?;
-/// let mut run = TransientsRun::new(members.len());
-/// run.advance(&members, &|progress: Progress| {
-///     eprint!("\r{} of {} members", progress.done, progress.total);
-///     ControlFlow::Continue(())
-/// })?;
-/// assert_eq!(TransientEnsemble::of_results(run.into_results()?, &Unobserved)?, ensemble(&motor, &settings, 8, &Unobserved)?);
-/// # Ok::<(), bouncing_disk::Error>(())
-/// ```
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(from = "PartialResults<SpeedCurve>", into = "PartialResults<SpeedCurve>")
-)]
-pub struct TransientsRun {
-    results: PartialResults<Result<SpeedCurve, Error>>,
-}
-
-impl From<PartialResults<SpeedCurve>> for TransientsRun {
-    fn from(curves: PartialResults<SpeedCurve>) -> Self {
-        Self { results: curves.filter_map(|curve| Some(Ok(curve))) }
+fn with_instructions(
+    members: &[TransientMember],
+    observer: &dyn Observer,
+    set: InstructionSet,
+) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
+    let mut results = PartialResults::new(members.len());
+    let watch = Watch::begin(observer, 0, results.total())?;
+    let next = AtomicUsize::new(0);
+    let begin = |lanes| Worker::new(members, &next, lanes, set, &watch);
+    results.extend(workers(members.len(), |lanes| begin(lanes).run()));
+    if !results.is_done() {
+        return Err(results.stopped().into());
     }
-}
-
-impl From<TransientsRun> for PartialResults<SpeedCurve> {
-    fn from(run: TransientsRun) -> Self {
-        run.results.filter_map(Result::ok)
-    }
-}
-
-impl TransientsRun {
-    /// A run of so many members, none of them finished.
-    #[must_use]
-    pub const fn new(members: usize) -> Self {
-        Self { results: PartialResults::new(members) }
-    }
-
-    /// Computes the transients of the members that are not finished. What an earlier call has finished stays;
-    /// so it does when this call returns an error. The items of the observer are members; those under way are
-    /// begun again by the next call.
-    ///
-    /// # Errors
-    /// Errors of the core: [`Stopped`](bouncing_disk_core::Error::Stopped) if the observer breaks,
-    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another number of members than the run has. An
-    /// error of a member is its result.
-    pub fn advance(&mut self, members: &[TransientMember], observer: &dyn Observer) -> Result<(), Error> {
-        self.advance_with(members, observer, InstructionSet::best())
-    }
-
-    fn advance_with(
-        &mut self,
-        members: &[TransientMember],
-        observer: &dyn Observer,
-        set: InstructionSet,
-    ) -> Result<(), Error> {
-        let open = self.results.open(members.len())?;
-        let watch = Watch::begin(observer, self.results.done(), self.results.total())?;
-        let (next, queue) = (AtomicUsize::new(0), (members, &*open));
-        let begin = |lanes| Worker::new(queue, &next, lanes, set, &watch);
-        self.results.extend(workers(open.len(), |lanes| begin(lanes).run()));
-        if !self.is_done() {
-            return Err(self.results.stopped().into());
-        }
-        watch.end();
-        Ok(())
-    }
-
-    /// The results of the members, as far as they are finished.
-    #[must_use]
-    pub const fn results(&self) -> &PartialResults<Result<SpeedCurve, Error>> {
-        &self.results
-    }
-
-    /// Whether all members are finished.
-    #[must_use]
-    pub const fn is_done(&self) -> bool {
-        self.results.is_done()
-    }
-
-    /// The transients of all members, in their order.
-    ///
-    /// # Errors
-    /// An error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if one is not finished:
-    /// [`Self::is_done`] tells before.
-    pub fn into_results(self) -> Result<Vec<Result<SpeedCurve, Error>>, Error> {
-        Ok(self.results.into_results()?)
-    }
+    watch.end();
+    Ok(results.into_results()?)
 }
 
 /// What became of the member of an index.
@@ -186,8 +95,6 @@ fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome>
 /// Advances members that nobody has begun until there are none left.
 struct Worker<'a> {
     members: &'a [TransientMember],
-    /// Indices of those that are to be computed.
-    open: &'a [usize],
     next: &'a AtomicUsize,
     /// Most lanes in use.
     lanes: usize,
@@ -202,18 +109,18 @@ struct Worker<'a> {
 
 impl<'a> Worker<'a> {
     fn new(
-        (members, open): (&'a [TransientMember], &'a [usize]),
+        members: &'a [TransientMember],
         next: &'a AtomicUsize,
         lanes: usize,
         set: InstructionSet,
         watch: &'a Watch<'a>,
     ) -> Self {
         let (runs, curves, outcomes, work) = (Vec::new(), Vec::new(), Vec::new(), watch.work());
-        Self { members, open, next, lanes, set, runs, curves, outcomes, work }
+        Self { members, next, lanes, set, runs, curves, outcomes, work }
     }
 
     fn take(&self) -> Option<(usize, &'a TransientMember)> {
-        let index = *self.open.get(self.next.fetch_add(1, Ordering::Relaxed))?;
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
         self.members.get(index).map(|member| (index, member))
     }
 

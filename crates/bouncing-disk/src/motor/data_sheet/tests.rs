@@ -9,7 +9,7 @@ use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Progress, Unobserved, V
 use proptest::prelude::*;
 
 use super::*;
-use crate::estimate::ensemble::ensemble;
+use crate::estimate::ensemble::TransientEnsemble;
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
@@ -380,7 +380,7 @@ fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
         panic!("{:?}", motor.report(&Unobserved))
     };
     let settings = TransientSettings { duration: 5.0, intervals: 10, ..TransientSettings::default() };
-    let runs = ensemble(motor.system(), &settings, 8, &Unobserved).expect("no failure");
+    let runs = TransientEnsemble::new(motor.system(), &settings, 8, &Unobserved).expect("no failure");
     let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
     let expected = 8.0 * 5.0 * 70e3 / separations as f64;
     // Waiting times scatter by about their mean.

@@ -1,8 +1,8 @@
 //! The speed transients of many rotors on one vertical motion.
 
-use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneLoop, LaneRunner};
-use bouncing_disk_core::{Impact, OrbitEvent, Phase, Unobserved};
+use bouncing_disk_core::{Impact, OrbitEvent, Phase};
 
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;
@@ -22,40 +22,13 @@ use crate::parameters::system::System;
 ///
 /// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`,
 /// with the same perturbations of their relaunches (`settings.seed`), so that a difference between two of
-/// them is much better known than either: for errors that are independent of each other, compute each with a
-/// seed of its own.
-///
-/// ```
-/// use bouncing_disk::core::{Phase, Unobserved};
-/// use bouncing_disk::{System, TransientSettings, shared_transients, transient};
-///
-/// // The motor of Table III with eight coefficients of friction.
-/// let motors = (1..=8)
-///     .map(|k| System::motor().with_disk(|rotor| rotor.friction = 0.05 * f64::from(k)))
-///     .collect::<Result<Vec<_>, _>>()?;
-/// let (phase, settings) = (Phase::new(4.0)?, TransientSettings { duration: 0.1, ..TransientSettings::default() });
-/// let curves = shared_transients(&motors, phase, &settings)?;
-/// assert_eq!(curves[2], transient(&motors[2], phase, &settings, &Unobserved)?);
-/// # Ok::<(), bouncing_disk::Error>(())
-/// ```
+/// them is much better known than either.
 ///
 /// # Errors
 /// [`Error::NotShared`] for motors with different peak accelerations, restitutions, frequencies or preloads;
 /// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more
 /// than [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
-pub fn shared_transients(
-    systems: &[System],
-    phase: Phase,
-    settings: &TransientSettings,
-) -> Result<Vec<SpeedCurve>, Error> {
-    let watch = Watch::begin(&Unobserved, 0, settings.intervals as u64)?;
-    let curves = with_instructions(systems, phase, settings, InstructionSet::best(), &mut watch.work())?;
-    watch.end();
-    Ok(curves)
-}
-
-/// [`shared_transients`] as a part of a longer call, with the instructions of a set.
-pub(crate) fn with_instructions(
+pub(crate) fn shared_transients(
     systems: &[System],
     phase: Phase,
     settings: &TransientSettings,

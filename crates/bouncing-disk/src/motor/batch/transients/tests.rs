@@ -67,12 +67,6 @@ fn alone(member: &TransientMember) -> Result<SpeedCurve, Error> {
     crate::transient(&member.system, member.phase, &member.settings, &Unobserved)
 }
 
-fn with_instruction_set(members: &[TransientMember], set: InstructionSet) -> Vec<Result<SpeedCurve, Error>> {
-    let mut run = TransientsRun::new(members.len());
-    run.advance_with(members, &Unobserved, set).expect("nobody stops it");
-    run.into_results().expect("done")
-}
-
 #[test]
 fn together_they_are_what_they_are_alone() {
     let members: Vec<_> = (0..400).map(|k| if k % 57 == 50 { violent(k) } else { member(k) }).collect();
@@ -90,7 +84,8 @@ fn together_they_are_what_they_are_alone() {
     for set in InstructionSet::available() {
         for threads in [1, 2, 7] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-            let together = pool.install(|| with_instruction_set(&members, set));
+            let together =
+                pool.install(|| with_instructions(&members, &Unobserved, set)).expect("unobserved");
             let together: Vec<_> = together.iter().map(bits).collect();
             for (k, (together, expected)) in together.iter().zip(&expected).enumerate() {
                 assert!(together == expected, "{set:?}, {threads} threads: {:?}", members[k]);
@@ -108,59 +103,6 @@ fn few_or_none_are_legal() {
     assert_eq!(transients(&few, &Unobserved), Ok(alone));
 }
 
-/// What is read of a run that was written, or would be.
-fn read_back(run: &TransientsRun) -> TransientsRun {
-    #[cfg(feature = "serde")]
-    let read = serde_json::from_str(&serde_json::to_string(run).expect("writes")).expect("legal");
-    #[cfg(not(feature = "serde"))]
-    let read = PartialResults::from(run.clone()).into();
-    read
-}
-
-/// Goes on from nothing until all is done, stopped after none, one, three, seven ... calls; how often it was stopped.
-fn in_parts(
-    members: &[TransientMember],
-    threads: usize,
-    stored: bool,
-) -> (Vec<Result<SpeedCurve, Error>>, u64) {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
-    let mut run = TransientsRun::new(members.len());
-    for stops in 0.. {
-        let calls = AtomicUsize::new(0);
-        let observer = |_: Progress| {
-            let early = calls.fetch_add(1, Ordering::Relaxed) < (1 << stops) - 1;
-            if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        };
-        let outcome = pool.install(|| run.advance(members, &observer));
-        let results = run.results();
-        let failed = results.iter().filter(|(_, result)| result.is_err()).count() as u64;
-        let read = read_back(&run);
-        // An error is found again by whoever goes on.
-        assert_eq!(read.results().done(), results.done() - failed);
-        match outcome {
-            Ok(()) => return (run.into_results().expect("done"), stops as u64),
-            Err(error) => assert_eq!(error, Error::Core(results.stopped())),
-        }
-        if stored {
-            run = read;
-        }
-    }
-    unreachable!()
-}
-
-#[test]
-fn a_run_that_is_stopped_ends_in_the_curves_of_one_call() {
-    let members: Vec<_> = (0..200).map(|k| if k % 57 == 50 { violent(k) } else { member(k) }).collect();
-    let at_once: Vec<_> = transients(&members, &Unobserved).expect("unobserved").iter().map(bits).collect();
-    for (threads, stored) in [(1, true), (2, true), (7, false)] {
-        let (parts, stops) = in_parts(&members, threads, stored);
-        let parts: Vec<_> = parts.iter().map(bits).collect();
-        assert!(parts == at_once && stops > 3, "{threads} threads, {stops}");
-    }
-    let few = &members[..3];
-    assert_eq!(in_parts(few, 2, true).0.iter().map(bits).collect::<Vec<_>>(), at_once[..3]);
-}
-
 #[test]
 fn one_long_transient_can_be_stopped() {
     let mut long = member(0);
@@ -175,25 +117,4 @@ fn one_long_transient_can_be_stopped() {
     assert_eq!(stopped, of_one(long.settings.intervals as u64));
     calls.store(0, Ordering::Relaxed);
     assert_eq!(transients(&[long; 70], &observer).map(|_| ()), of_one(70).map(|_: SpeedCurve| ()));
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn a_stored_run_that_does_not_fit_is_refused() {
-    let mut run = TransientsRun::new(3);
-    let other =
-        Error::Core(bouncing_disk_core::Error::Unfitting { what: "items of a run", found: 2, expected: 3 });
-    assert_eq!(run.advance(&[member(0), member(1)], &Unobserved), Err(other));
-    run.advance(&[member(0), member(1), member(2)], &Unobserved).expect("nobody stops it");
-    let text = serde_json::to_string(&run).expect("writes");
-    assert_eq!(serde_json::from_str::<TransientsRun>(&text).expect("legal"), run);
-    for (good, bad, complaint) in [
-        ("\"total\":3", "\"total\":2", "index of a finished item: 2 where 1 would be legal"),
-        ("[[0,", "[[1,", "out of order"),
-        ("\"impacts\"", "\"impakts\"", "impakts"),
-    ] {
-        assert!(text.contains(good), "{text}");
-        let error = serde_json::from_str::<TransientsRun>(&text.replacen(good, bad, 1)).expect_err(bad);
-        assert!(error.to_string().contains(complaint), "{error}");
-    }
 }

@@ -7,7 +7,7 @@ use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use super::*;
 use crate::testing::{motor, tried_motor};
-use crate::{EnergyLedger, Engine, InitialCondition, Motor, Spread, TransientSettings, ensemble};
+use crate::{EnergyLedger, Engine, InitialCondition, Motor, Spread, TransientEnsemble, TransientSettings};
 
 /// Mass of the rotor (kg): any will do.
 const MASS: f64 = 0.02;
@@ -184,7 +184,7 @@ fn the_speed_without_load_is_that_of_the_transients() {
     let point =
         *operated(&[loaded(&system, 0.0)], &OperatingSettings::default())[0].steady().expect("steady");
     let long = TransientSettings { duration: 100.0, intervals: 100, ..TransientSettings::default() };
-    let runs = ensemble(&system, &long, 16, &Unobserved).expect("no failure");
+    let runs = TransientEnsemble::new(&system, &long, 16, &Unobserved).expect("no failure");
     let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.7).expect("legal")).collect();
     let transient = Spread::of(&means).expect("finite");
     let (one, another) = (point.speed.standard_error, transient.standard_error);

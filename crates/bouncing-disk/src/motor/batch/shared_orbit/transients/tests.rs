@@ -1,7 +1,8 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
-use bouncing_disk_core::{ChatterPolicy, Progress};
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{ChatterPolicy, Progress, Unobserved};
 
 use super::*;
 use crate::testing::motor;
@@ -33,10 +34,19 @@ fn varied(base: &System, count: u32) -> Vec<System> {
         .collect()
 }
 
+fn unobserved(
+    systems: &[System],
+    phase: Phase,
+    settings: &TransientSettings,
+    set: InstructionSet,
+) -> Result<Vec<SpeedCurve>, Error> {
+    let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
+    shared_transients(systems, phase, settings, set, &mut watch.work())
+}
+
 fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSettings) {
     for set in InstructionSet::available() {
-        let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
-        let curves = with_instructions(systems, phase, settings, set, &mut watch.work()).expect("no failure");
+        let curves = unobserved(systems, phase, settings, set).expect("no failure");
         assert_eq!(curves.len(), systems.len());
         for (system, curve) in systems.iter().zip(&curves) {
             let alone = transient(system, phase, settings, &Unobserved).expect("no failure");
@@ -119,7 +129,8 @@ fn motors_without_a_common_vertical_motion_are_refused_by_name() {
     let base = System::motor();
     let settings = TransientSettings { duration: 1e-3, intervals: 3, ..TransientSettings::default() };
     let refused = |other: System, named: &str| {
-        let error = shared_transients(&[base, other], zero(), &settings).expect_err("not shared");
+        let error =
+            unobserved(&[base, other], zero(), &settings, InstructionSet::best()).expect_err("not shared");
         assert!(matches!(error, Error::NotShared { .. }), "{error}");
         assert!(error.to_string().contains(named), "{error}");
     };
@@ -141,7 +152,7 @@ fn motors_without_a_common_vertical_motion_are_refused_by_name() {
         .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration *= 2.0))
         .expect("legal");
     refused(lifted, "preload acceleration");
-    let none = shared_transients(&[], zero(), &settings).expect_err("none");
+    let none = unobserved(&[], zero(), &settings, InstructionSet::best()).expect_err("none");
     assert!(matches!(none, Error::OutOfRange { .. }), "{none}");
 }
 
@@ -149,7 +160,7 @@ fn motors_without_a_common_vertical_motion_are_refused_by_name() {
 fn more_curves_than_there_is_room_for_are_refused() {
     let systems = vec![System::motor(); 100];
     let settings = TransientSettings { intervals: 1_000_000, ..TransientSettings::default() };
-    let error = shared_transients(&systems, zero(), &settings).expect_err("too many");
+    let error = unobserved(&systems, zero(), &settings, InstructionSet::best()).expect_err("too many");
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { .. })), "{error}");
 }
 
@@ -165,6 +176,6 @@ fn a_longer_call_may_stop() {
     };
     let watch = Watch::begin(&stop, 0, 1).expect("goes on");
     let set = InstructionSet::best();
-    let stopped = with_instructions(&systems, zero(), &settings, set, &mut watch.work());
+    let stopped = shared_transients(&systems, zero(), &settings, set, &mut watch.work());
     assert!(matches!(stopped, Err(Error::Core(bouncing_disk_core::Error::Stopped { .. }))));
 }
