@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{Format, Provenance, StorageError};
+use bouncing_disk::store::{Format, Provenance, StorageError};
 use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -129,8 +129,8 @@ impl From<StorageError> for ExperimentError {
     }
 }
 
-impl From<bouncing_disk::FitError> for ExperimentError {
-    fn from(error: bouncing_disk::FitError) -> Self {
+impl From<bouncing_disk::estimate::FitError> for ExperimentError {
+    fn from(error: bouncing_disk::estimate::FitError) -> Self {
         Self::model(error)
     }
 }

@@ -3,7 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
-use bouncing_disk::{FitError, MeasuredSpeedsError, StorageError};
+use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
+use bouncing_disk::store::StorageError;
 use bouncing_disk_plot::DrawError;
 
 use crate::interrupt;

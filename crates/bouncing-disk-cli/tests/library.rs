@@ -12,10 +12,10 @@ use bouncing_disk::core::attractors::{
 use bouncing_disk::core::orbits::doubling_cascade;
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
-use bouncing_disk::{
-    InitialSpin, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, System, TossConstraints,
-    TransientEnsemble, TransientSettings, best_toss, single_toss,
-};
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
+use bouncing_disk::toss::{InitialSpin, TossConstraints, best_toss, single_toss};
+use bouncing_disk::{Motor, System};
 use common::Folder;
 use serde::Serialize;
 use serde_json::{Value, json};

@@ -1,7 +1,9 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
+use bouncing_disk::Error;
 use bouncing_disk::core::{Error as CoreError, chaos::NoCrisis};
-use bouncing_disk::{Error, FitError, MeasuredSpeedsError, MotorFileError};
+use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
+use bouncing_disk::motor::MotorFileError;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

@@ -11,7 +11,8 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use bouncing_disk::{Error, FitError, Observer, Progress};
+use bouncing_disk::estimate::FitError;
+use bouncing_disk::{Error, Observer, Progress};
 use pyo3::prelude::*;
 
 use crate::arguments::Arguments;

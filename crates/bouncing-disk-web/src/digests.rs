@@ -15,11 +15,14 @@ use bouncing_disk::core::{
     orbits::OrbitSearch,
     sweep::orbit_diagram,
 };
-use bouncing_disk::{
-    Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
-    SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,
-    SweepQuantity, System, TransientEnsemble, TransientSettings, single_toss,
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motion::PAPER_CHATTER;
+use bouncing_disk::motor::{
+    MotorField, MotorParameters, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter,
+    SensitivityQuantity, SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
+use bouncing_disk::toss::{InitialSpin, single_toss};
+use bouncing_disk::{Error, System};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -1,11 +1,12 @@
 //! Motors by their data sheets.
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{
-    Error, Estimate, FitError, FitRefusal, FitSettings, Motor, MotorParameters, OperatingPoint,
-    OperatingSettings, Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit,
+use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
+use bouncing_disk::motor::{
+    Estimate, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, SpeedCurve,
     TransientMember, TransientSettings, transients,
 };
+use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};

@@ -1,8 +1,10 @@
 //! Answers, and refusals of requests that cannot be met.
 
+use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::{Error, FitError, MotorFileError};
+use bouncing_disk::estimate::FitError;
+use bouncing_disk::motor::MotorFileError;
 use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -4,9 +4,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::{
-    Motor, OperatingSettings, System, TransientMember, TransientSettings, transient, transients,
-};
+use bouncing_disk::motor::{OperatingSettings, TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::{Motor, System};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Motor seconds of one transient.

@@ -3,10 +3,10 @@
 //!     cargo run --release -p bouncing-disk --example fit_transient
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::System;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{
-    FitError, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientEnsemble, TransientSettings,
-};
+use bouncing_disk::estimate::{FitError, FitSettings, MeasuredRun, MeasuredSpeeds, TransientEnsemble};
+use bouncing_disk::motor::TransientSettings;
 
 fn main() -> Result<(), FitError> {
     // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the

@@ -4,7 +4,9 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::{Error, ExponentialFit, System, TransientEnsemble, TransientSettings, transient};
+use bouncing_disk::estimate::{ExponentialFit, TransientEnsemble};
+use bouncing_disk::motor::{TransientSettings, transient};
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     // Table III of the paper: 70 kHz, an amplitude of 10 nm, and a steel ball under its own weight.

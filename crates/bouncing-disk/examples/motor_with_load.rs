@@ -4,7 +4,9 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{Error, System, TransientEnsemble, TransientSettings};
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     let motor = System::motor();

@@ -41,12 +41,12 @@ pub(crate) fn numbers(f: &Formatter<'_>) -> impl Fn(f64) -> Number + use<> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::estimate::{ExponentialFit, IntervalEstimate, RampFit, Spread};
+    use crate::motion::{EventKind, Mode, SlipDirection, Transition};
+    use crate::toss::OrbitClass;
     use crate::toss::chattering_cycle::ChatteringCycle;
     use crate::toss::single::{InitialSpin, single_toss};
-    use crate::{
-        Event, EventKind, ExponentialFit, IntervalEstimate, Mode, OrbitClass, RampFit, SlipDirection, Spread,
-        System, Transition,
-    };
+    use crate::{Event, System};
 
     #[test]
     fn systems_are_printed_with_their_units() {

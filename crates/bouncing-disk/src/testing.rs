@@ -35,10 +35,10 @@ pub(crate) fn tried_motor() -> System {
 
 /// The field of a number that is refused because it is out of range.
 pub(crate) fn refused_field<T: std::fmt::Debug>(
-    result: Result<T, impl Into<crate::FitError> + std::fmt::Debug>,
+    result: Result<T, impl Into<crate::estimate::FitError> + std::fmt::Debug>,
 ) -> &'static str {
     match result.map_err(Into::into) {
-        Err(crate::FitError::Model(crate::Error::OutOfRange { field, .. })) => field,
+        Err(crate::estimate::FitError::Model(crate::Error::OutOfRange { field, .. })) => field,
         other => panic!("{other:?}"),
     }
 }
@@ -62,7 +62,7 @@ pub(crate) fn phase() -> impl Strategy<Value = Phase> {
 }
 
 pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
-    prop_oneof![Just(ChatterPolicy::Complete), Just(crate::PAPER_CHATTER)]
+    prop_oneof![Just(ChatterPolicy::Complete), Just(crate::motion::PAPER_CHATTER)]
 }
 
 /// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.

@@ -6,7 +6,12 @@
 mod round_trip;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::*;
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motion::PAPER_CHATTER;
+use bouncing_disk::motor::{OperatingSettings, SpeedCurve, TransientSettings};
+use bouncing_disk::parameters::{ForcingParameters, Stroke};
+use bouncing_disk::toss::InitialSpin;
+use bouncing_disk::{Engine, Event, InitialCondition, System, Trajectory, Unobserved};
 use serde_json::json;
 
 use round_trip::{check, refused};

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::exp;
-use bouncing_disk::{FitError, FitSettings, TransientFit};
+use bouncing_disk::estimate::{FitError, FitSettings, TransientFit};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
     Scatter, Stroke, Ticks,

@@ -1,11 +1,10 @@
 //! Beyond the paper: speed and mechanical power of its motor against the load.
 
+use bouncing_disk::Motor;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{
-    Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation,
-    TransientEnsemble, TransientFit, TransientSettings,
-};
+use bouncing_disk::estimate::{FitSettings, IntervalEstimate, TransientEnsemble, TransientFit};
+use bouncing_disk::motor::{Estimate, OperatingPoint, OperatingSettings, Operation, TransientSettings};
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
     SINGLE_COLUMN, Scatter, Stroke, Text, Ticks,

@@ -1,9 +1,9 @@
 //! Fig. 9: the coefficient of friction from the deceleration of the rotor.
 
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::estimate::{BrakingRotor, Spread};
 use bouncing_disk::{
-    BrakingRotor, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System,
-    Trajectory,
-    core::{ChatterPolicy, Phase},
+    DiskParameters, Engine, Event, InitialCondition, PlatformParameters, System, Trajectory,
 };
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use bouncing_disk::{
-    CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
+use bouncing_disk::Motor;
+use bouncing_disk::estimate::{
+    CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient,
     ParameterEstimate, ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
 

@@ -1,6 +1,7 @@
 //! A motor's data sheet, which the library reads.
 
-use bouncing_disk::{Motor, MotorField, MotorFileError, System};
+use bouncing_disk::motor::{MotorField, MotorFileError};
+use bouncing_disk::{Motor, System};
 
 use super::source::{Described, Format, Refusal, Setting, SourceArgs};
 use super::system::is_parameter;

@@ -75,7 +75,7 @@ impl BrakingRotor {
 /// The straight line of a braking curve and the friction that it means, with 95 % intervals.
 ///
 /// ```
-/// use bouncing_disk::{BrakingFit, BrakingRotor};
+/// use bouncing_disk::estimate::{BrakingFit, BrakingRotor};
 ///
 /// // Synthetic: 50 rad/s that fall by 20 rad/s^2, and a standstill.
 /// let times: Vec<f64> = (0..300).map(|i| 0.01 * f64::from(i)).collect();
@@ -84,7 +84,7 @@ impl BrakingRotor {
 ///     BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
 /// let fit = BrakingFit::new(&times, &speeds, &rotor)?;
 /// assert!((fit.friction.value - 0.1).abs() < 1e-12);
-/// # Ok::<(), bouncing_disk::FitError>(())
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -50,7 +50,7 @@ impl Spread {
 /// An ensemble of transients of one motor.
 ///
 /// The fits of its members mean nothing where the duration is too short or the
-/// sampling too coarse: [`TransientFit`](crate::TransientFit) of the curves says so, and fits their mean.
+/// sampling too coarse: [`TransientFit`](crate::estimate::TransientFit) of the curves says so, and fits their mean.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientEnsemble {
@@ -60,7 +60,7 @@ pub struct TransientEnsemble {
     pub fits: Vec<ExponentialFit>,
     /// Steady speed alpha_ss (rad/s), by the fits of all members. Next to the load that stalls the motor a curve hardly
     /// rises and its fit means nothing: there, ask [`SpeedCurve::mean_over_last`] or
-    /// [`MotorStatistics`](crate::MotorStatistics).
+    /// [`MotorStatistics`](crate::estimate::MotorStatistics).
     pub steady_speed: Spread,
     /// Time constant t_c (s).
     pub time_constant: Spread,
@@ -77,7 +77,7 @@ impl TransientEnsemble {
     /// interval.
     ///
     /// # Errors
-    /// Those of [`TransientMember::of_ensemble`] and [`transient`](crate::transient()).
+    /// Those of [`TransientMember::of_ensemble`] and [`transient`](crate::motor::transient()).
     pub fn new(
         system: &System,
         settings: &TransientSettings,
@@ -201,7 +201,7 @@ mod tests {
         for (k, curve) in all.curves.iter().enumerate() {
             let phase = Phase::new(TAU / 8.0 * [1.0, 3.0, 5.0, 7.0][k]).expect("finite");
             let own = |seed: u64| {
-                crate::transient(&system, phase, &TransientSettings { seed, ..settings }, &Unobserved)
+                crate::motor::transient(&system, phase, &TransientSettings { seed, ..settings }, &Unobserved)
                     .expect("no failure")
             };
             assert_eq!(*curve, own(seeds[k]), "{k}");

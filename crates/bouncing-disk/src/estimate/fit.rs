@@ -23,7 +23,7 @@ const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 ///
-/// It fits whatever it is given, and says nothing of its error: [`TransientFit`](crate::TransientFit) has intervals, and
+/// It fits whatever it is given, and says nothing of its error: [`TransientFit`](crate::estimate::TransientFit) has intervals, and
 /// refuses curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -88,7 +88,7 @@ impl ExponentialFit {
 
 /// The fit of alpha_ss min(t/t_r, 1): the piecewise linear rise of low-period chattering orbits (Fig. 12).
 ///
-/// [`TransientFit`](crate::TransientFit) compares it with the exponential, with intervals.
+/// [`TransientFit`](crate::estimate::TransientFit) compares it with the exponential, with intervals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RampFit {

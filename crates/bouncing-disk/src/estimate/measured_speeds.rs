@@ -38,7 +38,7 @@ pub struct MeasuredRun {
 /// ```
 /// # use bouncing_disk::core::Unobserved;
 /// use bouncing_disk::core::numerics::elementary::exp;
-/// use bouncing_disk::{FitSettings, MeasuredRun, MeasuredSpeeds};
+/// use bouncing_disk::estimate::{FitSettings, MeasuredRun, MeasuredSpeeds};
 ///
 /// // Synthetic: every 20 ms, rounded to a tenth of a rad/s as an instrument shows it.
 /// let times: Vec<f64> = (0..200).map(|i| 0.02 * f64::from(i)).collect();
@@ -46,7 +46,7 @@ pub struct MeasuredRun {
 /// let measured = MeasuredSpeeds::new(vec![MeasuredRun { member: 0, speeds: speeds.collect(), times }])?;
 /// let fit = measured.fit(&FitSettings::default(), &Unobserved)?;
 /// assert!((fit.time_constant().value - 0.5).abs() < 1e-3);
-/// # Ok::<(), bouncing_disk::FitError>(())
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

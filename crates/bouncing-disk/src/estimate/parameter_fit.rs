@@ -53,10 +53,12 @@ const AT_END: f64 = 1.0e-6;
 ///
 /// ```
 /// use bouncing_disk::core::{Phase, Unobserved};
-/// use bouncing_disk::{
-///     FitParameter, MeasuredRun, MeasuredSpeeds, MeasuredTransient, Motor, ParameterFit, ParameterFitSettings,
-///     FitRange, RunPreload, TransientSettings, transient,
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::estimate::{
+///     FitParameter, FitRange, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit,
+///     ParameterFitSettings, RunPreload,
 /// };
+/// use bouncing_disk::motor::{TransientSettings, transient};
 ///
 /// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.1.
 /// let sheet = Motor::paper_70_khz();
@@ -77,7 +79,7 @@ const AT_END: f64 = 1.0e-6;
 /// assert!((found.value - 0.2).abs() < 0.04);
 /// // Printed, it is a table.
 /// assert!(fit.to_string().contains("friction   0.1"));
-/// # Ok::<(), bouncing_disk::FitError>(())
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -126,7 +126,11 @@ pub struct RiseEstimate {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{FitError, FitRefusal, FitSettings, System, TransientFit, TransientSettings, TransientEnsemble};
+/// use bouncing_disk::System;
+/// use bouncing_disk::estimate::{
+///     FitError, FitRefusal, FitSettings, TransientEnsemble, TransientFit,
+/// };
+/// use bouncing_disk::motor::TransientSettings;
 ///
 /// let motor = System::motor();
 /// let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
@@ -137,7 +141,7 @@ pub struct RiseEstimate {
 /// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
 /// let refused = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
 /// assert!(matches!(refused, Err(FitError::Refused(_))));
-/// # Ok::<(), bouncing_disk::FitError>(())
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

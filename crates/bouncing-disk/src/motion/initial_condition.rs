@@ -2,7 +2,7 @@
 
 use bouncing_disk_core::Phase;
 
-/// The state in which the engine starts, dimensionless (see [`crate::Scales`] for the units).
+/// The state in which the engine starts, dimensionless (see [`crate::parameters::Scales`] for the units).
 ///
 /// The disk's angle starts at the platform's own angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub enum InitialCondition {
         /// Phase of the platform.
         phase: Phase,
         /// Angular speed of the disk; that of the platform is
-        /// [`crate::DimensionlessSystem::platform_angular_speed`].
+        /// [`crate::parameters::DimensionlessSystem::platform_angular_speed`].
         angular_speed: f64,
     },
     /// The disk leaves the platform.

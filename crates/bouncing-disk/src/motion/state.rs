@@ -59,7 +59,7 @@ pub enum Mode {
     Sliding(SlipDirection),
 }
 
-/// The disk's state, dimensionless (see [`crate::Scales`] for the units).
+/// The disk's state, dimensionless (see [`crate::parameters::Scales`] for the units).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

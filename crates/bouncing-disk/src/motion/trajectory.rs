@@ -175,8 +175,9 @@ mod tests {
     use crate::motion::event::Event;
     use crate::motion::initial_condition::InitialCondition;
     use crate::motion::state::Mode;
+    use crate::parameters::DimensionlessParameters;
     use crate::parameters::dimensionless::ForcingParameters;
-    use crate::{DimensionlessParameters, DiskParameters, PlatformParameters, System, testing};
+    use crate::{DiskParameters, PlatformParameters, System, testing};
 
     fn recorded() -> Trajectory {
         let system =
@@ -304,7 +305,7 @@ mod tests {
             let start = engine.time();
             let mut trajectory = Trajectory { system, start, records: Vec::new(), eventless: None };
             while let Ok(Some(record)) = engine.advance() {
-                for crate::DiskState { height, axial_velocity, angle, angular_speed, .. } in [record.before, record.after] {
+                for crate::motion::DiskState { height, axial_velocity, angle, angular_speed, .. } in [record.before, record.after] {
                     prop_assert!([height, axial_velocity, angle, angular_speed].map(f64::is_finite) == [true; 4]);
                 }
                 prop_assert!(record.axial_impulse.is_finite() && record.angular_impulse.is_finite());

@@ -263,7 +263,8 @@ struct ContactPart {
 /// ordered by cos(tau + theta), the speed of the stator.
 ///
 /// ```
-/// use bouncing_disk::{NormalImpulses, System};
+/// use bouncing_disk::System;
+/// use bouncing_disk::motor::NormalImpulses;
 ///
 /// // The motor of Table III: where friction pushes forwards half of the time is its steady speed.
 /// let motor = System::motor();
@@ -399,7 +400,8 @@ impl ImpulseTrain {
     /// average: between -1 and 1, to 2e-6.
     ///
     /// ```
-    /// use bouncing_disk::{ImpulseTrain, System};
+    /// use bouncing_disk::System;
+    /// use bouncing_disk::motor::ImpulseTrain;
     ///
     /// let motor = System::motor();
     /// // Twelve rise times of the speed: where it starts does not matter.

@@ -36,7 +36,8 @@ use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 ///
 /// ```
 /// use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
 ///
 /// let motor = Motor::paper_70_khz();
 /// let loads = [0.0, 0.5, 1.5].map(|share| share * motor.largest_torque());
@@ -74,8 +75,8 @@ impl MotorSweep {
     /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter, or of
     /// two that exclude each other; an error of the core
     /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
-    /// [`MAX_SWEEP_CELLS`](crate::MAX_SWEEP_CELLS) cells; those of
-    /// [`MotorParameters::build`](crate::MotorParameters::build) for the first cell whose motor is not legal.
+    /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; those of
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not legal.
     pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
         settings.check()?;
         check_axes(&axes)?;

@@ -152,7 +152,7 @@ mod tests {
         let (system, scales) = (system(), system().scales());
         for angle in [0.0, 1.0, 4.0] {
             let phase = Phase::new(angle).unwrap();
-            let state = crate::PlatformState::at(system.dimensionless(), phase);
+            let state = crate::motion::PlatformState::at(system.dimensionless(), phase);
             let pairs = [
                 (state.height * scales.length, system.platform().height(phase)),
                 (state.axial_velocity * scales.velocity, system.platform().velocity(phase)),
@@ -170,7 +170,7 @@ mod tests {
         assert!((system.dimensionless().load() * scales.angular_acceleration - 3.0).abs() < 1e-14);
         let friction = 0.6 * 9.8 * 0.135 / (0.11 * 0.11);
         assert!((scales.angular_acceleration * 0.6 - friction).abs() < 1e-13);
-        let second = crate::PhaseTime { periods: 3, phase: Phase::new(1.0).unwrap() };
+        let second = crate::motion::PhaseTime { periods: 3, phase: Phase::new(1.0).unwrap() };
         assert!((scales.time_seconds(second) - (3.0 * std::f64::consts::TAU + 1.0) / 15.0).abs() < 1e-15);
     }
 
@@ -312,7 +312,7 @@ mod tests {
         let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
         refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
         let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
-        refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
+        refused(serde_json::from_str::<crate::motion::Transition>(transition).unwrap_err(), "via");
     }
 
     #[cfg(feature = "serde")]
@@ -325,6 +325,9 @@ mod tests {
         assert!(error.unwrap_err().to_string().contains("restitution = 1.5"));
         let dimensionless = *system().dimensionless();
         let text = serde_json::to_string(&dimensionless).unwrap();
-        assert_eq!(serde_json::from_str::<crate::DimensionlessSystem>(&text).unwrap(), dimensionless);
+        assert_eq!(
+            serde_json::from_str::<crate::parameters::DimensionlessSystem>(&text).unwrap(),
+            dimensionless
+        );
     }
 }

@@ -32,7 +32,7 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 /// the first exists, whatever process it is in. The lock is the system's: it ends with the process.
 ///
 /// ```
-/// use bouncing_disk::{JOURNAL, Journal, Provenance, StorageError};
+/// use bouncing_disk::store::{JOURNAL, Journal, Provenance, StorageError};
 ///
 /// # let path = std::env::temp_dir().join(format!("journal-example-{}", std::process::id()));
 /// # let _ = std::fs::remove_file(&path);

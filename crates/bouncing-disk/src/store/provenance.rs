@@ -32,7 +32,8 @@ pub struct Format {
 /// ```
 /// use std::path::Path;
 ///
-/// use bouncing_disk::{Format, Provenance, StorageError, System};
+/// use bouncing_disk::System;
+/// use bouncing_disk::store::{Format, Provenance, StorageError};
 ///
 /// const SPEEDS: Format = Format { name: "speeds", version: 1, oldest: 1 };
 /// let provenance = Provenance::new(SPEEDS).with("system", &System::motor())?.with_seed(1);
@@ -221,7 +222,8 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::{PAPER_CHATTER, System};
+    use crate::System;
+    use crate::motion::PAPER_CHATTER;
 
     const FORMAT: Format = Format { name: "test", version: 3, oldest: 2 };
 

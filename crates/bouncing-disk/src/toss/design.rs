@@ -62,7 +62,7 @@ impl TossDesign {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{TossConstraints, best_toss};
+/// use bouncing_disk::toss::{TossConstraints, best_toss};
 ///
 /// // The dough of Table I, on hands whose flour makes the friction uncertain, no higher than half a metre.
 /// let constraints = TossConstraints {
@@ -78,7 +78,7 @@ impl TossDesign {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none
-/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
+/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::toss::single_toss).
 pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Result<TossDesign, Error> {
     constraints.check()?;
     let watch = Watch::begin(observer, 0, crate::toss::design::search::STAGES)?;

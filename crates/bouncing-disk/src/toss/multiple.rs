@@ -383,7 +383,7 @@ mod tests {
 
     #[test]
     fn a_disk_from_rest_chatters_below_the_merging_of_the_attractors() {
-        for policy in [ChatterPolicy::Complete, crate::PAPER_CHATTER] {
+        for policy in [ChatterPolicy::Complete, crate::motion::PAPER_CHATTER] {
             let system = system(0.48, 1.0, 0.0);
             let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
             let orbit = multi_toss(system, from_rest(&system), settings, &Unobserved).unwrap();

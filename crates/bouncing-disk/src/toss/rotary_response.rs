@@ -109,7 +109,8 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
 /// or unstable.
 ///
 /// ```
-/// use bouncing_disk::{ForcingParameters, period_one_rotary_speed, rotary_response};
+/// use bouncing_disk::parameters::ForcingParameters;
+/// use bouncing_disk::toss::{period_one_rotary_speed, rotary_response};
 ///
 /// let system = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.3, restitution: 0.5 }.build()?;
 /// let pair = system.map().period_one_pair(1).expect("born at 1/3");

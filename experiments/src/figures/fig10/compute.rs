@@ -4,7 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings};
+use bouncing_disk::estimate::{RampFit, Spread, TransientEnsemble};
+use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::{PlatformParameters, System};
 
 use super::{Alike, Exception, Fig10Data, Reading, Transient};
 use crate::claims::paper::{self, STANDARD_GRAVITY};

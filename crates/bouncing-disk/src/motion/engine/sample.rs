@@ -33,7 +33,9 @@ impl<L: RestitutionLaw> Engine<L> {
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
-    /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System, TOSS_START};
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PhaseSpan;
+    /// use bouncing_disk::toss::TOSS_START;
     ///
     /// let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
     /// let mut engine = Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete)?;

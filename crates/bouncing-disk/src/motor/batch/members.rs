@@ -16,7 +16,7 @@ pub const MAX_MEMBERS: usize = 1_000_000;
 /// Most speeds of all members of an ensemble together: with their times a gigabyte.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
-/// The arguments of one [`transient`](crate::transient()).
+/// The arguments of one [`transient`](crate::motor::transient()).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientMember {
@@ -29,7 +29,7 @@ pub struct TransientMember {
 }
 
 impl TransientMember {
-    /// The members of a [`TransientEnsemble`](crate::TransientEnsemble): `members` >= 1 transients with starting phases
+    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients with starting phases
     /// spread evenly over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`. Ensembles
     /// that are to be independent of each other need seeds that lie at least `members` apart.
     ///
@@ -57,7 +57,7 @@ impl TransientMember {
         Ok(starts)
     }
 
-    /// As [`transient`](crate::transient()).
+    /// As [`transient`](crate::motor::transient()).
     pub(crate) fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
         SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
     }

@@ -18,8 +18,8 @@ const FEWEST: usize = 26;
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The transient of each member, or the error that [`transient`](crate::transient()) returns for it, in the
-/// order of the members; bit for bit those of [`transient`](crate::transient()), several times faster where
+/// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it, in the
+/// order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times faster where
 /// there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
@@ -29,7 +29,8 @@ const BATCHES: usize = 8;
 ///
 /// ```
 /// use bouncing_disk::core::{Phase, Unobserved};
-/// use bouncing_disk::{System, TransientMember, TransientSettings, transient, transients};
+/// use bouncing_disk::System;
+/// use bouncing_disk::motor::{TransientMember, TransientSettings, transient, transients};
 ///
 /// // The motor of Table III at a hundred preloads (m/s^2), 5 ms each.
 /// let motor = System::motor();

@@ -36,7 +36,7 @@ impl MotorFileError {
 }
 
 impl Motor {
-    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::MotorParameters), in SI
+    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
     /// units. `null` is the same as a field that is not there, a byte-order mark before the text is accepted.
     ///
     /// ```
@@ -49,7 +49,7 @@ impl Motor {
     ///
     /// # Errors
     /// [`MotorFileError`] for a text that is no such object, keys that are unknown or there twice, values
-    /// that are no numbers, and what [`MotorParameters::build`](crate::MotorParameters::build) refuses.
+    /// that are no numbers, and what [`MotorParameters::build`](crate::motor::MotorParameters::build) refuses.
     #[cfg(feature = "json")]
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
         Self::from_json_with(text, &[])
@@ -75,7 +75,7 @@ impl Motor {
     }
 
     /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those
-    /// of [`MotorParameters`](crate::MotorParameters); JSON has no place for them.
+    /// of [`MotorParameters`](crate::motor::MotorParameters); JSON has no place for them.
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -84,7 +84,7 @@ impl Motor {
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
 
-    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::MotorParameters), in SI
+    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
     /// units. A byte-order mark before the text is accepted.
     ///
     /// # Errors
@@ -98,13 +98,14 @@ impl Motor {
     /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
     ///
     /// ```
-    /// use bouncing_disk::{Motor, MotorField};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::MotorField;
     ///
     /// let text = Motor::paper_70_khz().to_toml().replace("friction = 0.1", "friction = -0.1");
     /// assert!(Motor::from_toml(&text).is_err());
     /// let motor = Motor::from_toml_with(&text, &[(MotorField::Friction, 0.2)])?;
     /// assert_eq!(motor.parameters().friction, 0.2);
-    /// # Ok::<(), bouncing_disk::MotorFileError>(())
+    /// # Ok::<(), bouncing_disk::motor::MotorFileError>(())
     /// ```
     ///
     /// # Errors

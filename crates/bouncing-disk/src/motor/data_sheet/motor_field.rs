@@ -60,7 +60,7 @@ macro_rules! motor_fields {
         /// Printed, read and stored, it is the name of the field: `load_torque`.
         ///
         /// ```
-        /// use bouncing_disk::MotorField;
+        /// use bouncing_disk::motor::MotorField;
         ///
         /// let field: MotorField = "load_torque".parse()?;
         /// assert_eq!((field, field.unit()), (MotorField::LoadTorque, "N m"));
@@ -69,7 +69,7 @@ macro_rules! motor_fields {
         ///     error.to_string(),
         ///     "the key \"load_torqe\" is unknown; did you mean \"load_torque\"?"
         /// );
-        /// # Ok::<(), bouncing_disk::UnknownMotorField>(())
+        /// # Ok::<(), bouncing_disk::motor::UnknownMotorField>(())
         /// ```
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -90,7 +90,8 @@ impl MotorParameters {
     /// rounded, so that the angular frequency of the motor may differ in the last bit.
     ///
     /// ```
-    /// use bouncing_disk::{MotorParameters, System};
+    /// use bouncing_disk::System;
+    /// use bouncing_disk::motor::MotorParameters;
     ///
     /// let motor = MotorParameters::of_system(&System::motor(), 1e-3).build()?;
     /// assert!((motor.parameters().drive_frequency - 70e3).abs() < 1e-10);

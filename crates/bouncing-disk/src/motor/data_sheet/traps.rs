@@ -49,7 +49,7 @@ pub struct TrapVerdict {
     /// one of them had not come to rest within 4000 impacts. `None` without a cycle.
     pub mean_platform_periods: Option<f64>,
     /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of that of the cycle, the rule
-    /// of [`MotorRegime::LowPeriodChattering`](crate::MotorRegime::LowPeriodChattering).
+    /// of [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
     pub is_trap: bool,
 }
 
@@ -169,7 +169,8 @@ const FLIGHTS_OF_BUILDING: u64 = 8;
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{Motor, low_period_traps};
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::motor::low_period_traps;
 ///
 /// let motor = Motor::paper_70_khz();
 /// // Gamma is 12.51 in the middle of these: a flight of twelve and a half periods lands softly.

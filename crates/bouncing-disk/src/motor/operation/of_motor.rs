@@ -24,7 +24,8 @@ impl Motor {
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{Motor, OperatingSettings, Operation};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{OperatingSettings, Operation};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let half = 0.5 * motor.largest_torque();
@@ -156,7 +157,7 @@ pub fn operations(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::OperatingPoint;
+    use crate::motor::OperatingPoint;
 
     #[test]
     fn a_curve_is_that_of_its_loads_and_a_map_that_of_its_motors() {

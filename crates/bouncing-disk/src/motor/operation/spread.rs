@@ -112,7 +112,7 @@ pub struct InputSpread {
     pub without: usize,
     /// Draws of which the start-up leaves more than the standard deviation: taken as they were.
     pub unsettled: usize,
-    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::TrapVerdict)).
+    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
 }
 
@@ -191,7 +191,8 @@ impl Motor {
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{InputTolerance, OperatingSettings};
     ///
     /// let (motor, tolerance) = (Motor::paper_70_khz(), InputTolerance { draws: 12, ..InputTolerance::default() });
     /// let settings = OperatingSettings { relative_error: 0.02, ..OperatingSettings::default() };

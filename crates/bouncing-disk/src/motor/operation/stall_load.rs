@@ -24,7 +24,7 @@ const EVEN: f64 = 3.464_101_615_137_754_5;
 const SIGNIFICANT: f64 = 3.0;
 
 /// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
-/// ([`ExponentialFit::stall_acceleration`](crate::ExponentialFit::stall_acceleration)), which is an estimate from the
+/// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an estimate from the
 /// transient without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]

@@ -78,7 +78,8 @@ impl Motor {
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{LEAST_TRAP_WIDTH, Motor, OperatingSettings};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings};
     ///
     /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
     /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
@@ -141,7 +142,7 @@ impl Motor {
 
     /// The low-period trap of at least [`LEAST_TRAP_WIDTH`] that is nearest to the motor, if there is one within a relative
     /// change of its preload or amplitude of `relative_range`, in (0, 1]. That a motor itself is locked, however narrow its
-    /// trap, is told by its regime ([`MotorRegime::is_locked`](crate::MotorRegime::is_locked)).
+    /// trap, is told by its regime ([`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked)).
     ///
     /// The items of `observer` are the steps of the scan.
     ///

@@ -118,7 +118,7 @@ impl SpeedCurve {
         check_curve(&self.times, &self.speeds)
     }
 
-    /// [`transient`](crate::transient()) as a part of a longer call.
+    /// [`transient`](crate::motor::transient()) as a part of a longer call.
     pub(crate) fn alone(
         system: &System,
         phase: Phase,

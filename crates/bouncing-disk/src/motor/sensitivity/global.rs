@@ -26,7 +26,7 @@ impl Motor {
     /// The items of `observer` are the rows of the sample.
     ///
     /// # Errors
-    /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or
+    /// Those of [`sobol_indices`](crate::motor::sobol_indices), and of [`Motor::operating_point`] or
     /// [`Motor::stall_load`]; [`Error::Overpowered`] where a load is more than friction can hold. A parameter
     /// that is given twice takes its last value.
     pub fn sobol_indices(

@@ -101,7 +101,8 @@ impl Motor {
     ///
     /// ```no_run
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{Motor, SensitivityParameter, SensitivityQuantity, SensitivitySettings};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{SensitivityParameter, SensitivityQuantity, SensitivitySettings};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let all = motor.local_sensitivities(

@@ -36,7 +36,7 @@ pub struct ElementaryEffects {
 /// The items of `observer` are the trajectories.
 ///
 /// # Errors
-/// Those of [`sobol_indices`](crate::sobol_indices).
+/// Those of [`sobol_indices`](crate::motor::sobol_indices).
 pub fn elementary_effects(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],

@@ -109,7 +109,7 @@ impl SensitivityParameter {
     /// The motor with another value of it; where the data sheet gives an alternative, that is replaced.
     ///
     /// # Errors
-    /// Those of [`MotorParameters::build`](crate::MotorParameters::build).
+    /// Those of [`MotorParameters::build`](crate::motor::MotorParameters::build).
     pub fn set(self, motor: &Motor, value: f64) -> Result<Motor, Error> {
         let speed = motor.system().platform().peak_angular_speed();
         motor.with(|sheet| {

@@ -89,7 +89,7 @@ pub(crate) fn evaluated(
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{SamplingSettings, sobol_indices};
+/// use bouncing_disk::motor::{SamplingSettings, sobol_indices};
 ///
 /// // x + 2 y over the unit square: the variances are as 1 to 4.
 /// let function = |points: &[Vec<f64>]| Ok(points.iter().map(|at| at[0] + 2.0 * at[1]).collect());

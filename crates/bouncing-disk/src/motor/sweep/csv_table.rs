@@ -122,7 +122,8 @@ fn suffix(unit: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Motor, MotorSweep, OperatingSettings, SweepAxis};
+    use crate::Motor;
+    use crate::motor::{MotorSweep, OperatingSettings, SweepAxis};
     use bouncing_disk_core::Unobserved;
 
     fn result() -> MotorSweepResult {

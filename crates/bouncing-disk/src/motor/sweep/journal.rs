@@ -25,9 +25,9 @@ impl MotorSweep {
     /// use std::sync::atomic::{AtomicU32, Ordering};
     ///
     /// use bouncing_disk::core::Progress;
-    /// use bouncing_disk::{
-    ///     Motor, MotorField, MotorSweep, OperatingSettings, StorageError, SweepAxis, Unobserved,
-    /// };
+    /// use bouncing_disk::{Motor, Unobserved};
+    /// use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis};
+    /// use bouncing_disk::store::StorageError;
     ///
     /// # let path = std::env::temp_dir().join(format!("sweep-example-{}", std::process::id()));
     /// # let _ = std::fs::remove_file(&path);

@@ -7,7 +7,7 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
 use crate::motor::sweep::quantity::SweepQuantity;
 
-/// The operation of each cell of a [`MotorSweep`](crate::MotorSweep), with what was computed.
+/// The operation of each cell of a [`MotorSweep`](crate::motor::MotorSweep), with what was computed.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorSweepResult {

@@ -24,7 +24,8 @@ use crate::motor::sweep::result::MotorSweepResult;
 /// use std::sync::atomic::{AtomicU32, Ordering};
 ///
 /// use bouncing_disk::core::Progress;
-/// use bouncing_disk::{Motor, MotorField, MotorSweep, MotorSweepRun, OperatingSettings, SweepAxis, Unobserved};
+/// use bouncing_disk::{Motor, Unobserved};
+/// use bouncing_disk::motor::{MotorField, MotorSweep, MotorSweepRun, OperatingSettings, SweepAxis};
 ///
 /// let sweep = MotorSweep::new(
 ///     Motor::paper_70_khz(),

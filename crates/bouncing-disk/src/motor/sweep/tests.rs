@@ -5,7 +5,7 @@ use bouncing_disk_core::{Progress, Unobserved};
 
 use super::quantity::SweepQuantity;
 use super::*;
-use crate::{MAX_SWEEP_CELLS, MotorSweepResult, MotorSweepRun, Operation, operations};
+use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, MotorSweepRun, Operation, operations};
 
 /// Little is asked for, so that much can be tried.
 pub(crate) fn rough() -> OperatingSettings {

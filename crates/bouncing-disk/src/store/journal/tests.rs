@@ -140,7 +140,7 @@ fn the_journal_of_another_computation_is_refused_by_name() {
     );
     assert!(fault(&key(0.1), 101).ends_with("its items is 100, where 101 is asked for"));
     assert!(fault(&key(0.1).with_seed(8), 100).ends_with("its provenance.seed is 7, where 8 is asked for"));
-    let cut = fault(&key(0.1).with_chatter_policy(crate::PAPER_CHATTER), 100);
+    let cut = fault(&key(0.1).with_chatter_policy(crate::motion::PAPER_CHATTER), 100);
     assert!(cut.contains("provenance.chatter_policy is null, where {\"Cut\":"), "{cut}");
     let more = fault(&key(0.1).with("load", &1.0).expect("storable"), 100);
     assert!(more.contains("provenance.parameters.load is absent, where 1.0"), "{more}");

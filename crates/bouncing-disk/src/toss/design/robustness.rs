@@ -241,7 +241,7 @@ impl TossDesign {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of
-    /// its input; those of [`best_toss`](crate::best_toss).
+    /// its input; those of [`best_toss`](crate::toss::best_toss).
     pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
         robustness(self, half_units)
     }

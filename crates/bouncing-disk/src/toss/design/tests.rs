@@ -4,10 +4,10 @@ use bouncing_disk_core::Unobserved;
 use bouncing_disk_core::numerics::random::SplitMix64;
 
 use super::*;
+use crate::DiskParameters;
 use crate::toss::design::hand::{Hand, toss, value_of};
-use crate::{
-    DiskParameters, InitialSpin, OverFriction, Robustness, TossHalfUnits, TossInput, TossObjective,
-    TossRobustness,
+use crate::toss::{
+    InitialSpin, OverFriction, Robustness, TossHalfUnits, TossInput, TossObjective, TossRobustness,
 };
 
 fn designed(constraints: &TossConstraints) -> TossDesign {
@@ -105,7 +105,7 @@ fn the_height_is_kept_and_used() {
             constraints.dough.build().unwrap(),
         )
         .unwrap();
-        let flight = crate::single_toss(&system, constraints.initial).unwrap();
+        let flight = crate::toss::single_toss(&system, constraints.initial).unwrap();
         let rise = 0.5 * flight.launch_speed * flight.launch_speed / 9.8;
         assert!((rise - design.flight_height).abs() < 1e-12, "{rise} {design:?}");
     }
@@ -289,7 +289,11 @@ fn the_system_of_a_design_tosses_as_it_says() {
     for constraints in cases() {
         let design = designed(&constraints);
         let system = design.system().expect("legal");
-        assert_eq!(crate::single_toss(&system, constraints.initial), Ok(design.toss), "{constraints:?}");
+        assert_eq!(
+            crate::toss::single_toss(&system, constraints.initial),
+            Ok(design.toss),
+            "{constraints:?}"
+        );
         let [least, most] = constraints.friction;
         assert!((system.disk().friction() - (least + most) / 2.0).abs() < 1e-15);
     }

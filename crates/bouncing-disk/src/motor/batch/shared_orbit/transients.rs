@@ -18,7 +18,7 @@ use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
 /// The speed transients of motors that share one vertical motion: bit for bit those of
-/// [`transient`](crate::transient()) for each, in their order, for a fraction of the time.
+/// [`transient`](crate::motor::transient()) for each, in their order, for a fraction of the time.
 ///
 /// They may differ in load, friction, phase lag, twist amplitude and radii. They start together at `phase`,
 /// with the same perturbations of their relaunches (`settings.seed`), so that a difference between two of
@@ -27,7 +27,7 @@ use crate::parameters::system::System;
 /// # Errors
 /// [`Error::NotShared`] for motors with different peak accelerations, restitutions, frequencies or preloads;
 /// [`Error::OutOfRange`] for none; an error of the core for more than [`MAX_MEMBERS`] or for curves of more
-/// than [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::transient()).
+/// than [`MAX_SPEEDS`] speeds together; those of [`transient`](crate::motor::transient()).
 pub(crate) fn shared_transients(
     systems: &[System],
     phase: Phase,

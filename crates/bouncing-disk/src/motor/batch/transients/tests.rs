@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use bouncing_disk_core::{Phase, Progress, Unobserved};
 
 use super::*;
-use crate::{DiskParameters, PlatformParameters, System, TransientSettings};
+use crate::motor::TransientSettings;
+use crate::{DiskParameters, PlatformParameters, System};
 
 /// Motors about Table III: chattering ones, plastic ones, loaded ones, some that never bounce, some that fail.
 fn member(k: u32) -> TransientMember {
@@ -32,7 +33,7 @@ fn member(k: u32) -> TransientMember {
             intervals: if k % 41 == 40 { 2 } else { 3 + (k as usize % 11) * 20 },
             relaunch_perturbation: [1e-3, 1e-3, 0.0, 0.3][k as usize % 4],
             seed: u64::from(k),
-            policy: if k % 23 == 22 { crate::PAPER_CHATTER } else { ChatterPolicy::Complete },
+            policy: if k % 23 == 22 { crate::motion::PAPER_CHATTER } else { ChatterPolicy::Complete },
         },
     }
 }
@@ -64,7 +65,7 @@ fn bits(outcome: &Result<SpeedCurve, Error>) -> Result<(Vec<u64>, u64, u64), Str
 }
 
 fn alone(member: &TransientMember) -> Result<SpeedCurve, Error> {
-    crate::transient(&member.system, member.phase, &member.settings, &Unobserved)
+    crate::motor::transient(&member.system, member.phase, &member.settings, &Unobserved)
 }
 
 #[test]
@@ -112,7 +113,7 @@ fn one_long_transient_can_be_stopped() {
         let early = calls.fetch_add(1, Ordering::Relaxed) < 4;
         if early { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
-    let stopped = crate::transient(&long.system, long.phase, &long.settings, &observer);
+    let stopped = crate::motor::transient(&long.system, long.phase, &long.settings, &observer);
     let of_one = |total| Err(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, total }));
     assert_eq!(stopped, of_one(long.settings.intervals as u64));
     calls.store(0, Ordering::Relaxed);

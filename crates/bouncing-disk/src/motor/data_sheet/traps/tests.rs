@@ -1,5 +1,5 @@
 use super::*;
-use crate::MotorRegime;
+use crate::motor::MotorRegime;
 
 fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
     let preload = motor.system().platform().peak_acceleration() / (PI * forcing);
@@ -101,7 +101,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
         let [from, to] = trap.forcing_from_to;
         assert!(from < to && trap.verdict.is_trap, "{trap:?}");
         // The near edge is one, by each of its values.
-        let edge = |change: &dyn Fn(&mut crate::MotorParameters)| {
+        let edge = |change: &dyn Fn(&mut crate::motor::MotorParameters)| {
             motor.with(|sheet| change(sheet)).expect("legal").system().axial_forcing()
         };
         let edges = [

@@ -6,8 +6,11 @@ use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use super::*;
+use crate::estimate::{Spread, TransientEnsemble};
+use crate::motion::EnergyLedger;
+use crate::motor::TransientSettings;
 use crate::testing::{motor, tried_motor};
-use crate::{EnergyLedger, Engine, InitialCondition, Motor, Spread, TransientEnsemble, TransientSettings};
+use crate::{Engine, InitialCondition, Motor};
 
 /// Mass of the rotor (kg): any will do.
 const MASS: f64 = 0.02;

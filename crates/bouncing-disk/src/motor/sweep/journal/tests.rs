@@ -4,7 +4,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::motor::sweep::tests::{mixed, rough};
-use crate::{Error, Motor, MotorField, OperatingSettings, SweepAxis, Unobserved};
+use crate::motor::{MotorField, OperatingSettings, SweepAxis};
+use crate::{Error, Motor, Unobserved};
 
 /// A folder of its own, removed at the end.
 struct Scratch(PathBuf);

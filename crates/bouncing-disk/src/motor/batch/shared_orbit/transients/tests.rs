@@ -5,8 +5,9 @@ use bouncing_disk_core::run::Watch;
 use bouncing_disk_core::{ChatterPolicy, Progress, Unobserved};
 
 use super::*;
+use crate::motion::PAPER_CHATTER;
+use crate::motor::transient;
 use crate::testing::motor;
-use crate::{PAPER_CHATTER, transient};
 
 fn zero() -> Phase {
     Phase::new(0.0).expect("finite")
