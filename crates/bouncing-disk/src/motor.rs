@@ -1,8 +1,9 @@
 //! Ultrasonic motors: data sheet, run-up, speed under a load, sweeps and sensitivities.
 //!
-//! The stator throws the rotor and turns it by friction at each impact. Because the mean normal force is the preload, no
-//! motor gives more torque than mu m g a_e. From rest the mean speed rises about as alpha_ss (1 - exp(-t/t_c)) (Sec. V of
-//! Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means over ensembles, with standard errors.
+//! The stator throws the rotor and turns it by friction at each impact. Because the mean normal force is the
+//! preload, no motor gives more torque than mu m g a_e. From rest the mean speed rises about as
+//! alpha_ss (1 - exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means
+//! over ensembles, with standard errors.
 //!
 //! ```
 //! use bouncing_disk::core::Unobserved;
@@ -12,16 +13,17 @@
 //! // The motor of Table III under a fifth of the largest torque, its speed to 5 % of that without load.
 //! let motor = Motor::paper_70_khz();
 //! let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
-//! let Operation::Steady(point) = motor.operating_point(0.2 * motor.largest_torque(), &settings, &Unobserved)? else {
+//! let load = 0.2 * motor.largest_torque();
+//! let Operation::Steady(point) = motor.operating_point(load, &settings, &Unobserved)? else {
 //!     panic!("it turns");
 //! };
 //! assert!(point.speed.value > 0.0);
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`transient`] computes the run-up of one rotor and [`transients`] those of many; [`MotorSweep`] varies the data sheet.
-//! Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust the speeds:
-//! docs/numerics/motors.md.
+//! [`transient`] computes the run-up of one rotor and [`transients`] those of many; [`MotorSweep`] varies the
+//! data sheet. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
+//! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
 pub(crate) mod data_sheet;

@@ -1,9 +1,10 @@
-//! The parameters of a disk and its platform in SI units, and the six numbers without units that decide the motion.
+//! The parameters of a disk and its platform in SI units, and the six numbers without units that decide the
+//! motion.
 //!
-//! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu, Friend and Yeo);
-//! a [`Stroke`] gives A and Phi by the path of a hand (Eqs. 13 and 14). In the units 1/omega and g/omega^2
-//! [`DimensionlessParameters`] remain. The first of them is pi Gamma, with the axial forcing Gamma = A omega^2/(pi g):
-//! the disk leaves the platform if Gamma > 1/pi.
+//! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu,
+//! Friend and Yeo); a [`Stroke`] gives A and Phi by the path of a hand (Eqs. 13 and 14). In the units 1/omega
+//! and g/omega^2 [`DimensionlessParameters`] remain. The first of them is pi Gamma, with the axial forcing
+//! Gamma = A omega^2/(pi g): the disk leaves the platform if Gamma > 1/pi.
 //!
 //! ```
 //! use std::f64::consts::PI;

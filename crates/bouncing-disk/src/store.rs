@@ -1,8 +1,9 @@
 //! Files: where one comes from, and the journal from which a long computation resumes.
 //!
-//! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time nor machine, so
-//! that the same computation writes the same bytes. A [`Journal`] has it in its first line and then one result in each
-//! line, with a digest: a killed computation loses the line under way and resumes to the same bits.
+//! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time
+//! nor machine, so that the same computation writes the same bytes. A [`Journal`] has it in its first line
+//! and then one result in each line, with a digest: a killed computation loses the line under way and resumes
+//! to the same bits.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -15,8 +16,8 @@
 //! # Ok::<(), bouncing_disk::store::StorageError>(())
 //! ```
 //!
-//! [`MotorSweep::run_with_journal`](crate::motor::MotorSweep::run_with_journal) is a sweep with a journal. Which files the
-//! command line writes: docs/command-line.md.
+//! [`MotorSweep::run_with_journal`](crate::motor::MotorSweep::run_with_journal) is a sweep with a journal.
+//! Which files the command line writes: docs/command-line.md.
 
 pub(crate) mod error;
 pub(crate) mod journal;

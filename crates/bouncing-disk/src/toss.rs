@@ -1,9 +1,10 @@
 //! Tosses: a single one, the best one, and many in a row.
 //!
-//! A single toss starts at rest at the lowest point of the hand (Sec. III of Liu, Friend and Yeo). Its efficiency is the
-//! rotary energy over the work of the hand, its speed ratio the spin over the hand's largest angular speed. Many tosses
-//! (Sec. IV) end on an orbit; on one with an impact in each period the disk turns with the hand at the impact (Eq. 16):
-//! omega Phi cos(tau + theta), where cos tau = (1 - r)/((1 + r) Gamma).
+//! A single toss starts at rest at the lowest point of the hand (Sec. III of Liu, Friend and Yeo). Its
+//! efficiency is the rotary energy over the work of the hand, its speed ratio the spin over the hand's
+//! largest angular speed. Many tosses (Sec. IV) end on an orbit; on one with an impact in each period the
+//! disk turns with the hand at the impact (Eq. 16): omega Phi cos(tau + theta), where
+//! cos tau = (1 - r)/((1 + r) Gamma).
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -17,9 +18,9 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`multi_toss`] classifies the orbit of many tosses, [`best_toss`] finds the best hand motion under constraints. All
-//! orbits of the vertical motion are in [`core::orbits`](crate::core::orbits). How a design is certified:
-//! docs/numerics/design.md.
+//! [`multi_toss`] classifies the orbit of many tosses, [`best_toss`] finds the best hand motion under
+//! constraints. All orbits of the vertical motion are in [`core::orbits`](crate::core::orbits). How a design
+//! is certified: docs/numerics/design.md.
 
 pub(crate) mod chattering_cycle;
 pub(crate) mod collisions;

@@ -49,8 +49,8 @@ impl Spread {
 
 /// An ensemble of transients of one motor.
 ///
-/// The fits of its members mean nothing where the duration is too short or the
-/// sampling too coarse: [`TransientFit`](crate::estimate::TransientFit) of the curves says so, and fits their mean.
+/// The fits of its members mean nothing where the duration is too short or the sampling too coarse. A
+/// [`TransientFit`](crate::estimate::TransientFit) refuses such curves, and fits their mean.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TransientEnsemble {

@@ -23,7 +23,7 @@ const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 ///
-/// It fits whatever it is given, and says nothing of its error: [`TransientFit`](crate::estimate::TransientFit) has intervals, and
+/// It fits any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) has intervals, and
 /// refuses curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

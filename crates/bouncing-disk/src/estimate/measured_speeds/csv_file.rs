@@ -65,8 +65,8 @@ impl MeasuredSpeeds {
     /// most 64 MiB, 4,000,000 lines of numbers and 65,536 bytes of one line are read.
     ///
     /// # Errors
-    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and what to do. A
-    /// folder, a named pipe, a socket and a device are refused before they are opened.
+    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and says how to
+    /// mend them. A folder, a named pipe, a socket and a device are refused before they are opened.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
         Self::from_csv_with(path, &CsvColumns::default())
     }
