@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
-use bouncing_disk::Provenance;
+use bouncing_disk::store::Provenance;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 

@@ -4,7 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{Format, Provenance, StorageError};
+use bouncing_disk::store::{Format, Provenance, StorageError};
 use bouncing_disk_plot::{DrawError, Figure};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -126,6 +126,12 @@ impl From<MeasuredError> for ExperimentError {
 impl From<StorageError> for ExperimentError {
     fn from(error: StorageError) -> Self {
         Self::Provenance(Box::new(error))
+    }
+}
+
+impl From<bouncing_disk::estimate::FitError> for ExperimentError {
+    fn from(error: bouncing_disk::estimate::FitError) -> Self {
+        Self::model(error)
     }
 }
 

@@ -12,7 +12,8 @@ use std::sync::Arc;
 use std::{fs, io};
 
 use bouncing_disk::csv_records::{self, NumberFault, RecordFault, fields, lines};
-use bouncing_disk::{StorageError, regular_file};
+use bouncing_disk::regular_file;
+use bouncing_disk::store::StorageError;
 
 use crate::provenance;
 use crate::visible::{excerpt, visible};

@@ -16,7 +16,7 @@
 
 use std::path::Path;
 
-pub use bouncing_disk::{Format, Provenance, StorageError};
+pub use bouncing_disk::store::{Format, Provenance, StorageError};
 use serde_json::Value;
 
 /// The format of `ID.json`, `ID.csv`, `ID.svg` and `ID.png`.

@@ -3,7 +3,8 @@
 use std::io;
 use std::process::ExitCode;
 
-use bouncing_disk::{MeasuredSpeedsError, StorageError};
+use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
+use bouncing_disk::store::StorageError;
 use bouncing_disk_plot::DrawError;
 
 use crate::interrupt;
@@ -106,6 +107,15 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::EmptyAxis { .. }
             | Error::RepeatedAxis { .. } => Self::Usage(error.to_string()),
             _ => Self::Failed(error.to_string()),
+        }
+    }
+}
+
+impl From<FitError> for Failure {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Model(error) => error.into(),
+            refused => Self::Failed(refused.to_string()),
         }
     }
 }

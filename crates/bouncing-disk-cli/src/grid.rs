@@ -11,7 +11,8 @@ use std::time::{Duration, Instant};
 
 use bouncing_disk::core::numerics::digest::Digest;
 use bouncing_disk::core::sweep::PartialResults;
-use bouncing_disk::{Format, JOURNAL, Journal, Observer, Provenance, regular_file};
+use bouncing_disk::store::{Format, JOURNAL, Journal, Provenance};
+use bouncing_disk::{Observer, regular_file};
 use clap::Args;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};

@@ -12,10 +12,10 @@ use bouncing_disk::core::attractors::{
 use bouncing_disk::core::orbits::doubling_cascade;
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
-use bouncing_disk::{
-    InitialSpin, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, System, TossConstraints,
-    TransientSettings, best_toss, ensemble, single_toss,
-};
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
+use bouncing_disk::toss::{InitialSpin, TossConstraints, best_toss, single_toss};
+use bouncing_disk::{Motor, System};
 use common::Folder;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -116,7 +116,7 @@ fn motors() {
     let line = "motor sweep --over amplitude=1e-8:2e-8:2 --over load_torque=0:1e-5:2 --relative-error 0.3 --members 4";
     assert_eq!(written(line)["cells"], stored(sweep.cells()));
     let transient = TransientSettings { duration: 3.0, intervals: 30, ..TransientSettings::default() };
-    let all = ensemble(motor.system(), &transient, 7, &Unobserved).unwrap();
+    let all = TransientEnsemble::new(motor.system(), &transient, 7, &Unobserved).unwrap();
     let found = written("motor transient --members 7 --duration 3 --intervals 30");
     assert_eq!((&found["curves"], &found["member_fits"]), (&stored(&all.curves), &stored(&all.fits)));
     let curve = motor.torque_speed_curve(&[0.0, 1e-5, 2e-5], &settings, &Unobserved).unwrap();

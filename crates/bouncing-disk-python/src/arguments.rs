@@ -3,6 +3,7 @@
 //! Python owns the signatures: a function there hands over its `locals()`, and what it returns is made here.
 
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Observer, Orbit, Vibration};
+use bouncing_disk::estimate::FitError;
 use bouncing_disk::{Error, Motor as MotorModel, System as SystemModel};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::PyClass;
@@ -134,14 +135,22 @@ impl<'py> Arguments<'py> {
     }
 
     /// The exception of an error of the library, in the words of this call.
-    pub(crate) fn refused(&self, error: impl Into<Error>) -> PyErr {
-        errors::of_call(self.py(), error.into(), &self.0)
+    pub(crate) fn refused(&self, error: impl Into<FitError>) -> PyErr {
+        errors::of_call(self.py(), error, &self.0)
     }
 
     /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
     pub(crate) fn run<T: Send>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        self.run_fit(work)
+    }
+
+    /// The same for a fit, which may be refused.
+    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
     ) -> PyResult<T> {
         let progress =
             self.0.get_item(intern!(self.py(), "progress"))?.filter(|callable| !callable.is_none());

@@ -1,7 +1,9 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
+use bouncing_disk::Error;
 use bouncing_disk::core::{Error as CoreError, chaos::NoCrisis};
-use bouncing_disk::{Error, MeasuredSpeedsError, MotorFileError};
+use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
+use bouncing_disk::motor::MotorFileError;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
@@ -96,7 +98,6 @@ fn of_model(error: Error) -> Raised {
             Raised::OutOfRange(field.to_owned(), value, legal.to_owned())
         }
         Error::Core(CoreError::TooLarge { what, count, limit }) => Raised::TooLarge(what, count, limit),
-        Error::FitRefused { .. } => Raised::FitRefused,
         error => {
             let (kind, details) = match &error {
                 Error::Core(error) => kind_and_details(error),
@@ -153,9 +154,13 @@ fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
 }
 
 /// The exception of an error that no argument of a call can be the reason of.
-pub(crate) fn of(py: Python<'_>, error: impl Into<Error>) -> PyErr {
+pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
     let error = error.into();
-    raise(py, error.to_string(), of_model(error))
+    let message = error.to_string();
+    match error {
+        FitError::Model(error) => raise(py, message, of_model(error)),
+        _ => raise(py, message, Raised::FitRefused),
+    }
 }
 
 /// Arguments whose names do not follow from what the library calls them.
@@ -212,9 +217,12 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
 }
 
 /// The exception of an error, with the name that the call has for the quantity it is about.
-pub(crate) fn of_call(py: Python<'_>, error: Error, call: &Bound<'_, PyDict>) -> PyErr {
-    let (Error::OutOfRange { field, value, legal }
-    | Error::Core(CoreError::OutOfRange { field, value, legal })) = error
+pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'_, PyDict>) -> PyErr {
+    let error = error.into();
+    let FitError::Model(
+        Error::OutOfRange { field, value, legal }
+        | Error::Core(CoreError::OutOfRange { field, value, legal }),
+    ) = error
     else {
         return of(py, error);
     };
@@ -278,18 +286,11 @@ pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyE
 
 /// The exception of a data sheet that cannot be read.
 pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
-    let number = |line: &usize| Detail::Count(*line as u64);
-    let text = |key: &str| Detail::Text(key.to_owned());
+    let number = |place: &usize| Detail::Count(*place as u64);
     let details = match error {
-        MotorFileError::Illegal { error: illegal, .. } => return of(py, *illegal),
-        MotorFileError::Syntax { line, column, .. } => {
+        MotorFileError::Illegal(illegal) => return of(py, *illegal),
+        MotorFileError::Text { line, column, .. } => {
             vec![("line", number(line)), ("column", number(column))]
-        }
-        MotorFileError::UnknownKey { key, line, .. } => {
-            vec![("field", text(key)), ("line", number(line))]
-        }
-        MotorFileError::Repeated { key, line, .. } | MotorFileError::NotANumber { key, line, .. } => {
-            vec![("field", text(key)), ("line", number(line))]
         }
         _ => Vec::new(),
     };

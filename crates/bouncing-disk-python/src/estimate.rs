@@ -2,13 +2,14 @@
 
 use std::str::FromStr;
 
+use bouncing_disk::Error;
 use bouncing_disk::core::Phase;
-use bouncing_disk::{
-    BrakingFit, BrakingRotor, CsvColumns, Error, ExponentialFit, FitParameter, FitRange, FitSettings,
+use bouncing_disk::estimate::{
+    BrakingFit, BrakingRotor, CsvColumns, ExponentialFit, FitParameter, FitRange, FitSettings,
     IntervalEstimate, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit, ParameterFitSettings,
-    RiseEstimate, RiseForm, RunPreload, SpeedCurve, Spread, TransientFit, TransientMember, TransientSettings,
-    UnknownUnit,
+    RiseEstimate, RiseForm, RunPreload, Spread, TransientFit, UnknownUnit,
 };
+use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings};
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -72,7 +73,7 @@ fn settings(a: &Arguments<'_>, seed: u64) -> PyResult<TransientSettings> {
 pub(crate) fn transient(a: Arguments<'_>) -> Made<'_> {
     let (system, settings, phase) = (a.system()?, settings(&a, a.u64("seed")?)?, a.real("phase")?);
     let curve =
-        a.run(|observer| bouncing_disk::transient(&system, Phase::new(phase)?, &settings, observer))?;
+        a.run(|observer| bouncing_disk::motor::transient(&system, Phase::new(phase)?, &settings, observer))?;
     let (py, impacts, separations) = (a.py(), curve.impacts, curve.separations);
     make!(py, "SpeedCurve", array(py, curve.times), array(py, curve.speeds), impacts, separations)
 }
@@ -111,7 +112,8 @@ pub(crate) fn transients(a: Arguments<'_>) -> Made<'_> {
             let settings = TransientSettings { seed, ..common };
             all.push(TransientMember { system, phase: Phase::new(phases.get(member))?, settings });
         }
-        let curves = bouncing_disk::transients(&all, observer)?.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let curves =
+            bouncing_disk::motor::transients(&all, observer)?.into_iter().collect::<Result<Vec<_>, _>>()?;
         Matrices::of(&curves, common.intervals)
     })?;
     let (times, speeds, impacts, separations) = matrices.shown(py)?;
@@ -129,7 +131,7 @@ fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'
 pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
     let (system, members, settings) = (a.system()?, a.usize("members")?, settings(&a, a.u64("seed")?)?);
     let (runs, matrices) = a.run(|observer| {
-        let runs = bouncing_disk::ensemble(&system, &settings, members, observer)?;
+        let runs = bouncing_disk::estimate::TransientEnsemble::new(&system, &settings, members, observer)?;
         let matrices = Matrices::of(&runs.curves, settings.intervals)?;
         Ok((runs, matrices))
     })?;
@@ -187,7 +189,7 @@ pub(crate) fn fit_transients(a: Arguments<'_>) -> Made<'_> {
         largest_residual: a.real("largest_residual")?,
         from_rest: a.of("from_rest")?,
     };
-    let fit = a.run(|observer| {
+    let fit = a.run_fit(|observer| {
         let runs: Vec<(&[f64], &[f64])> =
             runs.iter().map(|speeds| (times.as_slice(), speeds.as_slice())).collect();
         TransientFit::of_measured(&runs, &settings, observer)
@@ -306,7 +308,7 @@ pub(crate) fn fit_parameters(a: Arguments<'_>) -> Made<'_> {
         resamples: a.usize("resamples")?,
         largest_misfit: a.real("largest_misfit")?,
     };
-    let fit = a.run(|observer| ParameterFit::new(&motor, &all, &ranges, &settings, observer))?;
+    let fit = a.run_fit(|observer| ParameterFit::new(&motor, &all, &ranges, &settings, observer))?;
     let (nominal, estimates) = (PyDict::new(py), PyDict::new(py));
     for fitted in &fit.parameters {
         nominal.set_item(fitted.parameter.name(), fitted.nominal)?;

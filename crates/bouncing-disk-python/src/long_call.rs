@@ -11,6 +11,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
+use bouncing_disk::estimate::FitError;
 use bouncing_disk::{Error, Observer, Progress};
 use pyo3::prelude::*;
 
@@ -54,10 +55,10 @@ impl Watched {
 }
 
 /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the callable raises.
-pub(crate) fn run<T: Send>(
+pub(crate) fn run<T: Send, E: Into<FitError> + Send>(
     call: &Arguments<'_>,
     progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
 ) -> PyResult<T> {
     let py = call.py();
     let watched = Watched::default();

@@ -1,6 +1,6 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
-use bouncing_disk::{
+use bouncing_disk::motor::{
     ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
     OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
     SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, SobolIndices, SweepAxis,
@@ -280,7 +280,7 @@ fn round(verdict: &TrapVerdict) -> [i64; 3] {
 #[pyfunction]
 pub(crate) fn low_period_traps(a: Arguments<'_>) -> Made<'_> {
     let (motor, preloads, py) = (a.motor()?, a.row("preload_accelerations")?, a.py());
-    let found = a.run(|observer| bouncing_disk::low_period_traps(&motor, &preloads, observer))?;
+    let found = a.run(|observer| bouncing_disk::motor::low_period_traps(&motor, &preloads, observer))?;
     make!(
         py,
         "LowPeriodTraps",

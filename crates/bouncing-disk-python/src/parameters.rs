@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterCut as Cut, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::motion::PAPER_CUT;
+use bouncing_disk::motor::{MotorField, MotorParameters};
+use bouncing_disk::parameters::Stroke;
 use bouncing_disk::{
-    DiskParameters, Error, Motor as MotorModel, MotorField, MotorParameters, PAPER_CUT, Platform,
-    PlatformParameters, Stroke, System as SystemModel,
+    DiskParameters, Error, Motor as MotorModel, Platform, PlatformParameters, System as SystemModel,
 };
 use numpy::PyArray2;
 use pyo3::IntoPyObjectExt;

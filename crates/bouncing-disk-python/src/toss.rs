@@ -1,12 +1,18 @@
 //! Tosses and trajectories: the motion of the engine, in SI units.
 
 use bouncing_disk::core::{Error as CoreError, Phase, chaos::LyapunovEstimate, run::Watch};
-use bouncing_disk::{
-    DiskParameters, DiskState, Engine, Error, Event, EventKind, EventRecord, InitialCondition, InitialSpin,
-    Mode, MultiTossSettings, OrbitClass, OverFriction, PhaseSpan, PlatformState, RotaryOutcome, Scales,
-    SiEnergy, SiState, SlipDirection, Snapshot, System as SystemModel, TossConstraints, TossObjective,
-    TossOrbit, TossPerformance, Trajectory as Motion, rotary_response as response, single_toss as toss,
+use bouncing_disk::motion::{
+    DiskState, EventKind, Mode, PhaseSpan, PlatformState, SiEnergy, SiState, SlipDirection, Snapshot,
+};
+use bouncing_disk::parameters::Scales;
+use bouncing_disk::toss::{
+    InitialSpin, MultiTossSettings, OrbitClass, OverFriction, RotaryOutcome, TossConstraints, TossObjective,
+    TossOrbit, TossPerformance, rotary_response as response, single_toss as toss,
     toss_trajectory as toss_motion,
+};
+use bouncing_disk::{
+    DiskParameters, Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel,
+    Trajectory as Motion,
 };
 use numpy::Complex64;
 use pyo3::prelude::*;
@@ -149,8 +155,9 @@ pub(crate) fn multi_toss(a: Arguments<'_>) -> Made<'_> {
         longest_period: a.usize("longest_period")?,
         tolerance: a.real("tolerance")?,
     };
-    let orbit: TossOrbit =
-        a.run(|observer| bouncing_disk::multi_toss(system, start.condition(&system)?, settings, observer))?;
+    let orbit: TossOrbit = a.run(|observer| {
+        bouncing_disk::toss::multi_toss(system, start.condition(&system)?, settings, observer)
+    })?;
     let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);
     let (scales, collisions) = (system.scales(), &orbit.collisions);
     make!(
@@ -361,7 +368,7 @@ pub(crate) fn best_toss(a: Arguments<'_>) -> Made<'_> {
         over_friction: a
             .choice("over_friction", &[("worst", OverFriction::Worst), ("mean", OverFriction::Mean)])?,
     };
-    let design = a.run(|observer| bouncing_disk::best_toss(&constraints, observer))?;
+    let design = a.run(|observer| bouncing_disk::toss::best_toss(&constraints, observer))?;
     make!(
         py,
         "TossDesign",

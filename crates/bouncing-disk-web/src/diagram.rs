@@ -2,9 +2,9 @@
 
 use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved};
-use bouncing_disk::{
-    CollisionEvent, CollisionState, Collisions, DimensionlessSystem, InitialCondition, System,
-};
+use bouncing_disk::parameters::DimensionlessSystem;
+use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
+use bouncing_disk::{InitialCondition, System};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};

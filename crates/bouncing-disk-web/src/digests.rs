@@ -15,11 +15,14 @@ use bouncing_disk::core::{
     orbits::OrbitSearch,
     sweep::orbit_diagram,
 };
-use bouncing_disk::{
-    Error, InitialSpin, MotorField, MotorParameters, MotorSweep, OperatingSettings, PAPER_CHATTER,
-    SamplingSettings, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SweepAxis,
-    SweepQuantity, System, TransientSettings, ensemble, single_toss,
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motion::PAPER_CHATTER;
+use bouncing_disk::motor::{
+    MotorField, MotorParameters, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter,
+    SensitivityQuantity, SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
+use bouncing_disk::toss::{InitialSpin, single_toss};
+use bouncing_disk::{Error, System};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -156,7 +159,7 @@ fn tosses() -> Result<Digest, Error> {
 
 fn motors() -> Result<Digest, Error> {
     let settings = TransientSettings { duration: 0.5, intervals: 50, ..TransientSettings::default() };
-    let runs = ensemble(&System::motor(), &settings, 16, &Unobserved)?;
+    let runs = TransientEnsemble::new(&System::motor(), &settings, 16, &Unobserved)?;
     let curves = runs.curves.iter().flat_map(|curve| curve.times.iter().chain(&curve.speeds)).copied();
     let ends = [runs.steady_speed.mean, runs.time_constant.mean, runs.stall_acceleration.standard_error];
     Ok(digest_of(curves.chain(ends)))

@@ -2,10 +2,12 @@
 
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{
-    CollisionState, DiskState, EnergyLedger, Engine, Event, EventKind, EventRecord, InitialCondition,
-    MAX_SAMPLES, Mode, PhaseSpan, PlatformState, Scales, SlipDirection, System,
+use bouncing_disk::motion::{
+    DiskState, EnergyLedger, EventKind, MAX_SAMPLES, Mode, PhaseSpan, PlatformState, SlipDirection,
 };
+use bouncing_disk::parameters::Scales;
+use bouncing_disk::toss::CollisionState;
+use bouncing_disk::{Engine, Event, EventRecord, InitialCondition, System};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};

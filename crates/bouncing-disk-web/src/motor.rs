@@ -1,11 +1,12 @@
 //! Motors by their data sheets.
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{
-    Error, Estimate, FitRefusal, FitSettings, Motor, MotorParameters, OperatingPoint, OperatingSettings,
-    Operation, RiseForm, Shortfall, SpeedCurve, Spread, System, TransientFit, TransientSettings,
-    ensemble_members, transients,
+use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
+use bouncing_disk::motor::{
+    Estimate, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, SpeedCurve,
+    TransientMember, TransientSettings, transients,
 };
+use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
@@ -60,7 +61,7 @@ pub(crate) fn transient(
     let system = *sheet.build()?.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals: points, seed, ..TransientSettings::default() };
-    let runs = ensemble_members(&system, &settings, members)?;
+    let runs = TransientMember::of_ensemble(&system, &settings, members)?;
     let curves = transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::with_capacity(3 * times.len());
@@ -71,7 +72,7 @@ pub(crate) fn transient(
     }
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
-        Err(Error::FitRefused { reason }) => (None, Some(refused_since(&reason))),
+        Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
         Err(error) => return Err(error.into()),
     };
     Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())

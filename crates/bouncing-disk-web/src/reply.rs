@@ -1,8 +1,10 @@
 //! Answers, and refusals of requests that cannot be met.
 
+use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::{Error, MotorFileError};
+use bouncing_disk::estimate::FitError;
+use bouncing_disk::motor::MotorFileError;
 use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -101,10 +103,19 @@ impl From<CoreError> for Refusal {
     }
 }
 
+impl From<FitError> for Refusal {
+    fn from(error: FitError) -> Self {
+        match error {
+            FitError::Model(error) => error.into(),
+            _ => Self::new("computation", error.to_string()),
+        }
+    }
+}
+
 impl From<MotorFileError> for Refusal {
     fn from(error: MotorFileError) -> Self {
         match error {
-            MotorFileError::Illegal { error, .. } => error.into(),
+            MotorFileError::Illegal(error) => error.into(),
             _ => Self::new("text", error.to_string()),
         }
     }

@@ -3,7 +3,8 @@
 //! as in Fig. 7 of the paper. A range goes from a low to a high number.
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
-use bouncing_disk::{DiskParameters, MotorParameters, PlatformParameters, System};
+use bouncing_disk::motor::MotorParameters;
+use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
 use crate::reply::Refusal;

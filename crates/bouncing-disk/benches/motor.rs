@@ -4,10 +4,8 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::{
-    Motor, OperatingSettings, System, TransientMember, TransientSettings, shared_transients, transient,
-    transients,
-};
+use bouncing_disk::motor::{OperatingSettings, TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::{Motor, System};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 /// Motor seconds of one transient.
@@ -59,33 +57,6 @@ fn w2(c: &mut Criterion) {
     group.finish();
 }
 
-/// Rotors under different loads on one vertical motion: the time of one second of it, however many it carries.
-fn w2_shared(c: &mut Criterion) {
-    let phase = Phase::new(4.0).expect("finite");
-    let settings =
-        TransientSettings { duration: f64::from(DURATION), seed: 0, ..TransientSettings::default() };
-    let mut group = c.benchmark_group("w2_shared");
-    group.sample_size(20).throughput(Throughput::Elements(u64::from(DURATION)));
-    let mut seed = 0;
-    for rotors in [1, 8, 32, 320] {
-        let largest = System::motor().disk().friction_acceleration();
-        let systems: Vec<System> = (0..rotors)
-            .map(|k| {
-                let load = 0.9 * largest * f64::from(k) / f64::from(rotors);
-                System::motor().with_disk(|rotor| rotor.load_acceleration = load).expect("legal")
-            })
-            .collect();
-        group.bench_function(format!("rotors_{rotors}"), |bencher| {
-            bencher.iter(|| {
-                seed += 1;
-                let settings = TransientSettings { seed, ..settings };
-                black_box(shared_transients(&systems, phase, &settings).expect("no failure"))
-            });
-        });
-    }
-    group.finish();
-}
-
 /// A torque-speed curve of 30 loads whose speeds have standard errors of 1 % of the speed without load.
 fn torque_speed_curve(c: &mut Criterion) {
     let motor = Motor::paper_70_khz();
@@ -109,5 +80,5 @@ fn torque_speed_curve(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, w2, w2_shared, torque_speed_curve);
+criterion_group!(benches, w2, torque_speed_curve);
 criterion_main!(benches);

@@ -3,7 +3,8 @@
 
 use std::hint::black_box;
 
-use bouncing_disk::{InitialSpin, System, single_toss, toss_trajectory};
+use bouncing_disk::System;
+use bouncing_disk::toss::{InitialSpin, single_toss, toss_trajectory};
 use criterion::{Criterion, criterion_group, criterion_main};
 
 fn toss(c: &mut Criterion) {

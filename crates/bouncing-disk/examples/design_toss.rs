@@ -6,7 +6,8 @@
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
-use bouncing_disk::{Error, Motor, TossConstraints, TossHalfUnits, TossObjective, best_toss};
+use bouncing_disk::toss::{TossConstraints, TossHalfUnits, TossObjective, best_toss};
+use bouncing_disk::{Error, Motor};
 
 fn main() -> Result<(), Error> {
     // The dough and the stroke of Table I; the friction may be anything from 0.5 to 0.7, and the ceiling is low.

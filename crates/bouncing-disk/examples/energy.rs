@@ -3,7 +3,8 @@
 //!     cargo run --release -p bouncing-disk --example energy
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
-use bouncing_disk::{Error, InitialSpin, System, single_toss};
+use bouncing_disk::toss::{InitialSpin, single_toss};
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     // A floured hand, over which the dough slides.

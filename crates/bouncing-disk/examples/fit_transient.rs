@@ -3,14 +3,16 @@
 //!     cargo run --release -p bouncing-disk --example fit_transient
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
+use bouncing_disk::System;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{Error, FitSettings, MeasuredRun, MeasuredSpeeds, System, TransientSettings, ensemble};
+use bouncing_disk::estimate::{FitError, FitSettings, MeasuredRun, MeasuredSpeeds, TransientEnsemble};
+use bouncing_disk::motor::TransientSettings;
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), FitError> {
     // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
     // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
-    let synthetic = ensemble(&System::motor(), &settings, 10, &Unobserved)?.curves;
+    let synthetic = TransientEnsemble::new(&System::motor(), &settings, 10, &Unobserved)?.curves;
     let runs: Vec<MeasuredRun> = synthetic
         .into_iter()
         .zip(1..)

@@ -4,7 +4,9 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::{Error, ExponentialFit, System, TransientSettings, ensemble, transient};
+use bouncing_disk::estimate::{ExponentialFit, TransientEnsemble};
+use bouncing_disk::motor::{TransientSettings, transient};
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     // Table III of the paper: 70 kHz, an amplitude of 10 nm, and a steel ball under its own weight.
@@ -24,7 +26,7 @@ fn main() -> Result<(), Error> {
     }
 
     // One run is one throw of the dice. What a motor does is the mean over many, with its error.
-    let motors = ensemble(&motor, &settings, 32, &Unobserved)?;
+    let motors = TransientEnsemble::new(&motor, &settings, 32, &Unobserved)?;
     let (speed, stall) = (motors.steady_speed, motors.stall_acceleration);
     println!("steady speed {:.2} +- {:.2} rad/s", speed.mean, speed.standard_error);
     // After this time all but 1/e of the steady speed is there.

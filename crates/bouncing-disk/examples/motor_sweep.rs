@@ -4,7 +4,8 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{Error, Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
+use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
+use bouncing_disk::{Error, Motor};
 
 fn main() -> Result<(), Error> {
     let motor = Motor::paper_70_khz();

@@ -4,7 +4,9 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{Error, System, TransientSettings, ensemble};
+use bouncing_disk::estimate::TransientEnsemble;
+use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     let motor = System::motor();
@@ -14,7 +16,7 @@ fn main() -> Result<(), Error> {
 
     for torque in [0.0, 5e-6, 10e-6, 15e-6, 20e-6, 25e-6, 30e-6] {
         let loaded = motor.with_load_torque(torque, mass)?;
-        let motors = ensemble(&loaded, &settings, 16, &Unobserved)?;
+        let motors = TransientEnsemble::new(&loaded, &settings, 16, &Unobserved)?;
         // The second half of each run: the motor has run up.
         let mut speed = 0.0;
         for curve in &motors.curves {

@@ -4,7 +4,8 @@
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::{Error, InitialCondition, MultiTossSettings, OrbitClass, System, multi_toss};
+use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
+use bouncing_disk::{Error, InitialCondition, System};
 
 fn main() -> Result<(), Error> {
     let start = InitialCondition::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };

@@ -6,7 +6,8 @@
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::FRAC_PI_6;
 
-use bouncing_disk::{Error, Motor, OperatingSettings, Operation};
+use bouncing_disk::motor::{OperatingSettings, Operation};
+use bouncing_disk::{Error, Motor};
 
 fn main() -> Result<(), Error> {
     // The motor of the data sheet above: 40 kHz, 0.5 um, 20 g under 5 N.

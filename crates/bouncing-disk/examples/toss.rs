@@ -3,7 +3,8 @@
 //!     cargo run --release -p bouncing-disk --example toss
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
 
-use bouncing_disk::{Error, InitialSpin, System, single_toss, toss_trajectory};
+use bouncing_disk::toss::{InitialSpin, single_toss, toss_trajectory};
+use bouncing_disk::{Error, System};
 
 fn main() -> Result<(), Error> {
     // Table I of the paper: the dough rests in the hand at its lowest point, and is thrown.

@@ -1,9 +1,5 @@
 //! The errors of this crate.
 
-use std::f64::consts::TAU;
-
-use crate::motor::fit_refusal::FitRefusal;
-
 /// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
@@ -130,12 +126,6 @@ pub enum Error {
         /// The parameter.
         parameter: &'static str,
     },
-    /// A curve gives no fit that could be trusted.
-    #[error("the curve is not fitted: {reason}")]
-    FitRefused {
-        /// Why, with the numbers.
-        reason: FitRefusal,
-    },
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),
@@ -157,16 +147,6 @@ pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error
 /// Checks that `value` is finite.
 pub(crate) fn finite(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.is_finite(), field, value, "finite")
-}
-
-/// Checks that an angle (rad) is that of a phase.
-pub(crate) fn phase_angle(field: &'static str, value: f64) -> Result<f64, Error> {
-    check((0.0..TAU).contains(&value), field, value, "[0, 2 pi) (rad)")
-}
-
-/// Checks that `value` is finite and not positive.
-pub(crate) fn not_positive(field: &'static str, value: f64) -> Result<f64, Error> {
-    check(value <= 0.0 && value.is_finite(), field, value, "(-inf, 0]")
 }
 
 /// Checks that all of these are finite.

@@ -1,11 +1,12 @@
-//! A disk that bounces on a platform which vibrates and twists: pizza dough on a hand, the rotor of an ultrasonic
-//! motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
+//! A disk that bounces on a platform which vibrates and twists: pizza dough on a hand, the rotor of an
+//! ultrasonic motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
 //!
-//! Parameters are SI ([`Platform`], [`Disk`], [`System`]); motion is computed without units ([`DimensionlessSystem`],
-//! [`Engine`]) and carried back by [`Scales`].
+//! A [`System`] is a [`Disk`] on a [`Platform`], in SI units. [`Engine`] computes its motion event by event.
+//! A [`Motor`] is a system by its data sheet.
 //!
 //! ```
-//! use bouncing_disk::{InitialSpin, System, single_toss};
+//! use bouncing_disk::System;
+//! use bouncing_disk::toss::{InitialSpin, single_toss};
 //!
 //! # fn main() -> Result<(), bouncing_disk::Error> {
 //! // The single pizza toss of Table I.
@@ -15,43 +16,36 @@
 //! # }
 //! ```
 //!
-//! | about | items |
+//! The names at the root are those of one disk on one platform. All that is done with them is in chapters,
+//! each with an example and its equation on the first page:
+//!
+//! | chapter | about |
 //! | --- | --- |
-//! | parameters in SI | [`Platform`], [`Stroke`], [`Disk`], [`System`] |
-//! | without units | [`DimensionlessSystem`], [`ForcingParameters`], [`Scales`] |
-//! | motion | [`Engine`], [`InitialCondition`], [`EventRecord`], [`Segment`], [`Trajectory`], [`EnergyLedger`], [`Transition`] |
-//! | tosses | [`single_toss`], [`multi_toss`], [`Collisions`] (the next-collision map), [`period_one_rotary_speed`] (Eq. 16) |
-//! | the spin on a periodic orbit | [`rotary_response`], [`RotaryOutcome`], [`rotary_round`] |
-//! | a motor's data sheet | [`Motor`], [`MotorParameters`], [`MotorReport`], [`MotorRegime`], [`MotorWarning`]; `MotorFileError` (features `json`, `toml`) |
-//! | a motor under a load | [`Motor::torque_speed_curve`], [`Motor::stall_load`], [`Motor::best_phase_lag`], [`operations()`], [`Operation`], [`OperatingPoint`], [`OperatingSettings`] |
-//! | sweeps of a motor | [`MotorSweep`], [`SweepAxis`], [`MotorField`], [`MotorSweepRun`], [`MotorSweepResult`], [`SweepQuantity`] |
-//! | what a motor depends on | [`Motor::local_sensitivities`], [`Motor::sobol_indices`], [`Motor::elementary_effects`]; [`sobol_indices()`], [`elementary_effects()`] of any function |
-//! | best designs | [`best_toss`], [`TossConstraints`], [`TossDesign`], [`TossRobustness`]; [`low_period_traps`], [`Motor::nearest_trap`] |
-//! | the motor | [`transient`], [`transients`], [`shared_transients`], [`ensemble()`], [`MotorStatistics`], [`ExponentialFit`], [`RampFit`], [`friction_from_braking`] |
-//! | fits with intervals | [`TransientFit`], [`FitSettings`], [`RiseEstimate`], [`BrakingFit`], [`IntervalEstimate`], [`FitRefusal`] |
-//! | measured curves | [`MeasuredSpeeds`], [`MeasuredRun`], [`TimeUnit`], [`SpeedUnit`] (from files with the feature `csv`: `CsvColumns`) |
-//! | parameters from transients (feature `fit`) | `ParameterFit`, `MeasuredTransient`, `RunPreload`, `FitParameter`, `FitRange`, `ParameterFitSettings`, `ParameterEstimate`, `UndeterminedDirection` |
-//! | what drives and stalls it | [`NormalImpulses`], [`ImpulseBalance`], [`ImpulseTrain`], [`Disk::friction_acceleration`], [`System::rise_time`] |
-//! | long calls | [`Observer`], [`Progress`], [`TransientsRun`], [`MotorSweepRun`] |
-//! | stored files (feature `storage`) | `Provenance`, `Format`; `Journal`, `transients_with_journal`, `MotorSweep::run_with_journal`; `StorageError` |
-//! | vertical motion | [`mod@core`] |
+//! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
+//! | [`motion`] | states, segments and energies between events |
+//! | [`toss`] | single tosses, many tosses, the best toss |
+//! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
+//! | [`estimate`] | fits of computed and measured speeds, with intervals |
+//! | `store` | the origin of files, and the journal of a long computation (feature `storage`) |
+//! | [`mod@core`] | the vertical motion: flights, the impact map and its orbits, attractors, chaos |
 //!
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` and `Deserialize`, both or neither, for what is stored |
+//! | `serde` | yes | `Serialize` for results; `Deserialize` for what users write by hand and runs resume |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
 //!
-//! What is read passes the checks of what is made: a value outside its range, a key that is
-//! missing, unless it is that of an optional value, and one that is unknown are errors. An infinite error bound, or the efficiency of nothing, is `null` in JSON, which has no such number.
-//! The feature `json` switches on `float_roundtrip` of `serde_json`; without either a third of all numbers change in the
-//! last bit when they are read as JSON.
+//! Deserialisation passes the same checks as construction: a value outside its range, a missing key of a
+//! required value and an unknown key are errors. An infinite error bound, or an undefined efficiency, is
+//! `null` in JSON, which has no such number. The feature `json` switches on `float_roundtrip` of
+//! `serde_json`; without either a third of all numbers change in the last bit when they are read as JSON.
 //!
-//! Everything is deterministic to the last bit: the same parameters and start give the same events on every machine.
+//! Everything is deterministic to the last bit: the same parameters and start give the same events on every
+//! machine.
 
 // The workspace's experiments read such files, too. No part of the documented surface, and no promise.
 #[cfg(feature = "csv")]
@@ -59,121 +53,34 @@
 pub mod csv_records;
 mod display;
 mod error;
-mod motion;
-mod motor;
-mod parameters;
+pub mod estimate;
+pub mod motion;
+pub mod motor;
+pub mod parameters;
 // As `csv_records`: for the experiments as well, and no promise.
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod regular_file;
+mod statistics;
 #[cfg(feature = "storage")]
-mod storage;
+pub mod store;
 #[cfg(test)]
 mod testing;
-mod toss;
+pub mod toss;
 
 /// The math core: the vertical motion, its impact map and what is done with it.
 pub use bouncing_disk_core as core;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};
 pub use error::Error;
-pub use motion::energy::EnergyLedger;
 pub use motion::engine::Engine;
-pub use motion::engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
 pub use motion::event::{Event, EventRecord};
-pub use motion::friction::MAX_CONTACT_EVENTS;
 pub use motion::initial_condition::InitialCondition;
-pub use motion::paper_chatter::{PAPER_CHATTER, PAPER_CUT};
-pub use motion::phase_time::{PhaseSpan, PhaseTime};
-pub use motion::segment::Segment;
-pub use motion::si::{SiEnergy, SiState};
-pub use motion::state::{DiskState, Mode, PlatformState, SlipDirection, Snapshot};
 pub use motion::trajectory::Trajectory;
-pub use motion::transition::{EventKind, ModeKind, Transition};
-pub use motor::brake::{Braking, friction_from_braking};
-pub use motor::braking_fit::{BrakingFit, BrakingRotor};
 pub use motor::data_sheet::Motor;
-#[cfg(any(feature = "json", feature = "toml"))]
-pub use motor::data_sheet::file::MotorFileError;
-pub use motor::data_sheet::motor_field::{MotorField, UnknownMotorField};
-pub use motor::data_sheet::parameters::MotorParameters;
-pub use motor::data_sheet::regime::MotorRegime;
-pub use motor::data_sheet::report::MotorReport;
-pub use motor::data_sheet::warning::MotorWarning;
-pub use motor::ensemble::{MAX_MEMBERS, MAX_SPEEDS, Spread, TransientEnsemble, ensemble, ensemble_members};
-pub use motor::fit::{ExponentialFit, RampFit};
-pub use motor::fit_refusal::FitRefusal;
-pub use motor::impulse::{ImpulseBalance, NormalImpulses, PhasedImpulse};
-pub use motor::interval_estimate::IntervalEstimate;
-#[cfg(feature = "csv")]
-pub use motor::measured_speeds::csv_file::CsvColumns;
-#[cfg(feature = "csv")]
-pub use motor::measured_speeds::error::MeasuredSpeedsError;
-pub use motor::measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
-pub use motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
-pub use motor::operation::best_phase_lag::BestPhaseLag;
-pub use motor::operation::ensemble::MAX_OPERATED_ROTORS;
-pub use motor::operation::of_motor::operations;
-pub use motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
-pub use motor::operation::settings::OperatingSettings;
-pub use motor::operation::spread::{InputSpread, InputTolerance};
-pub use motor::operation::stall_load::StallLoad;
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::ParameterFit;
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::parameter::{FitParameter, FitRange};
-#[cfg(feature = "fit")]
-pub use motor::parameter_fit::settings::ParameterFitSettings;
-pub use motor::sensitivity::global::ParameterRange;
-pub use motor::sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
-pub use motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
-pub use motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
-pub use motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
-pub use motor::shared_orbit::transients::shared_transients;
-pub use motor::stall::{ImpulseTrain, MAX_IMPULSES};
-pub use motor::statistics::{
-    EXAMINED_IMPACTS, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit,
-};
-pub use motor::sweep::MotorSweep;
-pub use motor::sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
-pub use motor::sweep::quantity::SweepQuantity;
-pub use motor::sweep::result::MotorSweepResult;
-pub use motor::sweep::run::MotorSweepRun;
-pub use motor::transient::{SpeedCurve, TransientSettings, transient};
-pub use motor::transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};
-pub use motor::transients::{TransientMember, TransientsRun, transients};
-pub use motor::traps::ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
-pub use motor::traps::{TrapVerdict, low_period_traps};
-pub use parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use parameters::disk::{Disk, DiskParameters};
 pub use parameters::platform::{Platform, PlatformParameters};
-pub use parameters::scales::Scales;
-pub use parameters::stroke::{LaunchSpeeds, Stroke};
 pub use parameters::system::System;
-#[cfg(feature = "storage")]
-pub use storage::error::StorageError;
-#[cfg(feature = "storage")]
-pub use storage::journal::{JOURNAL, Journal};
-#[cfg(feature = "storage")]
-pub use storage::motor_sweep::MOTOR_SWEEP;
-#[cfg(feature = "storage")]
-pub use storage::provenance::{Format, Provenance};
-#[cfg(feature = "storage")]
-pub use storage::transients::transients_with_journal;
-pub use toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
-pub use toss::collisions::{Collision, CollisionEvent, CollisionState, Collisions};
-pub use toss::design::robustness::{Robustness, TossHalfUnits, TossInput, TossRobustness};
-pub use toss::design::{
-    OverFriction, TossCertificate, TossConstraints, TossDesign, TossObjective, best_toss,
-};
-pub use toss::multiple::{MAX_EXAMINED, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
-pub use toss::period_one::period_one_rotary_speed;
-pub use toss::rotary_response::{RotaryOutcome, RotaryResponse, RotaryRound, rotary_response, rotary_round};
-pub use toss::single::{InitialSpin, TOSS_START, TossPerformance, single_toss, toss_trajectory};
 
 /// Compiles and runs the example of the README.
 #[cfg(doctest)]

@@ -1,28 +1,65 @@
-//! The motor: its data sheet, its steady operation under a load and sweeps of it, speed transients and ensembles of
-//! them, fits with and without intervals, the balance of the impulse, stall, and braking.
+//! Ultrasonic motors: data sheet, run-up, speed under a load, sweeps and sensitivities.
+//!
+//! The stator throws the rotor and turns it by friction at each impact. Because the mean normal force is the
+//! preload, no motor gives more torque than mu m g a_e. From rest the mean speed rises about as
+//! alpha_ss (1 - exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means
+//! over ensembles, with standard errors.
+//!
+//! ```
+//! use bouncing_disk::core::Unobserved;
+//! use bouncing_disk::Motor;
+//! use bouncing_disk::motor::{OperatingSettings, Operation};
+//!
+//! // The motor of Table III under a fifth of the largest torque, its speed to 5 % of that without load.
+//! let motor = Motor::paper_70_khz();
+//! let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
+//! let load = 0.2 * motor.largest_torque();
+//! let Operation::Steady(point) = motor.operating_point(load, &settings, &Unobserved)? else {
+//!     panic!("it turns");
+//! };
+//! assert!(point.speed.value > 0.0);
+//! # Ok::<(), bouncing_disk::Error>(())
+//! ```
+//!
+//! [`transient`] computes the run-up of one rotor and [`transients`] those of many; [`MotorSweep`] varies the
+//! data sheet. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
+//! the speeds: docs/numerics/motors.md.
 
-pub(crate) mod brake;
-pub(crate) mod braking_fit;
-pub(crate) mod correlation;
+pub(crate) mod batch;
 pub(crate) mod data_sheet;
-pub(crate) mod ensemble;
-pub(crate) mod fit;
-pub(crate) mod fit_refusal;
 pub(crate) mod impulse;
-pub(crate) mod interval_estimate;
-pub(crate) mod measured_speeds;
 pub(crate) mod operation;
-#[cfg(feature = "fit")]
-pub(crate) mod parameter_fit;
 pub(crate) mod rotor;
-pub(crate) mod rotor_rows;
-pub(crate) mod rotors;
 pub(crate) mod sensitivity;
-pub(crate) mod shared_orbit;
-pub(crate) mod stall;
-pub(crate) mod statistics;
 pub(crate) mod sweep;
-pub(crate) mod transient;
-pub(crate) mod transient_fit;
-pub(crate) mod transients;
-pub(crate) mod traps;
+
+pub use batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
+pub use batch::transients::transients;
+#[cfg(any(feature = "json", feature = "toml"))]
+pub use data_sheet::file::MotorFileError;
+pub use data_sheet::motor_field::{MotorField, UnknownMotorField};
+pub use data_sheet::parameters::MotorParameters;
+pub use data_sheet::regime::MotorRegime;
+pub use data_sheet::report::MotorReport;
+pub use data_sheet::traps::{TrapVerdict, low_period_traps};
+pub use data_sheet::warning::MotorWarning;
+pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
+pub use operation::best_phase_lag::BestPhaseLag;
+pub use operation::ensemble::MAX_OPERATED_ROTORS;
+pub use operation::of_motor::operations;
+pub use operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
+pub use operation::settings::OperatingSettings;
+pub use operation::spread::{InputSpread, InputTolerance};
+pub use operation::stall_load::StallLoad;
+pub use operation::trap_ranges::{LEAST_TRAP_WIDTH, NearestTrap, TrapRange};
+pub use rotor::transient::{SpeedCurve, TransientSettings, transient};
+pub use sensitivity::global::ParameterRange;
+pub use sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySettings};
+pub use sensitivity::morris::{ElementaryEffects, elementary_effects};
+pub use sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+pub use sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
+pub use sweep::MotorSweep;
+pub use sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
+pub use sweep::quantity::SweepQuantity;
+pub use sweep::result::MotorSweepResult;
+pub use sweep::run::MotorSweepRun;

@@ -1,4 +1,25 @@
-//! The parameters in SI units, and the groups without units that decide the motion.
+//! The parameters of a disk and its platform in SI units, and the six numbers without units that decide the
+//! motion.
+//!
+//! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu,
+//! Friend and Yeo); a [`Stroke`] gives A and Phi by the path of a hand (Eqs. 13 and 14). In the units 1/omega
+//! and g/omega^2 [`DimensionlessParameters`] remain. The first of them is pi Gamma, with the axial forcing
+//! Gamma = A omega^2/(pi g): the disk leaves the platform if Gamma > 1/pi.
+//!
+//! ```
+//! use std::f64::consts::PI;
+//!
+//! use bouncing_disk::System;
+//!
+//! // The hand of Table I throws the dough; at a third of its frequency the dough stays on it.
+//! let toss = System::pizza_toss();
+//! let slow = toss.with_platform(|hand| hand.angular_frequency /= 3.0)?;
+//! assert!(toss.axial_forcing() > 1.0 / PI && slow.axial_forcing() < 1.0 / PI);
+//! # Ok::<(), bouncing_disk::Error>(())
+//! ```
+//!
+//! [`Scales`] turns results without units into SI. The motion that follows from a system is in
+//! [`motion`](crate::motion). Equations and units: docs/model.md.
 
 pub(crate) mod dimensionless;
 pub(crate) mod disk;
@@ -7,3 +28,7 @@ pub(crate) mod presets;
 pub(crate) mod scales;
 pub(crate) mod stroke;
 pub(crate) mod system;
+
+pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
+pub use scales::Scales;
+pub use stroke::{LaunchSpeeds, Stroke};

@@ -18,6 +18,31 @@ pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
         .expect("legal")
 }
 
+/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;
+/// radii, friction and restitution of Table III.
+pub(crate) fn tried_motor() -> System {
+    let angular_frequency = TAU * 40e3;
+    System::motor()
+        .with_platform(|stator| {
+            stator.angular_frequency = angular_frequency;
+            stator.amplitude = 0.5e-6;
+            stator.twist_amplitude = 12.0 / angular_frequency;
+            stator.phase_lag = PI / 6.0;
+        })
+        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 / 0.02))
+        .expect("legal")
+}
+
+/// The field of a number that is refused because it is out of range.
+pub(crate) fn refused_field<T: std::fmt::Debug>(
+    result: Result<T, impl Into<crate::estimate::FitError> + std::fmt::Debug>,
+) -> &'static str {
+    match result.map_err(Into::into) {
+        Err(crate::estimate::FitError::Model(crate::Error::OutOfRange { field, .. })) => field,
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Well spread numbers in [0, 1).
 pub(crate) fn golden_spread(k: u64) -> f64 {
     (k as f64 * 0.618_033_988_749_894_9) % 1.0
@@ -37,7 +62,7 @@ pub(crate) fn phase() -> impl Strategy<Value = Phase> {
 }
 
 pub(crate) fn policy() -> impl Strategy<Value = ChatterPolicy> {
-    prop_oneof![Just(ChatterPolicy::Complete), Just(crate::PAPER_CHATTER)]
+    prop_oneof![Just(ChatterPolicy::Complete), Just(crate::motion::PAPER_CHATTER)]
 }
 
 /// Systems of every kind: still, gentle, lively, violent; without twist, friction, rebound or load.
@@ -108,8 +133,7 @@ impl Noise {
 
     /// The next number of mean 0 and deviation 1 (Box and Muller).
     pub(crate) fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * bouncing_disk_core::numerics::elementary::ln(1.0 - self.0.unit())).sqrt();
-        radius * bouncing_disk_core::numerics::elementary::cos(TAU * self.0.unit())
+        crate::statistics::normal(&mut self.0)
     }
 
     /// Numbers of deviation 1 of which each remembers the share `memory` of the one before.

@@ -7,9 +7,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::core::numerics::elementary::{asin, cos, sin, tan};
 use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::motion::Mode;
+use bouncing_disk::parameters::Stroke;
+use bouncing_disk::toss::period_one_rotary_speed;
 use bouncing_disk::{
-    DiskParameters, Engine, Event, EventRecord, InitialCondition, Mode, Platform, PlatformParameters, Stroke,
-    System, period_one_rotary_speed,
+    DiskParameters, Engine, Event, EventRecord, InitialCondition, Platform, PlatformParameters, System,
 };
 
 const OMEGA: f64 = 20.0;
@@ -75,7 +77,7 @@ fn equation_2_the_disk_obeys_newton() {
         if step < 1e-6 {
             continue;
         }
-        let rate = |of: fn(&bouncing_disk::SiState) -> f64| {
+        let rate = |of: fn(&bouncing_disk::motion::SiState) -> f64| {
             (of(&scales.state(&after.disk)) - of(&scales.state(&before.disk))) / (2.0 * step)
         };
         let (axial, rotary) = (rate(|disk| disk.axial_velocity), rate(|disk| disk.angular_speed));

@@ -16,10 +16,11 @@ mod shards;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Error as CoreError, Phase, Unobserved};
+use bouncing_disk::motion::Mode;
+use bouncing_disk::motor::{TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::parameters::{DimensionlessParameters, DimensionlessSystem};
 use bouncing_disk::{
-    DimensionlessParameters, DimensionlessSystem, DiskParameters, Engine, Error, Event, EventRecord,
-    InitialCondition, Mode, PlatformParameters, System, TransientMember, TransientSettings, transient,
-    transients,
+    DiskParameters, Engine, Error, Event, EventRecord, InitialCondition, PlatformParameters, System,
 };
 
 use launches::SplitMix;
@@ -185,7 +186,7 @@ fn attack(seed: u64, motions: u64, events: usize) -> Tally {
         let start = start(&mut random, &system);
         let policy = one_of(
             &mut random,
-            &[ChatterPolicy::Complete, ChatterPolicy::Complete, bouncing_disk::PAPER_CHATTER],
+            &[ChatterPolicy::Complete, ChatterPolicy::Complete, bouncing_disk::motion::PAPER_CHATTER],
         );
         let told =
             |what: String| format!("seed {seed}, motion {motion}: {system:?} {start:?} {policy:?}: {what}");

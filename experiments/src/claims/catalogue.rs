@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn the_core_cuts_chattering_where_the_paper_does() {
-        use bouncing_disk::PAPER_CUT;
+        use bouncing_disk::motion::PAPER_CUT;
         let value = |key| number(key, 0).expect("a number").value;
         assert_eq!(value("section4.cut_speed").to_bits(), PAPER_CUT.smallest_speed().to_bits());
         assert_eq!(value("section4.cut_duration").to_bits(), PAPER_CUT.short_flight().to_bits());

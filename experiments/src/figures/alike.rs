@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
-use bouncing_disk::{
-    ExponentialFit, RampFit, SpeedCurve, Spread, TransientMember, TransientSettings, transients,
-};
+use bouncing_disk::estimate::{ExponentialFit, RampFit, Spread};
+use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

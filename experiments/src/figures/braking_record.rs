@@ -129,7 +129,7 @@ pub fn friction_layers(points: &[(f64, f64)]) -> Vec<Layer> {
 pub fn friction_words(series: &Series) -> Result<String, ExperimentError> {
     let points: Vec<(f64, f64)> = series.rows::<2>().map(|[preload, friction]| (preload, friction)).collect();
     let frictions: Vec<f64> = points.iter().map(|point| point.1).collect();
-    let spread = bouncing_disk::Spread::of(&frictions)?;
+    let spread = bouncing_disk::estimate::Spread::of(&frictions)?;
     let slope = StraightLine::through(&points).map_or_else(String::new, |line| {
         format!("; slope against preload {:.3} ± {:.3} 1/N", line.slope, line.slope_error)
     });

@@ -1,11 +1,11 @@
 //! Beyond the paper: the branches of periodic orbits over the orbit diagram.
 
-use bouncing_disk::PAPER_CHATTER;
 use bouncing_disk::core::orbits::{
     BifurcationKind, Branch, Continuation, ContinuationParameter, follow_attractor,
 };
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Orbit, Unobserved, Vibration};
+use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
     Marker, Panel, Scatter, Text, Ticks,

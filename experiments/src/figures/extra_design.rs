@@ -3,10 +3,11 @@
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
 
-use bouncing_disk::{
-    InitialSpin, Platform, Stroke, System, TossConstraints, TossDesign, TossHalfUnits, TossRobustness,
-    best_toss, single_toss,
+use bouncing_disk::parameters::Stroke;
+use bouncing_disk::toss::{
+    InitialSpin, TossConstraints, TossDesign, TossHalfUnits, TossRobustness, best_toss, single_toss,
 };
+use bouncing_disk::{Platform, System};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter,
     Ticks,

@@ -2,8 +2,9 @@
 
 use std::f64::consts::PI;
 
+use bouncing_disk::Motor;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{Estimate, Motor, OperatingPoint, OperatingSettings, Operation, operations};
+use bouncing_disk::motor::{Estimate, OperatingPoint, OperatingSettings, Operation, operations};
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Line, Marker, Panel, Raster, Rect, Rule,
     Scatter, Stroke, Text, Ticks,

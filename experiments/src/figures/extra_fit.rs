@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::exp;
-use bouncing_disk::{Error, FitSettings, TransientFit};
+use bouncing_disk::estimate::{FitError, FitSettings, TransientFit};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
     Scatter, Stroke, Ticks,
@@ -119,7 +119,7 @@ fn ensemble(times: &[f64], seed: u64) -> Vec<Vec<f64>> {
     (0..MEMBERS).map(|_| member()).collect()
 }
 
-fn fitted(times: &[f64], members: &[Vec<f64>], seed: u64) -> Result<TransientFit, Error> {
+fn fitted(times: &[f64], members: &[Vec<f64>], seed: u64) -> Result<TransientFit, FitError> {
     let runs: Vec<(&[f64], &[f64])> = members.iter().map(|member| (times, member.as_slice())).collect();
     TransientFit::of_measured(
         &runs,
@@ -134,7 +134,7 @@ fn duration(time_constants: f64, trials: u64) -> Result<Duration, ExperimentErro
         let seed = SEED + trial;
         match fitted(&times, &ensemble(&times, seed), seed) {
             Ok(fit) => Ok(Some(fit)),
-            Err(Error::FitRefused { .. }) => Ok(None),
+            Err(FitError::Refused(_)) => Ok(None),
             Err(error) => Err(error.into()),
         }
     };

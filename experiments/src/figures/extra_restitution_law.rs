@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::PAPER_CHATTER;
 use bouncing_disk::core::map::{Constant, KuwabaraKono, RestitutionLaw};
 use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Vibration};
+use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
     Panel, Rect, Rule, Scatter, Stroke, Text, Ticks,

@@ -1,11 +1,10 @@
 //! Beyond the paper: speed and mechanical power of its motor against the load.
 
+use bouncing_disk::Motor;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{
-    Estimate, FitSettings, IntervalEstimate, Motor, OperatingPoint, OperatingSettings, Operation,
-    TransientFit, TransientSettings, ensemble,
-};
+use bouncing_disk::estimate::{FitSettings, IntervalEstimate, TransientEnsemble, TransientFit};
+use bouncing_disk::motor::{Estimate, OperatingPoint, OperatingSettings, Operation, TransientSettings};
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
     SINGLE_COLUMN, Scatter, Stroke, Text, Ticks,
@@ -89,7 +88,7 @@ impl Experiment for ExtraTorqueSpeed {
         let (system, transients) = (motor.system(), quality.choose(12, 64));
         let duration = RISES * system.rise_time();
         let run_up = TransientSettings { duration, intervals: 240, ..TransientSettings::default() };
-        let runs = ensemble(system, &run_up, transients, &Unobserved)?;
+        let runs = TransientEnsemble::new(system, &run_up, transients, &Unobserved)?;
         let estimate = TransientFit::new(&runs.curves, &FitSettings::default())?.stall_acceleration();
         let [value, low, high] =
             [estimate.value, estimate.low, estimate.high].map(|own| motor.inertia() * own);

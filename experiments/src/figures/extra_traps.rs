@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{Motor, TrapVerdict, Unobserved, low_period_traps};
+use bouncing_disk::motor::{TrapVerdict, low_period_traps};
+use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Panel, Raster, Rect, Rule, Stroke, Ticks,
 };

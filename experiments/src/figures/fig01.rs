@@ -2,14 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI, SQRT_2};
 
-use bouncing_disk::{
-    Event, InitialSpin,
-    core::{
-        ChatterPolicy,
-        numerics::elementary::{atan2, sin, sin_cos},
-    },
-    toss_trajectory,
-};
+use bouncing_disk::Event;
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::numerics::elementary::{atan2, sin, sin_cos};
+use bouncing_disk::toss::{InitialSpin, toss_trajectory};
 use bouncing_disk_plot::{
     Anchor, Camera, Colour, DOUBLE_COLUMN, Dash, Drawing, Figure, Path, Rect, Stroke, TextStyle,
 };

@@ -2,7 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use bouncing_disk::{Platform, Stroke as HandStroke};
+use bouncing_disk::Platform;
+use bouncing_disk::parameters::Stroke as HandStroke;
 use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Grid, Margins, Path, Rect, Stroke, TextStyle,
 };

@@ -9,10 +9,10 @@ use std::{
     f64::consts::{FRAC_PI_2, PI},
 };
 
-use bouncing_disk::{
-    DimensionlessParameters, DimensionlessSystem, Engine, InitialCondition, Transition,
-    core::{ChatterPolicy, Phase},
-};
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::motion::Transition;
+use bouncing_disk::parameters::{DimensionlessParameters, DimensionlessSystem};
+use bouncing_disk::{Engine, InitialCondition};
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,8 @@ mod consistency;
 mod draw;
 mod sweep;
 
-use bouncing_disk::{InitialSpin, core::ChatterPolicy};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::toss::InitialSpin;
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 

@@ -2,11 +2,10 @@
 
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, PI};
 
-use bouncing_disk::{
-    EventKind, InitialSpin, Mode, System,
-    core::{ChatterPolicy, Phase},
-    toss_trajectory,
-};
+use bouncing_disk::System;
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::motion::{EventKind, Mode};
+use bouncing_disk::toss::{InitialSpin, toss_trajectory};
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Panel,
     Rule, Stroke, Text, Ticks,
@@ -340,7 +339,7 @@ impl Toss {
         toss.sliding_share_of_contact = sliding_time / toss.separation_time_s;
         toss.lowest_speed_rad_per_s =
             contact_speeds.iter().map(|(_, speed)| *speed).fold(f64::INFINITY, f64::min);
-        let middle = trajectory.start().after(bouncing_disk::PhaseSpan::from_radians(
+        let middle = trajectory.start().after(bouncing_disk::motion::PhaseSpan::from_radians(
             0.5 * toss.separation_time_s * case.angular_frequency_rad_per_s,
         ));
         let speed_at_middle =

@@ -19,7 +19,7 @@ mod slices;
 use std::f64::consts::PI;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::{PAPER_CHATTER, PAPER_CUT};
+use bouncing_disk::motion::{PAPER_CHATTER, PAPER_CUT};
 use bouncing_disk_plot::Figure;
 
 pub(super) use self::compute::FORCING_RANGE;

@@ -1,9 +1,9 @@
 //! Fig. 9: the coefficient of friction from the deceleration of the rotor.
 
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::estimate::{BrakingRotor, Spread};
 use bouncing_disk::{
-    Braking, DiskParameters, Engine, Event, InitialCondition, PlatformParameters, Spread, System, Trajectory,
-    core::{ChatterPolicy, Phase},
-    friction_from_braking,
+    DiskParameters, Engine, Event, InitialCondition, PlatformParameters, System, Trajectory,
 };
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
@@ -219,13 +219,13 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
         .collect();
     let line = StraightLine::through(&points);
     let (slope, intercept) = line.map_or((f64::NAN, f64::NAN), |line| (line.slope, line.intercept));
-    let friction = friction_from_braking(&Braking {
-        angular_acceleration: slope,
+    let rotor = BrakingRotor {
         normal_force: preload_n,
         mass,
         contact_radius: case.contact_radius_m,
         gyration_radius: case.gyration_radius_m,
-    })?;
+    };
+    let friction = rotor.friction(slope)?;
     Ok(Curve {
         preload_n,
         time_s: points.iter().map(|point| point.0).collect(),

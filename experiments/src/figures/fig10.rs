@@ -4,7 +4,10 @@ mod claims;
 mod compute;
 mod draw;
 
-use bouncing_disk::{ExponentialFit, Spread, TransientSettings, Unobserved, core::ChatterPolicy};
+use bouncing_disk::Unobserved;
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::estimate::{ExponentialFit, Spread};
+use bouncing_disk::motor::TransientSettings;
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 

@@ -6,10 +6,10 @@ mod compute;
 mod draw;
 mod trends;
 
-use bouncing_disk::{
-    Spread, TransientSettings,
-    core::{ChatterPolicy, numerics::elementary::ln},
-};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::core::numerics::elementary::ln;
+use bouncing_disk::estimate::Spread;
+use bouncing_disk::motor::TransientSettings;
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 

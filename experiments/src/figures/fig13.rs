@@ -6,7 +6,8 @@ mod orbits;
 mod sensitivity;
 mod sweeps;
 
-use bouncing_disk::{TransientSettings, core::ChatterPolicy};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::motor::TransientSettings;
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 

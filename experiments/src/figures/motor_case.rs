@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{
-    ChatteringCycle, DiskParameters, EXAMINED_IMPACTS, OrbitClass, PlatformParameters, Spread, System,
-    TransientSettings, ensemble, unperturbed_orbit,
-};
-pub(crate) use bouncing_disk::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
+pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
+use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
+use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
+use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Claim;
@@ -131,9 +131,9 @@ impl MotorCase {
             ..TransientSettings::default()
         };
         let motor = self.system()?;
-        let runs = ensemble(&motor, &settings, members, &Unobserved)?;
+        let runs = TransientEnsemble::new(&motor, &settings, members, &Unobserved)?;
         let statistics =
-            bouncing_disk::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
+            bouncing_disk::estimate::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
         Ok(statistics.into())
     }
 }
@@ -236,7 +236,7 @@ impl Cycle {
     }
 }
 
-/// The model's [`MotorStatistics`](bouncing_disk::MotorStatistics) as data, units in the names.
+/// The model's [`MotorStatistics`](bouncing_disk::estimate::MotorStatistics) as data, units in the names.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MotorStatistics {
     /// From the fits; where less than half of the members can be fitted, the mean over the last half of each.
@@ -252,8 +252,8 @@ pub(crate) struct MotorStatistics {
     pub(crate) locked: bool,
 }
 
-impl From<bouncing_disk::MotorStatistics> for MotorStatistics {
-    fn from(statistics: bouncing_disk::MotorStatistics) -> Self {
+impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
+    fn from(statistics: bouncing_disk::estimate::MotorStatistics) -> Self {
         Self {
             steady_speed_rad_per_s: statistics.steady_speed,
             stall_acceleration_rad_per_s2: statistics.stall_acceleration,

@@ -4,7 +4,8 @@
 //! ([`NormalImpulses`]).
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{ExponentialFit, ImpulseTrain, NormalImpulses, Spread};
+use bouncing_disk::estimate::{ExponentialFit, Spread};
+use bouncing_disk::motor::{ImpulseTrain, NormalImpulses};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -2,13 +2,10 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::{
-    LaunchSpeeds, Platform, Stroke, System,
-    core::{
-        ChatterPolicy, Phase,
-        numerics::elementary::{acos, asin, hypot, tan},
-    },
-};
+use bouncing_disk::core::numerics::elementary::{acos, asin, hypot, tan};
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
+use bouncing_disk::{Platform, System};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 

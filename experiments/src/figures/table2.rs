@@ -1,6 +1,7 @@
 //! Table II: the effects of the uncertainties of the inputs on the airborne speed.
 
-use bouncing_disk::{LaunchSpeeds, Stroke, core::ChatterPolicy};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 

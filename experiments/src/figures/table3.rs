@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use bouncing_disk::{
-    Estimate, InputSpread, InputTolerance, Motor, OperatingSettings, TransientSettings, Unobserved,
-    core::ChatterPolicy,
-};
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::motor::{Estimate, InputSpread, InputTolerance, OperatingSettings, TransientSettings};
+use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 

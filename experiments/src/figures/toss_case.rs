@@ -2,7 +2,9 @@
 
 use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::numerics::roots::golden_section;
-use bouncing_disk::{DiskParameters, InitialSpin, Platform, Stroke, System, TossPerformance, single_toss};
+use bouncing_disk::parameters::Stroke;
+use bouncing_disk::toss::{InitialSpin, TossPerformance, single_toss};
+use bouncing_disk::{DiskParameters, Platform, System};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::TableOne;

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::{Provenance, StorageError};
+use bouncing_disk::store::{Provenance, StorageError};
 use minijinja::{Value, context};
 use serde::{Deserialize, Serialize};
 

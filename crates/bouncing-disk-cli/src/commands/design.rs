@@ -2,8 +2,9 @@
 
 use std::rc::Rc;
 
-use bouncing_disk::{
-    InitialSpin, OverFriction, System, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
+use bouncing_disk::System;
+use bouncing_disk::toss::{
+    InitialSpin, OverFriction, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
 };
 
 use super::prelude::*;

@@ -3,8 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
-use bouncing_disk::{
-    CsvColumns, Error, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient, Motor,
+use bouncing_disk::Motor;
+use bouncing_disk::estimate::{
+    CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient,
     ParameterEstimate, ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
 
@@ -164,9 +165,9 @@ pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
 }
 
 /// The words of a fit that is refused; another error is a failure.
-pub(super) fn refusal(error: &Error) -> Result<String, Failure> {
+pub(super) fn refusal(error: &FitError) -> Result<String, Failure> {
     match error {
-        Error::FitRefused { .. } => Ok(error.to_string()),
+        FitError::Refused(_) => Ok(error.to_string()),
         other => Err((*other).into()),
     }
 }

@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 use std::rc::Rc;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{
-    Engine, InitialCondition, InitialSpin, MultiTossSettings, OrbitClass, PhaseSpan, Snapshot, System,
-    TOSS_START, TossOrbit, TossPerformance, multi_toss, single_toss, toss_trajectory,
+use bouncing_disk::motion::{PhaseSpan, Snapshot};
+use bouncing_disk::toss::{
+    InitialSpin, MultiTossSettings, OrbitClass, TOSS_START, TossOrbit, TossPerformance, multi_toss,
+    single_toss, toss_trajectory,
 };
+use bouncing_disk::{Engine, InitialCondition, System};
 use serde::Serialize;
 
 use super::prelude::*;

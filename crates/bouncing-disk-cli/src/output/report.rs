@@ -1,6 +1,6 @@
 //! The result of a command, in every form that it may be asked for.
 
-use bouncing_disk::{Format, Provenance};
+use bouncing_disk::store::{Format, Provenance};
 use bouncing_disk_plot::Figure;
 use serde::Serialize;
 use serde_json::Value;

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use bouncing_disk::IntervalEstimate;
+use bouncing_disk::estimate::IntervalEstimate;
 use serde_json::{Value, json};
 
 use super::numbers::shown;

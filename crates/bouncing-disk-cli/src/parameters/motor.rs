@@ -1,6 +1,7 @@
 //! A motor's data sheet, which the library reads.
 
-use bouncing_disk::{Motor, MotorField, MotorFileError, System};
+use bouncing_disk::motor::{MotorField, MotorFileError};
+use bouncing_disk::{Motor, System};
 
 use super::source::{Described, Format, Refusal, Setting, SourceArgs};
 use super::system::is_parameter;
@@ -38,7 +39,7 @@ impl Described for Motor {
             Format::Toml => Self::from_toml_with(text, &changes),
         };
         read.map_err(|error| match error {
-            MotorFileError::Illegal { .. } => Refusal::Value(error.to_string()),
+            MotorFileError::Illegal(_) => Refusal::Value(error.to_string()),
             _ => Refusal::Text(error.to_string()),
         })
     }

@@ -1,7 +1,7 @@
 //! The torque-speed curve with power and efficiency.
 
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
-use bouncing_disk::{Operation, SweepQuantity};
+use bouncing_disk::motor::{Operation, SweepQuantity};
 use bouncing_disk_plot::{
     Anchor, Band, Colour, Corner, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule, SINGLE_COLUMN,
     Scatter, Stroke, Text,

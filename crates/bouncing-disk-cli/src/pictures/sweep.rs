@@ -1,7 +1,7 @@
 //! A sweep of a motor: a curve with its errors over one field, a map over two.
 
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
-use bouncing_disk::{MotorSweepResult, SweepAxis, SweepQuantity};
+use bouncing_disk::motor::{MotorSweepResult, SweepAxis, SweepQuantity};
 use bouncing_disk_plot::{
     Axis, Band, Colour, Figure, Line, Panel, Raster, Rect, SINGLE_COLUMN, Scatter, Ticks,
 };

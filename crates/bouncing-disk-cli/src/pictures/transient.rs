@@ -1,6 +1,6 @@
 //! Run-ups against time: one member, the spread of all, and the fit.
 
-use bouncing_disk::{MeasuredSpeeds, TransientEnsemble, TransientFit};
+use bouncing_disk::estimate::{MeasuredSpeeds, TransientEnsemble, TransientFit};
 use bouncing_disk_plot::{
     Anchor, Band, Colour, Corner, Dash, Figure, Legend, Line, Panel, Rect, SINGLE_COLUMN, Text,
 };

@@ -107,13 +107,6 @@ impl<T> PartialResults<T> {
         }
     }
 
-    /// The results that a function makes of these; where it makes none, the item is not finished.
-    pub fn filter_map<U>(self, mut result: impl FnMut(T) -> Option<U>) -> PartialResults<U> {
-        let finished = self.finished.into_iter();
-        let finished = finished.filter_map(|(index, own)| result(own).map(|own| (index, own))).collect();
-        PartialResults { total: self.total, finished }
-    }
-
     /// [`Error::Stopped`] with the numbers of items.
     #[must_use]
     pub const fn stopped(&self) -> Error {

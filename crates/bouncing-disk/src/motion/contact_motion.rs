@@ -12,8 +12,8 @@ use bouncing_disk_core::{Attachment, ChatterPolicy, ImpactMap, Launch, Orbit, Ph
 use crate::error::Error;
 use crate::motion::friction::{Friction, Spent};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::change_in_contact;
-use crate::motion::sliding::RotaryChange;
 use crate::motion::state::{Mode, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 

@@ -3,9 +3,6 @@
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-use bouncing_disk_core::read_checked;
-
-use crate::error::{Error, all_finite, not_negative};
 /// Below this size the terms of a balance have lost digits to underflow: what they leave is relative to this instead.
 const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
@@ -18,7 +15,7 @@ const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 /// the height; rotary entries in units of (g a_e/(a_g omega))^2, in which the kinetic energy is q^2/2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedLedger"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EnergyLedger {
     /// Axial: work of the platform by normal forces and impulses.
     pub normal_work: f64,
@@ -43,36 +40,7 @@ pub struct EnergyLedger {
     pub rotary_magnitude: f64,
 }
 
-read_checked!(EnergyLedger as UncheckedLedger {
-    normal_work: f64,
-    restitution_loss: f64,
-    axial_kinetic_change: f64,
-    potential_change: f64,
-    friction_work: f64,
-    friction_loss: f64,
-    load_work: f64,
-    rotary_kinetic_change: f64,
-    axial_magnitude: f64,
-    rotary_magnitude: f64,
-});
-
 impl EnergyLedger {
-    /// Checks what is read.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        not_negative("axial_magnitude", self.axial_magnitude)?;
-        not_negative("rotary_magnitude", self.rotary_magnitude)?;
-        all_finite([
-            ("normal_work", self.normal_work),
-            ("restitution_loss", self.restitution_loss),
-            ("axial_kinetic_change", self.axial_kinetic_change),
-            ("potential_change", self.potential_change),
-            ("friction_work", self.friction_work),
-            ("friction_loss", self.friction_loss),
-            ("load_work", self.load_work),
-            ("rotary_kinetic_change", self.rotary_kinetic_change),
-        ])
-    }
-
     /// Change of the axial energy minus what flowed in: zero but for rounding.
     #[must_use]
     pub fn axial_closure(&self) -> f64 {

@@ -21,9 +21,9 @@ use crate::motion::friction::Friction;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, contact_ledger, record_flight_load};
 use crate::motion::segment::Segment;
-use crate::motion::sliding::RotaryChange;
 use crate::motion::state::{DiskState, LongSum, Mode, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -79,11 +79,12 @@ impl<L: RestitutionLaw> Engine<L> {
     /// bound is known.
     ///
     /// The law knows speeds without unit, in g/omega: a speed in m/s is divided by
-    /// [`Scales::velocity`](crate::Scales::velocity).
+    /// [`Scales::velocity`](crate::parameters::Scales::velocity).
     ///
     /// ```
     /// use bouncing_disk::core::map::KuwabaraKono;
-    /// use bouncing_disk::{Engine, InitialCondition, PAPER_CUT, System};
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PAPER_CUT;
     ///
     /// // The dough keeps its restitution at 1 m/s, and has a higher one in slower impacts.
     /// let system = System::pizza_toss();
@@ -200,7 +201,8 @@ impl<L: RestitutionLaw> Engine<L> {
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase};
-    /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System};
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PhaseSpan;
     ///
     /// // A disk that turns on a platform at rest brakes, and nothing happens before it stops.
     /// let still = System::pizza_toss().with_platform(|hand| (hand.amplitude, hand.twist_amplitude) = (0.0, 0.0))?;

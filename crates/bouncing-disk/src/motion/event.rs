@@ -1,18 +1,17 @@
 //! What ends a segment of motion.
 
-use bouncing_disk_core::read_checked;
-
-use crate::error::{Error, all_finite, check, finite, not_positive};
+use crate::display::numbers;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, SlipDirection, Snapshot};
 use crate::parameters::dimensionless::DimensionlessSystem;
+use std::fmt::{self, Display, Formatter};
 
 /// An event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEvent"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Event {
     /// The disk hits the platform.
@@ -30,6 +29,10 @@ pub enum Event {
         impacts: u64,
         /// Bound on the error of the attachment phase (rad); infinite for the cut of a chatter with constant
         /// restitution, as the paper's is, and where no bound is known.
+        #[cfg_attr(
+            feature = "serde",
+            serde(deserialize_with = "bouncing_disk_core::stored::infinite_if_none")
+        )]
         error_bound: f64,
     },
     /// The platform falls away from the disk.
@@ -42,40 +45,10 @@ pub enum Event {
     SlipReversal(SlipDirection),
 }
 
-read_checked!(enum Event as UncheckedEvent {
-    Impact { axial_impact_velocity: f64, tangential_impact_velocity: f64, capped: bool },
-    Attachment {
-        impacts: u64,
-        #[serde(deserialize_with = "bouncing_disk_core::stored::infinite_if_none")]
-        error_bound: f64,
-    },
-    Separation,
-    StickToSlip(direction: SlipDirection),
-    SlipToStick,
-    SlipReversal(direction: SlipDirection),
-});
-
-impl Event {
-    /// Checks what is read.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        match *self {
-            Self::Impact { axial_impact_velocity, tangential_impact_velocity, .. } => {
-                not_positive("axial_impact_velocity", axial_impact_velocity)?;
-                finite("tangential_impact_velocity", tangential_impact_velocity)?;
-            }
-            Self::Attachment { error_bound, .. } => {
-                check(error_bound >= 0.0, "error_bound", error_bound, "[0, inf] (rad)")?;
-            }
-            Self::Separation | Self::StickToSlip(_) | Self::SlipToStick | Self::SlipReversal(_) => {}
-        }
-        Ok(())
-    }
-}
-
 /// An event, with the segment of motion that it ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecord"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EventRecord {
     /// When it happened.
     pub time: PhaseTime,
@@ -99,27 +72,35 @@ pub struct EventRecord {
     pub span: PhaseSpan,
 }
 
-read_checked!(EventRecord as UncheckedRecord {
-    time: PhaseTime,
-    event: Event,
-    before: DiskState,
-    after: DiskState,
-    axial_impulse: f64,
-    angular_impulse: f64,
-    ledger: EnergyLedger,
-    segment: Segment,
-    span: PhaseSpan,
-});
-
 impl EventRecord {
-    /// Checks what is read. A cut may pull: it gives the disk the platform's velocity, whichever is greater.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        all_finite([("axial_impulse", self.axial_impulse), ("angular_impulse", self.angular_impulse)])
-    }
-
     /// Disk and platform during the segment, `fraction` of it in [0, 1] after its start.
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, fraction: f64) -> Snapshot {
         self.segment.evaluate(system, self.span, fraction)
+    }
+}
+
+impl Display for Event {
+    /// With its numbers in the units of the motion.
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        write!(f, "{}", self.kind())?;
+        match self {
+            Self::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+                let ends = if *capped { ", slip ends" } else { "" };
+                write!(
+                    f,
+                    " with w_A = {} g/omega, w_T = {} g a_e/(a_g^2 omega)",
+                    n(*axial_impact_velocity),
+                    n(*tangential_impact_velocity)
+                )?;
+                f.write_str(ends)
+            }
+            Self::Attachment { impacts, error_bound } => {
+                write!(f, " after {impacts} summed impacts, phase within {} rad", n(*error_bound))
+            }
+            Self::StickToSlip(direction) | Self::SlipReversal(direction) => write!(f, ", {direction}"),
+            Self::Separation | Self::SlipToStick => Ok(()),
+        }
     }
 }

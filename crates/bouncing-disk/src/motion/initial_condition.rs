@@ -1,16 +1,12 @@
 //! How a motion starts.
 
-use bouncing_disk_core::flight::check_drop;
-use bouncing_disk_core::{Launch, Phase, read_checked};
+use bouncing_disk_core::Phase;
 
-use crate::error::{Error, moderate};
-
-/// The state in which the engine starts, dimensionless (see [`crate::Scales`] for the units).
+/// The state in which the engine starts, dimensionless (see [`crate::parameters::Scales`] for the units).
 ///
 /// The disk's angle starts at the platform's own angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedStart"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum InitialCondition {
     /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the platform's.
@@ -19,7 +15,7 @@ pub enum InitialCondition {
         /// Phase of the platform.
         phase: Phase,
         /// Angular speed of the disk; that of the platform is
-        /// [`crate::DimensionlessSystem::platform_angular_speed`].
+        /// [`crate::parameters::DimensionlessSystem::platform_angular_speed`].
         angular_speed: f64,
     },
     /// The disk leaves the platform.
@@ -42,28 +38,4 @@ pub enum InitialCondition {
         /// Angular speed of the disk.
         angular_speed: f64,
     },
-}
-
-read_checked!(enum InitialCondition as UncheckedStart {
-    Contact { phase: Phase, angular_speed: f64 },
-    Launch { phase: Phase, relative_speed: f64, angular_speed: f64 },
-    Flight { phase: Phase, gap: f64, relative_velocity: f64, angular_speed: f64 },
-});
-
-impl InitialCondition {
-    /// Checks what does not depend on the system.
-    fn check(&self) -> Result<(), Error> {
-        match *self {
-            Self::Contact { angular_speed, .. } => moderate("angular_speed", angular_speed)?,
-            Self::Launch { phase, relative_speed, angular_speed } => {
-                Launch::new(phase, relative_speed)?;
-                moderate("angular_speed", angular_speed)?
-            }
-            Self::Flight { gap, relative_velocity, angular_speed, .. } => {
-                check_drop(gap, relative_velocity)?;
-                moderate("angular_speed", angular_speed)?
-            }
-        };
-        Ok(())
-    }
 }

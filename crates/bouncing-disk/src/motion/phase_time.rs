@@ -1,12 +1,12 @@
 //! Time as a whole number of periods and a phase, so that long runs lose no precision.
 
+use crate::display::numbers;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
+use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::{Phase, read_checked};
-
-use crate::error::{Error, check};
 
 /// An instant: `periods` whole periods of the platform after phase 0 of its first period, and a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -70,7 +70,7 @@ impl PhaseTime {
 /// Whatever takes a span takes any, and reads it as [`Self::normalised`] says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSpan"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct PhaseSpan {
     /// Whole periods.
     pub periods: u64,
@@ -78,15 +78,7 @@ pub struct PhaseSpan {
     pub remainder: f64,
 }
 
-read_checked!(PhaseSpan as UncheckedSpan { periods: u64, remainder: f64 });
-
 impl PhaseSpan {
-    /// Checks that what is read is [normalised](Self::normalised).
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        check((0.0..=TAU).contains(&self.remainder), "remainder", self.remainder, "[0, 2 pi] (rad)")?;
-        Ok(())
-    }
-
     /// No time at all.
     pub const ZERO: Self = Self { periods: 0, remainder: 0.0 };
 
@@ -135,6 +127,12 @@ impl PhaseSpan {
 pub(crate) fn phase_at(angle: f64) -> Phase {
     // Only a non-finite angle is refused, and none can arise from validated parameters.
     Phase::new(angle).unwrap_or_else(|_| unreachable!("angle {angle}"))
+}
+
+impl Display for PhaseTime {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} periods and {} rad", self.periods, numbers(f)(self.phase.angle()))
+    }
 }
 
 #[cfg(test)]

@@ -1,5 +1,5 @@
 //! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the energy balance of
-//! both. Sliding, Eq. (12), is in `sliding.rs`; the vertical half is the core's (`flight/gap.rs` there).
+//! both; sliding contact, Eq. (12). The vertical half is the core's (`flight/gap.rs` there).
 
 use bouncing_disk_core::Phase;
 
@@ -7,9 +7,33 @@ use crate::motion::arc::{Arc, Term};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::friction::Friction;
 use crate::motion::phase_time::PhaseSpan;
-use crate::motion::sliding::{RotaryChange, change_while_sliding};
-use crate::motion::state::{DiskState, Mode, PlatformState};
+use crate::motion::state::{DiskState, Mode, PlatformState, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
+
+/// Change of the rotary state over a segment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RotaryChange {
+    /// Angular speed at the end.
+    pub(crate) speed: f64,
+    /// Change of the angle.
+    pub(crate) angle: f64,
+}
+
+/// Sliding contact (Eq. 12): d(angular speed)/d tau = -s mu N - l with N = 1 - P sin tau, integrated.
+pub(crate) fn change_while_sliding(
+    system: &DimensionlessSystem,
+    direction: SlipDirection,
+    speed: f64,
+    arc: &Arc,
+) -> RotaryChange {
+    let t = arc.duration;
+    let grip = direction.sign() * system.friction();
+    let load = system.load();
+    RotaryChange {
+        speed: speed - (grip * arc.force().value + load * t),
+        angle: t * (speed - 0.5 * load * t) - grip * arc.force_twice().value,
+    }
+}
 
 /// The rotary motion of a flight: only the load acts.
 #[inline(always)]

@@ -1,8 +1,7 @@
 //! The closed-form motion between two events.
 
-use bouncing_disk_core::{Launch, read_checked};
+use bouncing_disk_core::Launch;
 
-use crate::error::{Error, not_negative};
 use crate::motion::chatter::Chatter;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::friction::Friction;
@@ -14,7 +13,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// The motion of the disk between two events, open at its end: it holds until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSegment"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Segment {
     /// The instant of the event before.
     pub start: PhaseTime,
@@ -24,18 +23,7 @@ pub struct Segment {
     pub chatter_speed: Option<f64>,
 }
 
-read_checked!(Segment as UncheckedSegment {
-    start: PhaseTime,
-    state: DiskState,
-    chatter_speed: Option<f64>,
-});
-
 impl Segment {
-    /// Checks what is read.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        not_negative("chatter_speed", self.chatter_speed.unwrap_or_default()).map(|_| ())
-    }
-
     /// Disk and platform `fraction` of `span` after the start, `fraction` in [0, 1].
     #[must_use]
     pub fn evaluate(&self, system: &DimensionlessSystem, span: PhaseSpan, fraction: f64) -> Snapshot {

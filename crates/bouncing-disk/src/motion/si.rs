@@ -1,8 +1,5 @@
 //! States, times and energies of the dimensionless motion in SI units.
 
-use bouncing_disk_core::read_checked;
-
-use crate::error::{Error, all_finite};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::state::DiskState;
@@ -10,8 +7,7 @@ use crate::parameters::scales::Scales;
 
 /// A [`DiskState`] in SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedState"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SiState {
     /// Height (m).
     pub height: f64,
@@ -23,29 +19,9 @@ pub struct SiState {
     pub angular_speed: f64,
 }
 
-read_checked!(SiState as UncheckedState {
-    height: f64,
-    axial_velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-});
-
-impl SiState {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        all_finite([
-            ("height", self.height),
-            ("axial_velocity", self.axial_velocity),
-            ("angle", self.angle),
-            ("angular_speed", self.angular_speed),
-        ])
-    }
-}
-
 /// An [`EnergyLedger`] in SI units per unit mass (J/kg), axial and rotary parts together where both have one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEnergy"))]
 pub struct SiEnergy {
     /// Work of the platform by normal forces and impulses.
     pub normal_work: f64,
@@ -63,33 +39,6 @@ pub struct SiEnergy {
     pub potential_change: f64,
     /// Change of the kinetic energy of the rotation.
     pub rotary_kinetic_change: f64,
-}
-
-read_checked!(SiEnergy as UncheckedEnergy {
-    normal_work: f64,
-    friction_work: f64,
-    restitution_loss: f64,
-    friction_loss: f64,
-    load_work: f64,
-    axial_kinetic_change: f64,
-    potential_change: f64,
-    rotary_kinetic_change: f64,
-});
-
-impl SiEnergy {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        all_finite([
-            ("normal_work", self.normal_work),
-            ("friction_work", self.friction_work),
-            ("restitution_loss", self.restitution_loss),
-            ("friction_loss", self.friction_loss),
-            ("load_work", self.load_work),
-            ("axial_kinetic_change", self.axial_kinetic_change),
-            ("potential_change", self.potential_change),
-            ("rotary_kinetic_change", self.rotary_kinetic_change),
-        ])
-    }
 }
 
 impl Scales {
@@ -129,5 +78,23 @@ impl Scales {
             potential_change: ledger.potential_change * self.axial_energy,
             rotary_kinetic_change: ledger.rotary_kinetic_change * self.rotary_energy,
         }
+    }
+}
+
+impl SiEnergy {
+    /// The efficiency of a toss (Sec. III A): eta = (dE + E_0)/(W + E_0), the rotary kinetic energy that the
+    /// disk has gained over the energy that the platform has put in. dE is [`Self::rotary_kinetic_change`], W
+    /// is [`Self::platform_work`] and E_0 (J/kg, not negative) is the rotary kinetic energy that the disk has
+    /// at the start, given to it by the platform, too; zero for a disk at rest. Not a number if nothing was
+    /// put in.
+    #[must_use]
+    pub fn efficiency(&self, initial_rotary_energy: f64) -> f64 {
+        (self.rotary_kinetic_change + initial_rotary_energy) / (self.platform_work() + initial_rotary_energy)
+    }
+
+    /// Energy that the platform puts in: work by normal forces and by friction (J/kg).
+    #[must_use]
+    pub fn platform_work(&self) -> f64 {
+        self.normal_work + self.friction_work
     }
 }

@@ -1,8 +1,8 @@
 //! The state of the disk and of the platform at an instant.
 
-use bouncing_disk_core::{Phase, read_checked};
+use bouncing_disk_core::Phase;
+use std::fmt::{self, Display, Formatter};
 
-use crate::error::{Error, all_finite};
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
@@ -59,10 +59,10 @@ pub enum Mode {
     Sliding(SlipDirection),
 }
 
-/// The disk's state, dimensionless (see [`crate::Scales`] for the units).
+/// The disk's state, dimensionless (see [`crate::parameters::Scales`] for the units).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedDisk"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct DiskState {
     /// How it moves.
     pub mode: Mode,
@@ -78,36 +78,9 @@ pub struct DiskState {
     pub angular_speed: f64,
 }
 
-read_checked!(DiskState as UncheckedDisk {
-    mode: Mode,
-    height: f64,
-    axial_velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-});
-
-impl DiskState {
-    /// Checks what is read.
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        let Self { mode: _, height, axial_velocity, angle, angular_speed } = *self;
-        check_state(height, axial_velocity, angle, angular_speed)
-    }
-}
-
-/// Checks the numbers of a state of the disk or of the platform.
-fn check_state(height: f64, axial_velocity: f64, angle: f64, angular_speed: f64) -> Result<(), Error> {
-    all_finite([
-        ("height", height),
-        ("axial_velocity", axial_velocity),
-        ("angle", angle),
-        ("angular_speed", angular_speed),
-    ])
-}
-
 /// The platform's state, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPlatform"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct PlatformState {
     /// Height, in units of g/omega^2.
     pub height: f64,
@@ -119,20 +92,7 @@ pub struct PlatformState {
     pub angular_speed: f64,
 }
 
-read_checked!(PlatformState as UncheckedPlatform {
-    height: f64,
-    axial_velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-});
-
 impl PlatformState {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let Self { height, axial_velocity, angle, angular_speed } = *self;
-        check_state(height, axial_velocity, angle, angular_speed)
-    }
-
     /// The platform at `phase`.
     #[must_use]
     pub fn at(system: &DimensionlessSystem, phase: Phase) -> Self {
@@ -147,8 +107,7 @@ impl PlatformState {
 
 /// Disk and platform at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Snapshot {
     /// The instant.
     pub time: PhaseTime,
@@ -180,6 +139,25 @@ impl LongSum {
 
     pub(crate) fn value(&self) -> f64 {
         self.high + self.low
+    }
+}
+
+impl Display for SlipDirection {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Forward => "forward",
+            Self::Backward => "backward",
+        })
+    }
+}
+
+impl Display for Mode {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sliding(SlipDirection::Forward) => f.pad("sliding forward"),
+            Self::Sliding(SlipDirection::Backward) => f.pad("sliding backward"),
+            Self::Flight | Self::Sticking => self.kind().fmt(f),
+        }
     }
 }
 

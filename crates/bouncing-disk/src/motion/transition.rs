@@ -2,6 +2,7 @@
 
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::state::Mode;
+use std::fmt::{self, Display, Formatter};
 
 /// A [`Mode`] without its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -120,6 +121,35 @@ impl EventRecord {
     #[must_use]
     pub const fn transition(&self) -> Transition {
         Transition::new(self.before.mode.kind(), self.event.kind(), self.after.mode.kind())
+    }
+}
+
+impl Display for ModeKind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Flight => "flight",
+            Self::Sticking => "sticking",
+            Self::Sliding => "sliding",
+        })
+    }
+}
+
+impl Display for EventKind {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Impact => "impact",
+            Self::Attachment => "attachment",
+            Self::Separation => "separation",
+            Self::StickToSlip => "stick to slip",
+            Self::SlipToStick => "slip to stick",
+            Self::SlipReversal => "slip reversal",
+        })
+    }
+}
+
+impl Display for Transition {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{} -> {} -> {}", self.from, self.event, self.to)
     }
 }
 

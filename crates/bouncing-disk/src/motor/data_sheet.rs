@@ -2,24 +2,26 @@
 //! [`System`].
 //!
 //! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
-//! sheets are read and written as JSON and TOML (`file.rs`). A field may be named as a value (`motor_field.rs`).
+//! sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the fields.
 
-mod facts;
-mod fields;
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;
 pub(crate) mod motor_field;
-mod nearest;
 pub(crate) mod parameters;
 mod presets;
 pub(crate) mod regime;
 pub(crate) mod report;
 mod rise_bound;
+pub(crate) mod traps;
 pub(crate) mod warning;
 
-use crate::error::Error;
+use std::f64::consts::{PI, SQRT_2, TAU};
+
+use crate::error::{Error, check, finite, not_negative, positive, restitution};
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::motor::data_sheet::rise_bound::highest_rise;
+use crate::parameters::disk::DiskParameters;
+use crate::parameters::platform::PlatformParameters;
 use crate::parameters::system::System;
 
 /// A motor with a legal data sheet: a [`System`] and what a system does not know, its mass and its preload as
@@ -131,6 +133,139 @@ impl Motor {
     #[must_use]
     pub fn preload_change_bound(&self) -> Option<f64> {
         self.static_deflection().map(|deflection| self.highest_rise() / deflection)
+    }
+}
+
+/// Which of two alternatives is given.
+enum Alternative {
+    One(f64),
+    Other(f64),
+}
+
+fn one_of(
+    one: (&'static str, Option<f64>),
+    other: (&'static str, Option<f64>),
+) -> Result<Alternative, Error> {
+    match (one.1, other.1) {
+        (Some(value), None) => Ok(Alternative::One(value)),
+        (None, Some(value)) => Ok(Alternative::Other(value)),
+        (None, None) => Err(Error::NeitherGiven { one: one.0, other: other.0 }),
+        (Some(_), Some(_)) => Err(Error::BothGiven { one: one.0, other: other.0 }),
+    }
+}
+
+impl MotorParameters {
+    /// Checks the ranges and the alternatives.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] names the field, its value and its legal range; [`Error::NeitherGiven`] and
+    /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or
+    /// thickness that a density needs. Those of [`System::new`] if the combination is out of range.
+    pub fn build(self) -> Result<Motor, Error> {
+        self.check_ranges()?;
+        let angular_frequency = TAU * self.drive_frequency;
+        check(
+            angular_frequency.is_normal(),
+            "drive_frequency",
+            self.drive_frequency,
+            "[3.6e-309, 2.8e307] (Hz)",
+        )?;
+        let twist = one_of(
+            ("peak_angular_speed", self.peak_angular_speed),
+            ("twist_amplitude", self.twist_amplitude),
+        )?;
+        let twist_amplitude = match twist {
+            Alternative::One(speed) => speed / angular_frequency,
+            Alternative::Other(amplitude) => amplitude,
+        };
+        let mass = self.rotor_mass()?;
+        let gyration_radius = match (self.gyration_radius, self.rotor_radius) {
+            (Some(gyration), _) => gyration,
+            (None, Some(radius)) => radius / SQRT_2,
+            (None, None) => {
+                return Err(Error::NeitherGiven { one: "gyration_radius", other: "rotor_radius" });
+            }
+        };
+        let preload = one_of(
+            ("preload_force", self.preload_force),
+            ("preload_acceleration", self.preload_acceleration),
+        )?;
+        let preload_acceleration = match preload {
+            Alternative::One(force) => {
+                let acceleration = force / mass;
+                positive("preload_acceleration = preload_force/mass", acceleration)?
+            }
+            Alternative::Other(acceleration) => acceleration,
+        };
+        let force = mass * preload_acceleration;
+        check(force.is_normal(), "preload_force = mass*preload_acceleration", force, "normal (N)")?;
+        let stator = PlatformParameters {
+            amplitude: self.amplitude,
+            twist_amplitude,
+            angular_frequency,
+            phase_lag: self.phase_lag,
+        };
+        let rotor = DiskParameters {
+            contact_radius: self.contact_radius,
+            gyration_radius,
+            friction: self.friction,
+            restitution: self.restitution,
+            preload_acceleration,
+            load_acceleration: 0.0,
+        };
+        let rotor = rotor.with_load_torque(self.load_torque, mass)?;
+        let system = System::new(stator.build()?, rotor.build()?)?;
+        Ok(Motor { parameters: self, system, mass })
+    }
+
+    /// Checks each field by itself.
+    fn check_ranges(&self) -> Result<(), Error> {
+        positive("drive_frequency", self.drive_frequency)?;
+        not_negative("amplitude", self.amplitude)?;
+        finite("phase_lag", self.phase_lag)?;
+        positive("contact_radius", self.contact_radius)?;
+        not_negative("friction", self.friction)?;
+        restitution(self.restitution)?;
+        finite("load_torque", self.load_torque)?;
+        for (field, value) in
+            [("peak_angular_speed", self.peak_angular_speed), ("twist_amplitude", self.twist_amplitude)]
+        {
+            value.map(|value| not_negative(field, value)).transpose()?;
+        }
+        for (field, value) in [
+            ("mass", self.mass),
+            ("density", self.density),
+            ("rotor_radius", self.rotor_radius),
+            ("rotor_thickness", self.rotor_thickness),
+            ("gyration_radius", self.gyration_radius),
+            ("preload_force", self.preload_force),
+            ("preload_acceleration", self.preload_acceleration),
+            ("spring_constant", self.spring_constant),
+        ] {
+            value.map(|value| positive(field, value)).transpose()?;
+        }
+        Ok(())
+    }
+
+    /// The mass (kg), given or that of a solid disc. A thickness that nothing would read is refused.
+    fn rotor_mass(&self) -> Result<f64, Error> {
+        match one_of(("mass", self.mass), ("density", self.density))? {
+            Alternative::One(_) if self.rotor_thickness.is_some() => {
+                Err(Error::BothGiven { one: "mass", other: "rotor_thickness" })
+            }
+            Alternative::One(mass) => Ok(mass),
+            Alternative::Other(density) => {
+                let radius = self.rotor_radius.ok_or(Error::NotGiven { field: "rotor_radius" })?;
+                let thickness = self.rotor_thickness.ok_or(Error::NotGiven { field: "rotor_thickness" })?;
+                let mass = density * PI * radius * radius * thickness;
+                check(
+                    mass.is_normal(),
+                    "mass = density*pi*rotor_radius^2*rotor_thickness",
+                    mass,
+                    "[2.3e-308, 1.7e308] (kg)",
+                )
+            }
+        }
     }
 }
 

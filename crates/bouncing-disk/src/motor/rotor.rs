@@ -4,6 +4,8 @@
 //! chattering sequence is shorter where every impact of it slides the same way: then the summed impulse is
 //! known in closed form.
 
+pub(crate) mod transient;
+
 use bouncing_disk_core::{Attachment, ChatterPolicy, Launch, Orbit, OrbitEvent, Phase};
 
 use crate::error::Error;
@@ -12,8 +14,8 @@ use crate::motion::contact_motion::{Contact, Placed};
 use crate::motion::friction::Friction;
 use crate::motion::impact::{FrictionImpact, axial_impulse, friction_impact};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};
-use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// What ended the last step of a [`Rotor`].
@@ -146,6 +148,7 @@ impl Rotor {
 
     /// Comes to rest after an impact at `now` that left it with angular `speed`: what its share of a vertical
     /// motion that is computed elsewhere asks of it. Its contact ends with a [`RotorStep::Separation`].
+    #[cfg(feature = "fit")]
     pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
         self.now = now;
         self.speed = speed;

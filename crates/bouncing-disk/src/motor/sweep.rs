@@ -2,25 +2,23 @@
 //!
 //! What is varied is in `sweep/axis.rs`; which cells are computed together in `sweep/groups.rs`; the run, which may
 //! be stopped and gone on with, in `sweep/run.rs`; what comes out, as numbers and as a table, in `sweep/result.rs`,
-//! `sweep/quantity.rs` and `sweep/csv_table.rs`. The journal and the files are in `storage/motor_sweep.rs`.
+//! `sweep/quantity.rs` and `sweep/csv_table.rs`, its journal in `sweep/journal.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
 mod csv_table;
 mod groups;
+#[cfg(feature = "storage")]
+mod journal;
 pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;
 
-use bouncing_disk_core::{Observer, read_checked};
-
-use self::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
-use self::result::MotorSweepResult;
-use self::run::MotorSweepRun;
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
@@ -38,7 +36,8 @@ use crate::motor::operation::settings::OperatingSettings;
 ///
 /// ```
 /// use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{Motor, MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, SweepQuantity};
 ///
 /// let motor = Motor::paper_70_khz();
 /// let loads = [0.0, 0.5, 1.5].map(|share| share * motor.largest_torque());
@@ -59,8 +58,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweep"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorSweep {
     motor: Motor,
     axes: Vec<SweepAxis>,
@@ -68,12 +66,6 @@ pub struct MotorSweep {
     #[cfg_attr(feature = "serde", serde(skip_serializing))]
     groups: Vec<Vec<usize>>,
 }
-
-read_checked!(MotorSweep as UncheckedSweep {
-    motor: Motor,
-    axes: Vec<SweepAxis>,
-    settings: OperatingSettings,
-} => MotorSweep::new);
 
 impl MotorSweep {
     /// A sweep over one or two axes.
@@ -83,8 +75,8 @@ impl MotorSweep {
     /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter, or of
     /// two that exclude each other; an error of the core
     /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
-    /// [`MAX_SWEEP_CELLS`](crate::MAX_SWEEP_CELLS) cells; those of
-    /// [`MotorParameters::build`](crate::MotorParameters::build) for the first cell whose motor is not legal.
+    /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; those of
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not legal.
     pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
         settings.check()?;
         check_axes(&axes)?;
@@ -143,19 +135,6 @@ impl MotorSweep {
             return Err(Error::OutOfRange { field: "cell of a sweep", value: cell as f64, legal });
         }
         sheet_of_cell(self.motor.parameters(), &self.axes, cell).build()
-    }
-
-    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
-    ///
-    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
-    /// finished.
-    ///
-    /// # Errors
-    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
-    pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
-        let mut run = MotorSweepRun::new(self);
-        run.advance(self, observer)?;
-        run.into_result(self)
     }
 }
 

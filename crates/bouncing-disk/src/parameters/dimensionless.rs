@@ -58,8 +58,7 @@ impl DimensionlessParameters {
 /// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular speeds
 /// then come in units of mu g a_e/(a_g^2 omega).
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ForcingParameters {
     /// Axial forcing parameter Gamma = A omega^2/(pi g), in [0, 3.18e7].
     pub axial_forcing: f64,

@@ -1,6 +1,8 @@
 //! The disk: the dough, or the rotor.
 
+use crate::display::numbers;
 use crate::error::{Error, check, finite, not_negative, positive, restitution};
+use std::fmt::{self, Display, Formatter};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
@@ -134,5 +136,16 @@ impl TryFrom<DiskParameters> for Disk {
 impl From<Disk> for DiskParameters {
     fn from(disk: Disk) -> Self {
         disk.parameters
+    }
+}
+
+impl Display for Disk {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let [a_e, a_g, load] =
+            [self.contact_radius(), self.gyration_radius(), self.load_acceleration()].map(numbers(f));
+        let [mu, restitution, g] =
+            [self.friction(), self.restitution(), self.preload_acceleration()].map(numbers(f));
+        write!(f, "a_e = {a_e} m, a_g = {a_g} m, mu = {mu}, restitution = {restitution}, g = {g} m/s^2")?;
+        if self.load_acceleration() != 0.0 { write!(f, ", load = {load} rad/s^2") } else { Ok(()) }
     }
 }

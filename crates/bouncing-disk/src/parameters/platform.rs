@@ -1,6 +1,8 @@
 //! The vibrating and twisting platform, Eq. (1): the hand, or the stator.
 
+use crate::display::numbers;
 use std::f64::consts::PI;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Phase;
 use bouncing_disk_core::numerics::elementary::sin_cos;
@@ -133,5 +135,13 @@ impl TryFrom<PlatformParameters> for Platform {
 impl From<Platform> for PlatformParameters {
     fn from(platform: Platform) -> Self {
         platform.parameters
+    }
+}
+
+impl Display for Platform {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let own = [self.amplitude(), self.twist_amplitude(), self.angular_frequency(), self.phase_lag()];
+        let [a, phi, omega, theta] = own.map(numbers(f));
+        write!(f, "A = {a} m, Phi = {phi} rad, omega = {omega} rad/s, theta = {theta} rad")
     }
 }

@@ -59,7 +59,8 @@ impl System {
     /// The pizza toss of Table I: a linear hand motion (theta = 0) with a stroke of 0.25 m at 15 rad/s, and its dough.
     ///
     /// ```
-    /// use bouncing_disk::{InitialSpin, System, single_toss};
+    /// use bouncing_disk::System;
+    /// use bouncing_disk::toss::{InitialSpin, single_toss};
     ///
     /// let toss = single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest)?;
     /// assert_eq!(toss.airborne_speed.round(), 14.0);

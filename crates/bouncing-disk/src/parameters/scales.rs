@@ -1,15 +1,12 @@
 //! The units of the dimensionless system.
 
-use bouncing_disk_core::read_checked;
-
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 
 /// The SI values of the units of the dimensionless system.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedScales"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Scales {
     /// Unit of time 1/omega (s).
     pub time: f64,
@@ -28,17 +25,6 @@ pub struct Scales {
     /// Unit of rotary energy per unit mass (g a_e/(a_g omega))^2 (J/kg).
     pub rotary_energy: f64,
 }
-
-read_checked!(Scales as UncheckedScales {
-    time: f64,
-    length: f64,
-    velocity: f64,
-    angle: f64,
-    angular_speed: f64,
-    angular_acceleration: f64,
-    axial_energy: f64,
-    rotary_energy: f64,
-});
 
 impl Scales {
     pub(crate) fn new(platform: &Platform, disk: &Disk) -> Self {

@@ -1,6 +1,8 @@
 //! A disk on a platform, in SI units.
 
+use crate::display::numbers;
 use bouncing_disk_core::read_checked;
+use std::fmt::{self, Display, Formatter};
 
 use crate::error::Error;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
@@ -106,6 +108,17 @@ impl From<&System> for DimensionlessSystem {
 
 read_checked!(System as UncheckedSystem { platform: Platform, disk: Disk } => System::new);
 
+impl Display for System {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        f.write_str("platform ")?;
+        self.platform().fmt(f)?;
+        f.write_str("; disk ")?;
+        self.disk().fmt(f)?;
+        write!(f, "; Gamma = {}", n(self.axial_forcing()))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::FRAC_PI_2;
@@ -139,7 +152,7 @@ mod tests {
         let (system, scales) = (system(), system().scales());
         for angle in [0.0, 1.0, 4.0] {
             let phase = Phase::new(angle).unwrap();
-            let state = crate::PlatformState::at(system.dimensionless(), phase);
+            let state = crate::motion::PlatformState::at(system.dimensionless(), phase);
             let pairs = [
                 (state.height * scales.length, system.platform().height(phase)),
                 (state.axial_velocity * scales.velocity, system.platform().velocity(phase)),
@@ -157,7 +170,7 @@ mod tests {
         assert!((system.dimensionless().load() * scales.angular_acceleration - 3.0).abs() < 1e-14);
         let friction = 0.6 * 9.8 * 0.135 / (0.11 * 0.11);
         assert!((scales.angular_acceleration * 0.6 - friction).abs() < 1e-13);
-        let second = crate::PhaseTime { periods: 3, phase: Phase::new(1.0).unwrap() };
+        let second = crate::motion::PhaseTime { periods: 3, phase: Phase::new(1.0).unwrap() };
         assert!((scales.time_seconds(second) - (3.0 * std::f64::consts::TAU + 1.0) / 15.0).abs() < 1e-15);
     }
 
@@ -296,18 +309,10 @@ mod tests {
             serde_json::from_str::<DimensionlessSystem>(&text.replace("load", "lode")).unwrap_err(),
             "lode",
         );
-        let braking = r#"{"angular_acceleration":-1.0,"normal_force":1.0,"mass":1.0,"contact_radius":1.0,"gyration_radius":1.0,"mas":2.0}"#;
-        refused(serde_json::from_str::<crate::Braking>(braking).unwrap_err(), "mas");
         let stroke = r#"{"stroke":1.0,"amplitude_angle":0.0,"contact_radius":1.0,"angular_frequency":1.0,"phase_lag":0.0,"lag":1.0}"#;
         refused(serde_json::from_str::<Stroke>(stroke).unwrap_err(), "lag");
-        let launch =
-            r#"{"axial_speed":1.0,"angular_speed":1.0,"stroke":1.0,"contact_radius":1.0,"radius":2.0}"#;
-        refused(serde_json::from_str::<crate::LaunchSpeeds>(launch).unwrap_err(), "radius");
-        let forcing =
-            r#"{"axial_forcing":1.0,"angular_forcing":1.0,"phase_lag":0.0,"restitution":0.5,"friction":0.1}"#;
-        refused(serde_json::from_str::<crate::ForcingParameters>(forcing).unwrap_err(), "friction");
         let transition = r#"{"from":"Flight","event":"Impact","to":"Flight","via":"Sliding"}"#;
-        refused(serde_json::from_str::<crate::Transition>(transition).unwrap_err(), "via");
+        refused(serde_json::from_str::<crate::motion::Transition>(transition).unwrap_err(), "via");
     }
 
     #[cfg(feature = "serde")]
@@ -320,6 +325,9 @@ mod tests {
         assert!(error.unwrap_err().to_string().contains("restitution = 1.5"));
         let dimensionless = *system().dimensionless();
         let text = serde_json::to_string(&dimensionless).unwrap();
-        assert_eq!(serde_json::from_str::<crate::DimensionlessSystem>(&text).unwrap(), dimensionless);
+        assert_eq!(
+            serde_json::from_str::<crate::parameters::DimensionlessSystem>(&text).unwrap(),
+            dimensionless
+        );
     }
 }

@@ -8,10 +8,18 @@ use std::fmt;
 /// than what the disk does.
 pub const LONG_FLIGHT: f64 = PI;
 
+/// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
+/// perturbation. Longer cycles than those of [`LOCKED_FLIGHTS`] come near the mean by chance.
+pub(crate) const LOCKED_WITHIN: f64 = 0.05;
+/// See [`LOCKED_WITHIN`].
+pub(crate) const LOCKED_FLIGHTS: usize = 8;
+
+/// Impacts in which an unperturbed cycle is looked for: one of up to half of them is found.
+pub const EXAMINED_IMPACTS: usize = 2_048;
+
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ChatteringCycle {
     /// Impacts, without those that the complete policy sums.
     pub impacts: usize,

@@ -3,9 +3,9 @@
 //! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary entry
 //! is 0 for an impact in which the slip ends and 1 for one that slides throughout.
 
-use bouncing_disk_core::{ChatterPolicy, ImpactState, Phase, read_checked};
+use bouncing_disk_core::{ChatterPolicy, ImpactState, Phase};
 
-use crate::error::{Error, all_finite, finite, moderate, not_positive};
+use crate::error::{Error, moderate};
 use crate::motion::engine::Engine;
 use crate::motion::event::{Event, EventRecord};
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
@@ -15,8 +15,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// The state just before a collision: the paper's tau_imp, w_A and w_T.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedState"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct CollisionState {
     /// Phase of the impact, tau_imp.
     pub phase: Phase,
@@ -26,20 +25,7 @@ pub struct CollisionState {
     pub tangential_impact_velocity: f64,
 }
 
-read_checked!(CollisionState as UncheckedState {
-    phase: Phase,
-    axial_impact_velocity: f64,
-    tangential_impact_velocity: f64,
-});
-
 impl CollisionState {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        not_positive("axial_impact_velocity", self.axial_impact_velocity)?;
-        finite("tangential_impact_velocity", self.tangential_impact_velocity)?;
-        Ok(())
-    }
-
     /// The disk's angular speed just before the impact, in units of g a_e/(a_g^2 omega).
     #[must_use]
     pub fn angular_speed(&self, system: &DimensionlessSystem) -> f64 {
@@ -76,8 +62,7 @@ impl CollisionState {
 
 /// One collision of an orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedCollision"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Collision {
     /// When.
     pub time: PhaseTime,
@@ -91,25 +76,9 @@ pub struct Collision {
     pub capped: bool,
 }
 
-read_checked!(Collision as UncheckedCollision {
-    time: PhaseTime,
-    state: CollisionState,
-    angular_speed: f64,
-    angle: f64,
-    capped: bool,
-});
-
-impl Collision {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        all_finite([("angular_speed", self.angular_speed), ("angle", self.angle)])
-    }
-}
-
 /// What [`Collisions`] reports.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEvent"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum CollisionEvent {
     /// An impact.
@@ -130,24 +99,6 @@ pub enum CollisionEvent {
         /// The angle that the disk has turned.
         angle: f64,
     },
-}
-
-read_checked!(enum CollisionEvent as UncheckedEvent {
-    Collision(collision: Collision),
-    Attachment { time: PhaseTime, summed_impacts: u64 },
-    Separation { time: PhaseTime, angular_speed: f64, angle: f64 },
-});
-
-impl CollisionEvent {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        match *self {
-            Self::Separation { angular_speed, angle, .. } => {
-                all_finite([("angular_speed", angular_speed), ("angle", angle)])
-            }
-            Self::Collision(_) | Self::Attachment { .. } => Ok(()),
-        }
-    }
 }
 
 /// The lazy sequence of the collisions, attachments and separations of a motion.

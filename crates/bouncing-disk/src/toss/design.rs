@@ -4,167 +4,26 @@
 //! The search (`search.rs`) is deterministic; what it rests on, and how its result is certified, stands in
 //! docs/numerics/design.md.
 
+pub(crate) mod constraints;
 mod hand;
 pub(crate) mod robustness;
 mod search;
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
 use bouncing_disk_core::Observer;
-use bouncing_disk_core::numerics::elementary::{acos, tan};
+use bouncing_disk_core::numerics::elementary::tan;
 use bouncing_disk_core::run::Watch;
 
-use crate::error::{Error, check, finite, not_negative, positive};
-use crate::parameters::disk::DiskParameters;
+use crate::error::Error;
 use crate::parameters::stroke::Stroke;
 use crate::parameters::system::System;
-use crate::toss::design::hand::Evaluation;
-use crate::toss::design::robustness::{TossHalfUnits, TossRobustness, robustness};
+use crate::toss::design::constraints::{TossCertificate, TossConstraints};
+use crate::toss::design::hand::{Evaluation, flight_height, turns};
 use crate::toss::design::search::search;
-use crate::toss::single::{InitialSpin, TossPerformance};
-
-/// What a toss is to be best at.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum TossObjective {
-    /// The airborne rotary speed (rad/s), in whichever direction.
-    #[default]
-    AirborneSpeed,
-    /// The efficiency eta of Sec. III A.
-    Efficiency,
-    /// Turns of the dough until it is back at the height at which it left the hand, where it is caught.
-    TurnsPerToss,
-}
-
-/// How the objective is taken over a range of friction.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-#[non_exhaustive]
-pub enum OverFriction {
-    /// Its least value: what the hand motion gives at any friction of the range.
-    #[default]
-    Worst,
-    /// Its mean, each friction of the range as likely as any other.
-    Mean,
-}
-
-/// What a hand motion may be, and what it is to be best at.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct TossConstraints {
-    /// The dough. Its friction is not looked at ([`Self::friction`] is), nor is its restitution.
-    pub dough: DiskParameters,
-    /// How the dough turns at the start.
-    pub initial: InitialSpin,
-    /// Stroke c (m), positive: the half length of the path of the hand at the contact radius (Eq. 13).
-    pub stroke: f64,
-    /// Least and most coefficient of friction mu, not negative; twice the same if it is known.
-    pub friction: [f64; 2],
-    /// Least and most angular frequency omega (rad/s), positive.
-    pub angular_frequency: [f64; 2],
-    /// Least and most phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the dough
-    /// as fast the other way, so that half a circle holds all that can be had.
-    pub phase_lag: [f64; 2],
-    /// The highest that the dough may fly above the place where it leaves the hand (m), positive; `None` for
-    /// no limit.
-    pub highest_flight: Option<f64>,
-    /// What the toss is to be best at.
-    pub objective: TossObjective,
-    /// How that is taken over the range of friction.
-    pub over_friction: OverFriction,
-}
-
-impl TossConstraints {
-    /// Table I: its dough, its stroke, its friction and its frequency, each as the one value that is printed,
-    /// all phase lags, any height, and the largest airborne speed.
-    #[must_use]
-    pub fn pizza_toss() -> Self {
-        let system = System::pizza_toss();
-        let (hand, dough) = (Stroke::pizza_toss(), system.disk().parameters());
-        Self {
-            dough,
-            initial: InitialSpin::AbsoluteRest,
-            stroke: hand.stroke,
-            friction: [dough.friction; 2],
-            angular_frequency: [hand.angular_frequency; 2],
-            phase_lag: [-FRAC_PI_2, FRAC_PI_2],
-            highest_flight: None,
-            objective: TossObjective::AirborneSpeed,
-            over_friction: OverFriction::Worst,
-        }
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        self.dough.build()?;
-        positive("stroke", self.stroke)?;
-        let [least, most] = self.friction;
-        not_negative("friction (least)", least)?;
-        not_negative("friction (most)", most)?;
-        check(least <= most, "friction (most)", most, "[friction (least), inf)")?;
-        let [least, most] = self.angular_frequency;
-        positive("angular_frequency (least)", least)?;
-        positive("angular_frequency (most)", most)?;
-        check(least <= most, "angular_frequency (most)", most, "[angular_frequency (least), inf)")?;
-        let peak_acceleration = self.stroke * most * most / self.gravity();
-        let [least, most] = self.phase_lag;
-        finite("phase_lag (least)", least)?;
-        check(
-            (least..=least + TAU).contains(&most),
-            "phase_lag (most)",
-            most,
-            "[phase_lag (least), phase_lag (least) + 2 pi]",
-        )?;
-        self.highest_flight.map(|height| positive("highest_flight", height)).transpose()?;
-        let legal = "(0, inf), with a finite peak acceleration c omega^2/g";
-        check(peak_acceleration.is_finite(), "stroke", self.stroke, legal)?;
-        if peak_acceleration <= 1.0 { Err(Error::NeverLeaves { peak_acceleration }) } else { Ok(()) }
-    }
-
-    const fn gravity(&self) -> f64 {
-        self.dough.preload_acceleration
-    }
-
-    /// The amplitude angles (rad) with which the dough leaves the hand, and no higher than it may
-    /// (docs/numerics/design.md, "The hand motions that are allowed"); `None` where it never leaves.
-    fn amplitude_angles(&self, angular_frequency: f64) -> Option<[f64; 2]> {
-        let (omega, g) = (angular_frequency, self.gravity());
-        let lift_off = g / (self.stroke * omega * omega);
-        if lift_off >= 1.0 {
-            return None;
-        }
-        let most = acos(lift_off);
-        let least = self.highest_flight.map_or(0.0, |height| {
-            let amplitude = (2.0 * g * height + g * g / (omega * omega)).sqrt() / omega;
-            let share = amplitude / self.stroke;
-            if share < 1.0 { acos(share) } else { 0.0 }
-        });
-        Some([least.min(most), most])
-    }
-}
-
-/// How an optimum is certified: by the grid from which it was found.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct TossCertificate {
-    /// Hand motions on the grid.
-    pub grid_points: usize,
-    /// The best of them: the refined optimum is not below it.
-    pub best_on_grid: f64,
-    /// What the objective could be above the optimum at most, farther from it than the next points of the
-    /// grid, if between two points it changes nowhere faster than it does from one to the other, or from
-    /// either to the next one beyond: zero if the optimum is sure under this premise.
-    pub hidden_gain: f64,
-}
+use crate::toss::single::TossPerformance;
 
 /// The best hand motion, and what it gives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossDesign {
     /// What was asked for.
     pub constraints: TossConstraints,
@@ -192,17 +51,7 @@ impl TossDesign {
     /// Those of [`System::new`], for a design that was changed or read.
     pub fn system(&self) -> Result<System, Error> {
         let TossConstraints { dough, friction, .. } = self.constraints;
-        hand::system(self.hand, dough, hand::middle(friction))
-    }
-
-    /// How much of the objective is left where hand and dough are not quite those of the design: over
-    /// everything that rounds to the same digits, and over the range of friction.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of
-    /// its input; those of [`best_toss`].
-    pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
-        robustness(self, half_units)
+        crate::toss::design::hand::system(self.hand, dough, crate::toss::design::hand::middle(friction))
     }
 }
 
@@ -213,7 +62,7 @@ impl TossDesign {
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{TossConstraints, best_toss};
+/// use bouncing_disk::toss::{TossConstraints, best_toss};
 ///
 /// // The dough of Table I, on hands whose flour makes the friction uncertain, no higher than half a metre.
 /// let constraints = TossConstraints {
@@ -229,10 +78,10 @@ impl TossDesign {
 ///
 /// # Errors
 /// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none
-/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::single_toss).
+/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::toss::single_toss).
 pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Result<TossDesign, Error> {
     constraints.check()?;
-    let watch = Watch::begin(observer, 0, search::STAGES)?;
+    let watch = Watch::begin(observer, 0, crate::toss::design::search::STAGES)?;
     let found = search(constraints, &watch)?;
     let hand = found.hand;
     let evaluation = Evaluation::new(constraints, hand)?;
@@ -249,16 +98,6 @@ pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Resu
     };
     watch.end();
     Ok(design)
-}
-
-/// How high the dough rises above the place where it leaves (m).
-fn flight_height(toss: &TossPerformance, gravity: f64) -> f64 {
-    0.5 * toss.launch_speed * toss.launch_speed / gravity
-}
-
-/// Turns until it is back there.
-fn turns(toss: &TossPerformance, gravity: f64) -> f64 {
-    toss.airborne_speed.abs() * toss.launch_speed / (PI * gravity)
 }
 
 #[cfg(test)]

@@ -1,11 +1,13 @@
 //! Multiple tosses (Sec. IV): what a motion settles on, and how it is classified.
 
+use crate::display::numbers;
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::chaos::{LyapunovEstimate, TangentGrowth};
 use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, Stability};
 use bouncing_disk_core::run::{Watch, WorkCount};
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer, read_checked};
+use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer};
 
 use crate::error::{Error, check, not_negative, room_for};
 use crate::motion::initial_condition::InitialCondition;
@@ -22,8 +24,7 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MultiTossSettings {
     /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
@@ -61,18 +62,9 @@ impl MultiTossSettings {
     }
 }
 
-read_checked!(MultiTossSettings as UncheckedSettings {
-    policy: ChatterPolicy,
-    transient_impacts: usize,
-    examined_impacts: usize,
-    longest_period: usize,
-    tolerance: f64,
-});
-
 /// What a motion has settled on, judged from the impacts examined.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedClass"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum OrbitClass {
     /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
@@ -109,29 +101,6 @@ pub enum OrbitClass {
     },
     /// The disk rests on the platform for ever.
     AtRest,
-}
-
-read_checked!(enum OrbitClass as UncheckedClass {
-    Periodic { period: usize, platform_periods: u64, vertical: Multipliers, rotary: f64 },
-    Chattering(cycle: ChatteringCycle),
-    Chaotic { lyapunov_exponent: LyapunovEstimate },
-    Undecided { impacts: usize, lyapunov_exponent: Option<LyapunovEstimate> },
-    AtRest,
-});
-
-impl OrbitClass {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        match *self {
-            Self::Periodic { period, platform_periods, rotary, .. } => {
-                check(period > 0, "period", 0.0, "at least 1")?;
-                check(platform_periods > 0, "platform_periods", 0.0, "at least 1")?;
-                check((0.0..=1.0).contains(&rotary), "rotary multiplier", rotary, "[0, 1]")?;
-            }
-            Self::Chaotic { .. } | Self::Undecided { .. } | Self::Chattering(_) | Self::AtRest => {}
-        }
-        Ok(())
-    }
 }
 
 /// A motion after its transient.
@@ -342,6 +311,25 @@ fn growth_rate(
     Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
 }
 
+impl Display for OrbitClass {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let n = numbers(f);
+        match self {
+            Self::Periodic { period, platform_periods, vertical, .. } => write!(
+                f,
+                "{period} impacts in {platform_periods} periods, largest multiplier {}",
+                n(vertical.spectral_radius())
+            ),
+            Self::Chattering(cycle) => write!(f, "chattering: {cycle}"),
+            Self::Chaotic { lyapunov_exponent: LyapunovEstimate { exponent, standard_error, .. } } => {
+                write!(f, "chaos, exponent {} +- {} per impact", n(*exponent), n(*standard_error))
+            }
+            Self::Undecided { impacts, .. } => write!(f, "undecided within {impacts} impacts"),
+            Self::AtRest => f.write_str("at rest"),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use bouncing_disk_core::Unobserved;
@@ -354,7 +342,7 @@ mod tests {
     use super::*;
     use crate::parameters::dimensionless::ForcingParameters;
     use crate::toss::collisions::CollisionState;
-    use crate::toss::period_one::period_one_rotary_speed;
+    use crate::toss::rotary_response::period_one_rotary_speed;
 
     fn system(axial_forcing: f64, angular_forcing: f64, phase_lag: f64) -> DimensionlessSystem {
         ForcingParameters { axial_forcing, angular_forcing, phase_lag, restitution: 0.5 }.build().unwrap()
@@ -395,7 +383,7 @@ mod tests {
 
     #[test]
     fn a_disk_from_rest_chatters_below_the_merging_of_the_attractors() {
-        for policy in [ChatterPolicy::Complete, crate::PAPER_CHATTER] {
+        for policy in [ChatterPolicy::Complete, crate::motion::PAPER_CHATTER] {
             let system = system(0.48, 1.0, 0.0);
             let settings = MultiTossSettings { policy, transient_impacts: 100, ..Default::default() };
             let orbit = multi_toss(system, from_rest(&system), settings, &Unobserved).unwrap();

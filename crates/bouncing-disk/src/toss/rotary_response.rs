@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk_core::Phase;
 use bouncing_disk_core::orbits::PeriodicOrbit;
-use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, all_finite, check};
 use crate::motion::impact::{available_impulse, axial_impulse};
@@ -17,8 +17,7 @@ const CLOSES: f64 = 1.0e-6;
 
 /// What becomes of the spin of a disk on a periodic orbit.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum RotaryOutcome {
     /// From every spin the disk comes to this one, in finitely many impacts: the rotary multiplier is 0.
@@ -62,8 +61,7 @@ impl RotaryOutcome {
 
 /// The steady spin on a periodic orbit; lists run over its impacts.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedResponse"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RotaryResponse {
     /// The disk's angular speed just before each impact, in units of g a_e/(a_g^2 omega).
     pub angular_speeds: Vec<f64>,
@@ -79,28 +77,7 @@ pub struct RotaryResponse {
     pub mean_angular_speed: f64,
 }
 
-read_checked!(RotaryResponse as UncheckedResponse {
-    angular_speeds: Vec<f64>,
-    slips: Vec<f64>,
-    sliding: Vec<Option<SlipDirection>>,
-    stick_margin: f64,
-    mean_angular_speed: f64,
-});
-
 impl RotaryResponse {
-    /// Checks what is read.
-    fn check(&self) -> Result<(), Error> {
-        let impacts = self.angular_speeds.len();
-        for (field, count) in [("slips", self.slips.len()), ("sliding", self.sliding.len())] {
-            check(count == impacts, field, count as f64, "one for each impact")?;
-        }
-        check(self.sliding.contains(&None), "sliding", impacts as f64, "with an impact that ends its slip")?;
-        for value in self.angular_speeds.iter().chain(&self.slips) {
-            all_finite([("angular_speed", *value)])?;
-        }
-        all_finite([("stick_margin", self.stick_margin), ("mean_angular_speed", self.mean_angular_speed)])
-    }
-
     /// How many impacts end the slip.
     #[must_use]
     pub fn sticking_impacts(&self) -> usize {
@@ -110,8 +87,7 @@ impl RotaryResponse {
 
 /// One period of a periodic orbit with some spin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
@@ -120,11 +96,21 @@ pub struct RotaryRound {
     pub sticking_impacts: usize,
 }
 
+/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed there,
+/// Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
+///
+/// It is largest, Q, for a phase lag theta = -tau_imp.
+#[must_use]
+pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase) -> f64 {
+    system.platform_angular_speed(impact_phase)
+}
+
 /// What becomes of the spin of a disk on `orbit`, a periodic orbit of the vertical motion of `system`, stable
 /// or unstable.
 ///
 /// ```
-/// use bouncing_disk::{ForcingParameters, period_one_rotary_speed, rotary_response};
+/// use bouncing_disk::parameters::ForcingParameters;
+/// use bouncing_disk::toss::{period_one_rotary_speed, rotary_response};
 ///
 /// let system = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.3, restitution: 0.5 }.build()?;
 /// let pair = system.map().period_one_pair(1).expect("born at 1/3");

@@ -1,11 +1,13 @@
 //! Single tosses (Sec. III): the dough rests in the hand at its lowest point, and is thrown.
 
+use crate::display::numbers;
 use std::f64::consts::PI;
+use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::numerics::elementary::sin;
-use bouncing_disk_core::{ChatterPolicy, Phase, read_checked};
+use bouncing_disk_core::{ChatterPolicy, Phase};
 
-use crate::error::{Error, finite, phase_angle};
+use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::{Event, EventRecord};
@@ -34,7 +36,6 @@ pub enum InitialSpin {
 /// The performance measures of a single toss (Sec. III A), in SI units; energies per unit mass of the dough.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPerformance"))]
 pub struct TossPerformance {
     /// Airborne rotary speed of the dough (rad/s).
     pub airborne_speed: f64,
@@ -44,6 +45,7 @@ pub struct TossPerformance {
     /// lowest point, and in the friction between hand and dough. The spin of a dough that starts with the
     /// hand counts as put in by the hand and gained by the dough. Negative if a dough at rest is turned by a
     /// hand that takes energy back. The formula is that of [`SiEnergy::efficiency`].
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none"))]
     pub efficiency: f64,
     /// Airborne rotary speed over the largest rotary speed of the hand, omega Phi; `None` without twist.
     pub speed_ratio: Option<f64>,
@@ -57,30 +59,6 @@ pub struct TossPerformance {
     pub rotary_energy_gain: f64,
     /// The energy balance up to the separation (J/kg).
     pub energy: SiEnergy,
-}
-
-read_checked!(TossPerformance as UncheckedPerformance {
-    airborne_speed: f64,
-    #[serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none")]
-    efficiency: f64,
-    speed_ratio: Option<f64>,
-    separation_phase: f64,
-    sliding_at_separation: bool,
-    launch_speed: f64,
-    rotary_energy_gain: f64,
-    energy: SiEnergy,
-});
-
-impl TossPerformance {
-    /// Checks what is read. The efficiency of nothing that was put in is not a number.
-    fn check(&self) -> Result<(), Error> {
-        finite("airborne_speed", self.airborne_speed)?;
-        finite("speed_ratio", self.speed_ratio.unwrap_or_default())?;
-        phase_angle("separation_phase", self.separation_phase)?;
-        finite("launch_speed", self.launch_speed)?;
-        finite("rotary_energy_gain", self.rotary_energy_gain)?;
-        Ok(())
-    }
 }
 
 /// The toss of `system`'s disk from its platform, up to the separation.
@@ -155,6 +133,18 @@ fn performance(
 
 const fn never_leaves(system: &System) -> Error {
     Error::NeverLeaves { peak_acceleration: system.peak_acceleration() }
+}
+
+impl Display for TossPerformance {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let own = [self.airborne_speed, self.launch_speed, self.separation_phase, self.efficiency];
+        let [spin, speed, phase, efficiency] = own.map(numbers(f));
+        write!(
+            f,
+            "airborne at {spin} rad/s and {speed} m/s, separation at {phase} rad, efficiency {efficiency}"
+        )?;
+        self.speed_ratio.map_or(Ok(()), |ratio| write!(f, ", speed ratio {}", numbers(f)(ratio)))
+    }
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
 //! The inset: one cycle of a disk that is thrown, chatters and rests.
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{
-    Engine, EventKind, EventRecord, ForcingParameters, InitialCondition, PhaseTime, TOSS_START, Trajectory,
-};
+use bouncing_disk::motion::{EventKind, PhaseTime};
+use bouncing_disk::parameters::ForcingParameters;
+use bouncing_disk::toss::TOSS_START;
+use bouncing_disk::{Engine, EventRecord, InitialCondition, Trajectory};
 
 use super::ChatteringCycle;
 use crate::experiment::{ExperimentError, Quality};

@@ -1,6 +1,6 @@
 //! The drawing of Fig. 3.
 
-use bouncing_disk::{EventKind, ModeKind, Transition};
+use bouncing_disk::motion::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
     Stroke, Style, Text, TextBox, TextStyle, Ticks,

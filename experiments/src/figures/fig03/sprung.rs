@@ -10,7 +10,9 @@ use std::convert::Infallible;
 use bouncing_disk::core::numerics::elementary::{asin, sin, sin_cos};
 use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{Engine, EventKind, EventRecord, System, TOSS_START};
+use bouncing_disk::motion::EventKind;
+use bouncing_disk::toss::TOSS_START;
+use bouncing_disk::{Engine, EventRecord, System};
 
 use super::{Sprung, SprungFlight, SprungMotor};
 use crate::claims::paper;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use bouncing_disk::InitialSpin;
+use bouncing_disk::toss::InitialSpin;
 
 use super::{Best, Fig04Data, LagCurve, TossPoint};
 use crate::claims::judging::{LINE_WIDTH, trend};

@@ -2,8 +2,8 @@
 //!
 //! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of amplitude angles?
 
-use bouncing_disk::InitialSpin;
 use bouncing_disk::core::numerics::elementary::sin;
+use bouncing_disk::toss::InitialSpin;
 
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
 use super::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};

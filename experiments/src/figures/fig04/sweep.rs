@@ -6,7 +6,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::numerics::elementary::{acos, asin, cos, sin, tan};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
-use bouncing_disk::{InitialSpin, TossPerformance};
+use bouncing_disk::toss::{InitialSpin, TossPerformance};
 
 use super::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve,

@@ -3,13 +3,12 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use bouncing_disk::InitialCondition;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::sweep::{SweepEvent, sweep};
 use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, Unobserved, Vibration};
-use bouncing_disk::{
-    ChatteringCycle, DimensionlessSystem, InitialCondition, LONG_FLIGHT, MultiTossSettings, TossOrbit,
-    multi_toss,
-};
+use bouncing_disk::parameters::DimensionlessSystem;
+use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};
 
 use super::data::{SingleTosses, Slice};
 use super::inputs::{Inputs, Systems};

@@ -6,7 +6,8 @@ use bouncing_disk::core::chaos::lyapunov_exponents;
 use bouncing_disk::core::orbits::{Followed, doubling_cascade, follow_attractor};
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ImpactState, Launch, Unobserved};
-use bouncing_disk::{ChatteringCycle, MultiTossSettings, PAPER_CHATTER};
+use bouncing_disk::motion::PAPER_CHATTER;
+use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings};
 use rayon::prelude::*;
 
 use super::chattering;

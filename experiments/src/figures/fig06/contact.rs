@@ -3,10 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase};
-use bouncing_disk::{
-    CollisionEvent, Collisions, DimensionlessSystem, Engine, Event, EventRecord, ForcingParameters,
-    InitialCondition,
-};
+use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::toss::{CollisionEvent, Collisions};
+use bouncing_disk::{Engine, Event, EventRecord, InitialCondition};
 use rayon::prelude::*;
 
 use super::data::{Motion, Transfer};
@@ -102,7 +101,7 @@ fn share_in_impacts(
     system: &DimensionlessSystem,
     start: InitialCondition,
 ) -> Result<Option<f64>, ExperimentError> {
-    let mut engine = Engine::new(*system, start, bouncing_disk::PAPER_CHATTER)?;
+    let mut engine = Engine::new(*system, start, bouncing_disk::motion::PAPER_CHATTER)?;
     let (mut impacts, mut impulsive, mut contact) = (0, 0.0, 0.0);
     while impacts < TRANSFERS {
         let Some(record) = engine.advance()? else { break };
@@ -117,7 +116,7 @@ fn share_in_impacts(
 /// The sum of the sizes of the changes of angular speed on the platform; zero in flight.
 fn turned_in_contact(record: &EventRecord, system: &DimensionlessSystem) -> f64 {
     let speed = |part: usize| record.evaluate(system, part as f64 / PARTS as f64).disk.angular_speed;
-    if record.segment.state.mode == bouncing_disk::Mode::Flight {
+    if record.segment.state.mode == bouncing_disk::motion::Mode::Flight {
         return 0.0;
     }
     (0..PARTS).map(|part| (speed(part + 1) - speed(part)).abs()).sum()

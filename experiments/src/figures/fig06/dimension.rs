@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk::System;
 use bouncing_disk::core::{ChatterPolicy, Phase};
-use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, System};
+use bouncing_disk::parameters::DimensionlessSystem;
+use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 use faer::Mat;
 
 use super::data::{Dimension, TorqueRatio};

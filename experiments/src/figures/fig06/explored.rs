@@ -3,13 +3,13 @@
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
+use bouncing_disk::InitialCondition;
 use bouncing_disk::core::orbits::follow_attractor;
 use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, Unobserved};
-use bouncing_disk::{
-    DimensionlessSystem, ForcingParameters, InitialCondition, MultiTossSettings, NormalImpulses, OrbitClass,
-    PhasedImpulse, multi_toss,
-};
+use bouncing_disk::motor::{NormalImpulses, PhasedImpulse};
+use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
 use rayon::prelude::*;
 
 use super::chattering::from_rest;
@@ -87,7 +87,7 @@ fn orbit_from_rest(axial_forcing: f64, inputs: Inputs) -> Result<Orbit, Experime
     let map = map(axial_forcing, inputs.restitution)?;
     let leaves = map.vibration().separation_phase().ok_or_else(|| no_orbit(axial_forcing))?;
     Launch::new(leaves, 0.0)
-        .map(|launch| map.orbit_from_launch(launch, bouncing_disk::PAPER_CHATTER))
+        .map(|launch| map.orbit_from_launch(launch, bouncing_disk::motion::PAPER_CHATTER))
         .map_err(ExperimentError::model)
 }
 
@@ -106,7 +106,7 @@ fn saddle(
     let orbits: Vec<Orbit> = from
         .iter()
         .take(SADDLE_STARTS)
-        .map(|state| map.orbit(*state, bouncing_disk::PAPER_CHATTER))
+        .map(|state| map.orbit(*state, bouncing_disk::motion::PAPER_CHATTER))
         .collect();
     let lives = survival_times(&orbits, SADDLE_LIFE, &Unobserved)?;
     let stay: Vec<Orbit> = orbits
@@ -129,7 +129,7 @@ pub(super) fn explored(
     let crisis = merging.axial_forcing();
     let start = *starts(first, inputs)?.first().ok_or_else(|| no_orbit(crisis))?;
     let orbit_at = |forcing: f64| -> Result<Orbit, ExperimentError> {
-        Ok(map(forcing, inputs.restitution)?.orbit(start, bouncing_disk::PAPER_CHATTER))
+        Ok(map(forcing, inputs.restitution)?.orbit(start, bouncing_disk::motion::PAPER_CHATTER))
     };
     let (before, after) = (crisis - BESIDE, crisis + BESIDE);
     // The start lies on the attractor at a slightly lower Γ; a few impacts take it to the present one.
@@ -172,11 +172,16 @@ pub(super) fn zoom(
     let steps = quality.choose(80, 480);
     let (low, high) = ZOOM;
     let forcings = (0..=steps).map(|step| low + (high - low) * f64::from(step) / f64::from(steps));
-    let followed =
-        follow_attractor(inputs.restitution, forcings, from, ZOOM_TRANSIENT, bouncing_disk::PAPER_CHATTER)
-            .collect::<Result<Vec<_>, _>>()?;
+    let followed = follow_attractor(
+        inputs.restitution,
+        forcings,
+        from,
+        ZOOM_TRANSIENT,
+        bouncing_disk::motion::PAPER_CHATTER,
+    )
+    .collect::<Result<Vec<_>, _>>()?;
     let orbits: Vec<Orbit> =
-        followed.iter().map(|at| at.map.orbit(at.state, bouncing_disk::PAPER_CHATTER)).collect();
+        followed.iter().map(|at| at.map.orbit(at.state, bouncing_disk::motion::PAPER_CHATTER)).collect();
     let states = recorded(&orbits, ZOOM_IMPACTS)?;
     Ok(followed
         .iter()

@@ -1,7 +1,7 @@
 //! The printed inputs of the diagrams, and the systems and maps made from them.
 
 use bouncing_disk::core::{ImpactMap, Vibration};
-use bouncing_disk::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
 
 use super::data::Twist;
 use crate::claims::paper::SectionFour;

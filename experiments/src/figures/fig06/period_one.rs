@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState};
-use bouncing_disk::{CollisionEvent, CollisionState, Collisions, DimensionlessSystem, ForcingParameters};
+use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 
 use super::data::{LagScan, PeriodOne};
 use super::inputs::{Inputs, map, no_orbit};

@@ -2,12 +2,11 @@
 
 use std::f64::consts::PI;
 
+use bouncing_disk::InitialCondition;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::orbits::Followed;
-use bouncing_disk::{
-    ChatteringCycle, DimensionlessSystem, InitialCondition, MultiTossSettings, OrbitClass, TossOrbit,
-    multi_toss,
-};
+use bouncing_disk::parameters::DimensionlessSystem;
+use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
 
 use super::data::{Slice, Twist};
 use super::inputs::{Inputs, Systems};

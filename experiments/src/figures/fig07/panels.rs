@@ -98,7 +98,7 @@ pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrb
 fn chattering(map: &ImpactMap) -> Result<Vec<Spot>, ExperimentError> {
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(Vec::new()) };
     let mut spots = Vec::new();
-    for event in map.orbit_from_launch(Launch::new(leaves, 0.0)?, bouncing_disk::PAPER_CHATTER) {
+    for event in map.orbit_from_launch(Launch::new(leaves, 0.0)?, bouncing_disk::motion::PAPER_CHATTER) {
         match event? {
             OrbitEvent::Impact(impact) => spots.push(spot(impact.into())),
             _ => {

@@ -4,9 +4,9 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-use bouncing_disk::{
-    PlatformParameters, RampFit, Spread, System, TransientEnsemble, TransientSettings, ensemble,
-};
+use bouncing_disk::estimate::{RampFit, Spread, TransientEnsemble};
+use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::{PlatformParameters, System};
 
 use super::{Alike, Exception, Fig10Data, Reading, Transient};
 use crate::claims::paper::{self, STANDARD_GRAVITY};
@@ -48,7 +48,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
         for amplitude_m in amplitudes {
             let motor = MotorCase { amplitude_m, preload_acceleration_m_per_s2: preload, ..case };
             let settings = TransientSettings { duration, intervals: MEMBER_INTERVALS, ..defaults };
-            let runs = ensemble(&motor.system()?, &settings, members, &Unobserved)?;
+            let runs = TransientEnsemble::new(&motor.system()?, &settings, members, &Unobserved)?;
             panels.push(transient(&motor, &runs, section.rotor_mass_kg())?);
             progress.advance(1);
         }
@@ -147,7 +147,7 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
         intervals: MEMBER_INTERVALS,
         ..TransientSettings::default()
     };
-    let runs = ensemble(&motor.system()?, &settings, 1, &Unobserved)?;
+    let runs = TransientEnsemble::new(&motor.system()?, &settings, 1, &Unobserved)?;
     let (curve, fit) = (&runs.curves[0], runs.fits[0]);
     let ramp = RampFit::new(&curve.times, &curve.speeds)?;
     let (lowest, highest) = (end(-1.0)?, end(1.0)?);

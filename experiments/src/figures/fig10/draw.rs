@@ -1,6 +1,6 @@
 //! The drawing of Fig. 10.
 
-use bouncing_disk::ExponentialFit;
+use bouncing_disk::estimate::ExponentialFit;
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Panel, Rect, Text,
     Ticks,

@@ -1,6 +1,7 @@
 //! The computation of Fig. 11.
 
-use bouncing_disk::{Spread, TransientSettings};
+use bouncing_disk::estimate::Spread;
+use bouncing_disk::motor::TransientSettings;
 use rayon::prelude::*;
 
 use super::{

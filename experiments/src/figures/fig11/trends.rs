@@ -130,7 +130,8 @@ pub(super) fn extent(values: &[f64]) -> Option<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk::{ChatteringCycle, Spread};
+    use bouncing_disk::estimate::Spread;
+    use bouncing_disk::toss::ChatteringCycle;
 
     use super::*;
     use crate::figures::motor_case::{Cycle, Form, MotorStatistics};

@@ -3,10 +3,10 @@
 use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase, Unobserved};
-use bouncing_disk::{
-    CollisionEvent, Collisions, Engine, InitialCondition, LONG_FLIGHT, NormalImpulses, PhasedImpulse,
-    RampFit, Trajectory, TransientSettings, transient,
-};
+use bouncing_disk::estimate::RampFit;
+use bouncing_disk::motor::{NormalImpulses, PhasedImpulse, TransientSettings, transient};
+use bouncing_disk::toss::{CollisionEvent, Collisions, LONG_FLIGHT};
+use bouncing_disk::{Engine, InitialCondition, Trajectory};
 use rayon::prelude::*;
 
 use super::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};

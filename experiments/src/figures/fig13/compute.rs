@@ -4,7 +4,8 @@ use bouncing_disk::core::Unobserved;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::{ln, pow};
-use bouncing_disk::{ExponentialFit, NormalImpulses, TransientSettings};
+use bouncing_disk::estimate::ExponentialFit;
+use bouncing_disk::motor::{NormalImpulses, TransientSettings};
 
 use super::sweeps::{cosine_fit, trend_change};
 use super::{

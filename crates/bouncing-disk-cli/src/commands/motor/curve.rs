@@ -1,6 +1,6 @@
 //! `bouncing-disk motor curve`: speed, power and efficiency over the load.
 
-use bouncing_disk::{InputSpread, MotorField, Operation, SweepQuantity};
+use bouncing_disk::motor::{InputSpread, MotorField, Operation, SweepQuantity};
 
 use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
 use crate::commands::prelude::*;

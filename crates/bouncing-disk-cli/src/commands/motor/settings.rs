@@ -1,8 +1,9 @@
 //! How a steady operation is computed, and of which motor.
 
 use crate::commands::prelude::*;
+use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{InputTolerance, Motor, OperatingSettings, Operation};
+use bouncing_disk::motor::{InputTolerance, OperatingSettings, Operation};
 use serde::Serialize;
 
 /// The settings of the library, with its defaults.

@@ -4,10 +4,10 @@ use std::ops::Range as Rows;
 use std::str::FromStr;
 
 use bouncing_disk::core::sweep::PartialResults;
-use bouncing_disk::{
-    Motor, MotorField, MotorSweep, MotorSweepRun, Observer, OperatingSettings, Operation, SweepAxis,
-    SweepQuantity, operations,
+use bouncing_disk::motor::{
+    MotorField, MotorSweep, MotorSweepRun, OperatingSettings, Operation, SweepAxis, SweepQuantity, operations,
 };
+use bouncing_disk::{Motor, Observer};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -3,10 +3,9 @@
 use std::ops::Range as Rows;
 
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::{
-    FitSettings, LEAST_MEMBERS, Motor, Observer, SpeedCurve, TransientEnsemble, TransientFit,
-    TransientMember, TransientSettings, ensemble_members, transients,
-};
+use bouncing_disk::estimate::{FitSettings, LEAST_MEMBERS, TransientEnsemble, TransientFit};
+use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
+use bouncing_disk::{Motor, Observer};
 use serde::{Deserialize, Serialize};
 
 use super::settings::warn;
@@ -94,7 +93,7 @@ impl GridJob for TransientJob {
     }
 
     fn prepare(&self, _: &dyn Observer) -> Result<Vec<TransientMember>, Failure> {
-        Ok(ensemble_members(self.motor.system(), &self.settings, self.members)?)
+        Ok(TransientMember::of_ensemble(self.motor.system(), &self.settings, self.members)?)
     }
 
     fn compute(

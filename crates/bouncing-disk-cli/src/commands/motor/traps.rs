@@ -1,6 +1,6 @@
 //! `bouncing-disk motor traps`: the preloads at which the motor is locked on a short cycle, and its speed there.
 
-use bouncing_disk::{Estimate, LEAST_TRAP_WIDTH, TrapRange};
+use bouncing_disk::motor::{Estimate, LEAST_TRAP_WIDTH, TrapRange};
 
 use super::settings::{OperationArgs, OperationJob, state};
 use crate::commands::prelude::*;

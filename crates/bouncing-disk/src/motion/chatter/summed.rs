@@ -4,10 +4,10 @@ use bouncing_disk_core::chatter::{ChatterSeries, ImpactRange, PowerSeries};
 use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::{Launch, Phase};
 
-use super::Chatter;
+use crate::motion::chatter::Chatter;
 use crate::motion::impact::friction_impact;
+use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
-use crate::motion::sliding::RotaryChange;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Pieces that a chatter can have by the signs of what friction has to spare

@@ -6,7 +6,7 @@ use bouncing_disk_core::numerics::elementary::pow;
 use proptest::prelude::*;
 
 use super::*;
-use crate::PAPER_CUT;
+use crate::motion::PAPER_CUT;
 use crate::parameters::dimensionless::ForcingParameters;
 use crate::testing;
 

@@ -6,8 +6,8 @@ use bouncing_disk_core::Observer;
 use bouncing_disk_core::map::RestitutionLaw;
 use bouncing_disk_core::run::Watch;
 
-use super::Engine;
 use crate::error::{Error, check, room_for};
+use crate::motion::engine::Engine;
 use crate::motion::phase_time::PhaseSpan;
 use crate::motion::state::Snapshot;
 
@@ -33,7 +33,9 @@ impl<L: RestitutionLaw> Engine<L> {
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
-    /// use bouncing_disk::{Engine, InitialCondition, PhaseSpan, System, TOSS_START};
+    /// use bouncing_disk::{Engine, InitialCondition, System};
+    /// use bouncing_disk::motion::PhaseSpan;
+    /// use bouncing_disk::toss::TOSS_START;
     ///
     /// let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
     /// let mut engine = Engine::new(System::pizza_toss(), start, ChatterPolicy::Complete)?;

@@ -359,7 +359,7 @@ fn chatter_sums_agree_with_explicit_bounces() {
     let system = lively();
     let phase = Phase::new(4.0).unwrap();
     let start = InitialCondition::Launch { phase, relative_speed: 0.05, angular_speed: 5.0 };
-    let totals = [ChatterPolicy::Complete, crate::PAPER_CHATTER].map(|policy| {
+    let totals = [ChatterPolicy::Complete, crate::motion::PAPER_CHATTER].map(|policy| {
         let mut totals = (0.0, 0.0, 0.0);
         for record in Engine::new(system, start, policy).unwrap() {
             let record = record.unwrap();
@@ -585,7 +585,7 @@ fn a_platform_that_falls_away_launches_the_disk_at_once() {
 fn motor_flights_close_and_the_angle_does_not_drift() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);
     for amplitude in [1e-9, 1e-8, 1e-7] {
-        for policy in [ChatterPolicy::Complete, crate::PAPER_CHATTER] {
+        for policy in [ChatterPolicy::Complete, crate::motion::PAPER_CHATTER] {
             let system = testing::motor(amplitude, 0.0);
             let start = InitialCondition::Contact { phase: Phase::new(0.0).unwrap(), angular_speed: 0.0 };
             let mut angle = *Engine::new(system, start, policy).unwrap().state();

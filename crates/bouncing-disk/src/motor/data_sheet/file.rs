@@ -1,200 +1,180 @@
-//! Data sheets as text: what JSON and TOML have in common, and the errors that name key and line.
-//!
-//! A format gives the keys with their values and lines (`file/json.rs`, `file/toml.rs`); what they mean is
-//! decided here, once for both.
+//! Data sheets as text: an object of JSON or a table of TOML, whose keys are the fields.
 
-#[cfg(feature = "json")]
-mod json;
-#[cfg(feature = "toml")]
-mod toml;
+use std::collections::BTreeMap;
+use std::fmt;
 
-use std::fmt::{self, Display, Formatter};
+use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::fields::FIELDS;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::motor::data_sheet::nearest::{excerpt, nearest};
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// What can go wrong with the text of a data sheet. Every variant says where; keys are shown as they are
-/// escaped in Rust, so that none can disturb a terminal.
-#[derive(Debug, Clone, PartialEq)]
+/// Why the text of a data sheet gives no motor.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotorFileError {
-    /// The text is not of its format.
-    Syntax {
-        /// The name of the format.
-        format: &'static str,
+    /// The text is not of its format, has a key that is unknown or there twice, or a value that is not a number.
+    #[error("line {line}: {reason}")]
+    Text {
         /// The line, from 1.
         line: usize,
         /// The column, from 1.
         column: usize,
-        /// What the reader of the format reports.
+        /// The message of the reader, without control characters that could disturb a terminal.
         reason: String,
     },
-    /// A key that a data sheet does not have.
-    UnknownKey {
-        /// The key, shortened if it is long.
-        key: String,
-        /// Its line, from 1.
-        line: usize,
-        /// The known key that is most like it; `None` if none is.
-        nearest: Option<&'static str>,
-    },
-    /// A key that is there twice.
-    Repeated {
-        /// The key.
-        key: &'static str,
-        /// The line of the second one, from 1.
-        line: usize,
-        /// The line of the first one.
-        first_line: usize,
-    },
-    /// A value that is no number.
-    NotANumber {
-        /// The key.
-        key: &'static str,
-        /// Its line, from 1.
-        line: usize,
-        /// What is there: "a text".
-        found: &'static str,
-    },
     /// The data sheet can be read, and is not legal.
-    Illegal {
-        /// The line of the key that the error names, from 1; `None` where it is not in the text.
-        line: Option<usize>,
-        /// Why.
-        error: Error,
-    },
+    #[error(transparent)]
+    Illegal(#[from] Error),
 }
 
-impl Display for MotorFileError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Syntax { format, line, column, reason } => {
-                write!(f, "line {line}, column {column}: no {format}: {}", reason.escape_debug())
-            }
-            Self::UnknownKey { key, line, nearest: Some(nearest) } => {
-                write!(f, "line {line}: the key {key:?} is unknown; did you mean \"{nearest}\"?")
-            }
-            Self::UnknownKey { key, line, nearest: None } => {
-                write!(f, "line {line}: the key {key:?} is unknown; the known ones are ")?;
-                FIELDS.iter().enumerate().try_for_each(|(index, field)| {
-                    write!(f, "{}{}", if index > 0 { ", " } else { "" }, field.name)
-                })
-            }
-            Self::Repeated { key, line, first_line } => {
-                write!(f, "line {line}: the key \"{key}\" is there already, in line {first_line}")
-            }
-            Self::NotANumber { key, line, found } => {
-                write!(f, "line {line}: \"{key}\" must be a number, and is {found}")
-            }
-            Self::Illegal { line: Some(line), error } => write!(f, "line {line}: {error}"),
-            Self::Illegal { line: None, error } => error.fmt(f),
-        }
+impl MotorFileError {
+    fn text(line: usize, column: usize, reason: &str) -> Self {
+        Self::Text { line: line.max(1), column: column.max(1), reason: reason.replace(char::is_control, " ") }
     }
 }
 
-impl std::error::Error for MotorFileError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Illegal { error, .. } => Some(error),
-            _ => None,
-        }
+impl Motor {
+    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
+    /// units. `null` is the same as a field that is not there, a byte-order mark before the text is accepted.
+    ///
+    /// ```
+    /// use bouncing_disk::Motor;
+    ///
+    /// let text = Motor::paper_70_khz().to_json().replace("load_torque", "load_torqe");
+    /// let error = Motor::from_json(&text).expect_err("misspelt");
+    /// assert_eq!(error.to_string(), "line 12: the key \"load_torqe\" is unknown; did you mean \"load_torque\"?");
+    /// ```
+    ///
+    /// # Errors
+    /// [`MotorFileError`] for a text that is no such object, keys that are unknown or there twice, values
+    /// that are no numbers, and what [`MotorParameters::build`](crate::motor::MotorParameters::build) refuses.
+    #[cfg(feature = "json")]
+    pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
+        Self::from_json_with(text, &[])
+    }
+
+    /// [`Self::from_json`] of a data sheet with other values in place of some of its own, which are neither
+    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    ///
+    /// # Errors
+    /// As [`Self::from_json`].
+    #[cfg(feature = "json")]
+    pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
+        let mut reader = serde_json::Deserializer::from_str(without_mark(text));
+        let given = reader.deserialize_map(Entries).and_then(|given| reader.end().map(|()| given));
+        let given = given.map_err(|error| {
+            let whole = error.to_string();
+            // The reader appends the place, which has fields of its own here.
+            let place = format!(" at line {} column {}", error.line(), error.column());
+            let reason = whole.strip_suffix(&place).unwrap_or(&whole);
+            MotorFileError::text(error.line(), error.column(), reason)
+        })?;
+        Ok(motor_of(given, changes)?)
+    }
+
+    /// The data sheet as [`Self::from_json`] reads it, one field a line, to the last bit. The units are those
+    /// of [`MotorParameters`](crate::motor::MotorParameters); JSON has no place for them.
+    #[cfg(feature = "json")]
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        let lines: Vec<_> =
+            given(&self.parameters()).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
+        format!("{{\n{}\n}}\n", lines.join(",\n"))
+    }
+
+    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
+    /// units. A byte-order mark before the text is accepted.
+    ///
+    /// # Errors
+    /// As `Motor::from_json`.
+    #[cfg(feature = "toml")]
+    pub fn from_toml(text: &str) -> Result<Self, MotorFileError> {
+        Self::from_toml_with(text, &[])
+    }
+
+    /// [`Self::from_toml`] of a data sheet with other values in place of some of its own, which are neither
+    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    ///
+    /// ```
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::MotorField;
+    ///
+    /// let text = Motor::paper_70_khz().to_toml().replace("friction = 0.1", "friction = -0.1");
+    /// assert!(Motor::from_toml(&text).is_err());
+    /// let motor = Motor::from_toml_with(&text, &[(MotorField::Friction, 0.2)])?;
+    /// assert_eq!(motor.parameters().friction, 0.2);
+    /// # Ok::<(), bouncing_disk::motor::MotorFileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::from_toml`].
+    #[cfg(feature = "toml")]
+    pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
+        let text = without_mark(text);
+        let given = toml::Deserializer::parse(text).and_then(|reader| reader.deserialize_map(Entries));
+        let given = given.map_err(|error| {
+            let place = error.span().map_or(0, |span| span.start);
+            let before = text.get(..place).unwrap_or_default();
+            let begun = before.rsplit('\n').next().unwrap_or_default();
+            let line = before.bytes().filter(|byte| *byte == b'\n').count() + 1;
+            MotorFileError::text(line, begun.chars().count() + 1, error.message())
+        })?;
+        Ok(motor_of(given, changes)?)
+    }
+
+    /// The data sheet as [`Self::from_toml`] reads it, to the last bit, with the units as comments.
+    #[cfg(feature = "toml")]
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        given(&self.parameters())
+            .map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()))
+            .collect()
     }
 }
 
-/// A value of a file.
-#[derive(Debug, Clone, Copy)]
-enum Value {
-    Number(f64),
-    /// Where a format has a word for it.
-    #[cfg_attr(not(feature = "json"), allow(dead_code, reason = "TOML has no null"))]
-    Nothing,
-    /// "a text"
-    Other(&'static str),
+/// The fields that a text names, and their values; `None` for `null`.
+type Given = BTreeMap<MotorField, Option<f64>>;
+
+/// Reads an object, and refuses a key that is there twice.
+struct Entries;
+
+impl<'de> Visitor<'de> for Entries {
+    type Value = Given;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object with the fields of a motor")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Given, A::Error> {
+        let mut given = Given::new();
+        while let Some(field) = map.next_key::<MotorField>()? {
+            if given.contains_key(&field) {
+                return Err(A::Error::custom(format_args!("the key \"{field}\" is there twice")));
+            }
+            given.insert(field, map.next_value()?);
+        }
+        Ok(given)
+    }
 }
 
-/// The motor of these keys and values, each with its line, in the order of the file, and of the `changes`,
-/// which take the place of what the file says before anything is checked.
-fn motor_of(
-    entries: impl Iterator<Item = (String, usize, Value)>,
-    changes: &[(MotorField, f64)],
-) -> Result<Motor, MotorFileError> {
-    let mut lines = [None; FIELDS.len()];
-    let mut given = [false; FIELDS.len()];
-    let mut sheet = EMPTY;
-    for (key, line, value) in entries {
-        let Some(index) = FIELDS.iter().position(|field| field.name == key) else {
-            return Err(MotorFileError::UnknownKey { nearest: nearest(&key), key: excerpt(&key), line });
-        };
-        let field = &FIELDS[index];
-        if let Some(first_line) = lines[index].replace(line) {
-            return Err(MotorFileError::Repeated { key: field.name, line, first_line });
-        }
-        match value {
-            Value::Number(number) => {
-                (field.set)(&mut sheet, number);
-                given[index] = true;
-            }
-            Value::Nothing => {}
-            Value::Other(found) => return Err(MotorFileError::NotANumber { key: field.name, line, found }),
-        }
+/// The motor of a text and of the `changes`, which take the place of what the text says before anything is checked.
+fn motor_of(mut given: Given, changes: &[(MotorField, f64)]) -> Result<Motor, Error> {
+    let mut sheet = MotorParameters::EMPTY;
+    for (field, value) in &given {
+        (field.field().set)(&mut sheet, *value);
     }
     for (field, value) in changes {
         field.set(&mut sheet, *value);
-        // What is illegal of it is not in the file.
-        lines[*field as usize] = None;
-        given[*field as usize] = true;
+        given.insert(*field, Some(*value));
     }
-    let illegal = |error| {
-        let line =
-            named(&error).and_then(|name| lines[FIELDS.iter().position(|field| field.name == name)?]);
-        MotorFileError::Illegal { line, error }
-    };
-    for (field, given) in FIELDS.iter().zip(given) {
-        if field.needed && !given {
-            return Err(illegal(Error::NotGiven { field: field.name }));
+    for field in MotorField::ALL {
+        if field.field().needed && given.get(&field).copied().flatten().is_none() {
+            return Err(Error::NotGiven { field: field.name() });
         }
     }
-    sheet.build().map_err(illegal)
-}
-
-/// A sheet on which nothing is written yet. What is needed and not given is found before anybody sees a NaN.
-const EMPTY: MotorParameters = MotorParameters {
-    drive_frequency: f64::NAN,
-    amplitude: f64::NAN,
-    peak_angular_speed: None,
-    twist_amplitude: None,
-    phase_lag: 0.0,
-    mass: None,
-    density: None,
-    rotor_radius: None,
-    rotor_thickness: None,
-    contact_radius: f64::NAN,
-    gyration_radius: None,
-    preload_force: None,
-    preload_acceleration: None,
-    spring_constant: None,
-    friction: f64::NAN,
-    restitution: f64::NAN,
-    load_torque: 0.0,
-};
-
-/// The field that an error is about, where it is one; of two the second, of several the one that is most
-/// likely wrong.
-fn named(error: &Error) -> Option<&'static str> {
-    match *error {
-        Error::OutOfRange { field: "load" | "load_acceleration" | "torque", .. } => Some("load_torque"),
-        Error::OutOfRange { field, .. } => Some(field),
-        Error::BothGiven { other, .. } => Some(other),
-        // P = A omega^2/g.
-        Error::Core(bouncing_disk_core::Error::OutOfRange { field: "peak_acceleration", .. }) => {
-            Some("amplitude")
-        }
-        _ => None,
-    }
+    sheet.build()
 }
 
 /// The text without a byte-order mark, which some editors put before it.
@@ -202,32 +182,210 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// Finds the lines of places that do not go back, each part of the text read once.
-#[derive(Debug)]
-struct Lines<'a> {
-    text: &'a str,
-    place: usize,
-    line: usize,
-}
-
-impl<'a> Lines<'a> {
-    const fn new(text: &'a str) -> Self {
-        Self { text, place: 0, line: 1 }
-    }
-
-    /// The line of the byte at `place`, from 1.
-    fn at(&mut self, place: usize) -> usize {
-        let between = self.text.as_bytes().get(self.place..place).unwrap_or_default();
-        self.line += between.iter().filter(|byte| **byte == b'\n').count();
-        self.place = self.place.max(place);
-        self.line
-    }
-}
-
-/// What is given in a data sheet, with its units, in the order of the fields.
-fn given(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, f64, &'static str)> {
-    FIELDS.iter().filter_map(|field| Some((field.name, (field.get)(sheet)?, field.unit)))
+/// The fields that a data sheet has, in their order.
+fn given(sheet: &MotorParameters) -> impl Iterator<Item = (MotorField, f64)> {
+    MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(sheet)?)))
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    //! Texts that people and programs write, right and wrong.
+
+    use super::*;
+
+    type Read = fn(&str, &[(MotorField, f64)]) -> Result<Motor, MotorFileError>;
+    type Write = fn(&[(&str, &str)]) -> String;
+
+    /// Both formats: how a text is read, and how lines are written.
+    fn formats() -> Vec<(Read, Write)> {
+        vec![
+            #[cfg(feature = "json")]
+            (Motor::from_json_with, |lines| {
+                let lines: Vec<_> = lines.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+                format!("{{\n{}\n}}", lines.join(",\n"))
+            }),
+            #[cfg(feature = "toml")]
+            (Motor::from_toml_with, |lines| {
+                let lines = lines.iter().map(|(key, value)| format!("\"{key}\" = {value}\n"));
+                format!("# A motor.\n{}", lines.collect::<String>())
+            }),
+        ]
+    }
+
+    const LINES: [(&str, &str); 9] = [
+        ("drive_frequency", "40e3"),
+        ("amplitude", "5e-7"),
+        ("peak_angular_speed", "12"),
+        ("mass", "0.02"),
+        ("contact_radius", "1.25e-3"),
+        ("gyration_radius", "6.3e-3"),
+        ("preload_force", "5"),
+        ("friction", "0.1"),
+        ("restitution", "0.5"),
+    ];
+
+    #[test]
+    fn faults_are_told_with_key_and_line() {
+        for (read, write) in formats() {
+            let motor = read(&write(&LINES), &[]).expect("legal");
+            assert!((motor.preload_acceleration() - 250.0).abs() < 1e-12);
+            assert_eq!((motor.load_torque(), motor.parameters().phase_lag), (0.0, 0.0));
+            for text in [
+                format!("\u{feff}{}", write(&LINES)),
+                write(&LINES).replace('\n', "\r\n"),
+                format!("\n\n{}\n", write(&LINES)),
+            ] {
+                assert_eq!(read(&text, &[]), Ok(motor), "{text:?}");
+            }
+            let replaced = |key: &str, with: (&'static str, &'static str)| {
+                let changed = LINES.map(|line| if line.0 == key { with } else { line });
+                let error = read(&write(&changed), &[]).expect_err(with.0);
+                let line = LINES.iter().position(|line| line.0 == key).expect("there") + 2;
+                (error.clone(), error.to_string(), format!("line {line}: "))
+            };
+            // A fault of the text has its line, and the key or the value.
+            for (key, with, told) in [
+                ("contact_radius", ("contact_radus", "1"), "did you mean \"contact_radius\"?"),
+                ("friction", ("colour", "1"), "\"colour\" is unknown; the known ones are drive_frequency"),
+                ("friction", ("friction", "\"0.1\""), "0.1"),
+                ("friction", ("friction", "true"), "true"),
+                ("friction", ("friction", "[0.1]"), ""),
+                ("friction", ("mass", "1"), ""),
+                // A key that would colour a terminal.
+                ("friction", ("\\u001b[31m", "1"), "unknown"),
+            ] {
+                let (error, text, line) = replaced(key, with);
+                assert!(matches!(error, MotorFileError::Text { .. }), "{error:?}");
+                assert!(text.starts_with(&line) && text.contains(told), "{text} {line}");
+                assert!(!text.contains('\u{1b}'), "{text:?}");
+            }
+            for value in ["-1", "-1e-320", "0"] {
+                let (error, text, _) = replaced("mass", ("mass", value));
+                let named = matches!(error, MotorFileError::Illegal(Error::OutOfRange { field: "mass", .. }));
+                assert!(named && text.starts_with("mass = "), "{text}");
+            }
+            for index in 0..LINES.len() {
+                let mut less = LINES.to_vec();
+                let (key, _) = less.remove(index);
+                let error = read(&write(&less), &[]).expect_err(key);
+                assert!(
+                    matches!(error, MotorFileError::Illegal(_)) && error.to_string().contains(key),
+                    "{error}"
+                );
+            }
+            let both = Error::BothGiven { one: "preload_force", other: "preload_acceleration" };
+            let more = [&LINES[..], &[("preload_acceleration", "250")]].concat();
+            assert_eq!(read(&write(&more), &[]), Err(both.into()));
+        }
+    }
+
+    /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of two.
+    #[test]
+    fn changes_come_before_the_checks() {
+        for (read, write) in formats() {
+            let motor = read(&write(&LINES), &[]).expect("legal");
+            let with = |friction: &'static str| {
+                LINES.map(|line| if line.0 == "friction" { ("friction", friction) } else { line })
+            };
+            let change = (MotorField::Friction, 0.1);
+            assert_eq!(read(&write(&with("-1")), &[change]), Ok(motor));
+            let missing: Vec<_> = LINES.into_iter().filter(|(name, _)| *name != "friction").collect();
+            assert_eq!(read(&write(&missing), &[change]), Ok(motor));
+            // Of the several changes of a field the last one counts.
+            assert_eq!(read(&write(&with("0.5")), &[(MotorField::Friction, -7.0), change]), Ok(motor));
+            // Two alternatives, of which one is set again.
+            let both = [&with("0.3")[..], &[("preload_acceleration", "250")]].concat();
+            assert!(read(&write(&both), &[]).is_err());
+            let expected = motor.with(|sheet| MotorField::PreloadForce.set(sheet, 0.4));
+            let set = [(MotorField::PreloadForce, 0.4), change];
+            assert_eq!(read(&write(&both), &set).ok(), expected.ok());
+            for (text, change) in
+                [("0.3", (MotorField::Friction, -1.0)), ("-1", (MotorField::Amplitude, 1e-8))]
+            {
+                let error = read(&write(&with(text)), &[change]).expect_err("negative");
+                let named =
+                    matches!(error, MotorFileError::Illegal(Error::OutOfRange { field: "friction", .. }));
+                assert!(named, "{error}");
+            }
+            assert!(read("}", &[change]).is_err());
+        }
+    }
+
+    #[cfg(feature = "json")]
+    #[test]
+    fn every_number_of_json_is_judged() {
+        for (text, expected) in
+            [("", (1, 1)), ("{\n\"mass\": }", (2, 9)), ("[1, 2]", (1, 1)), ("{} x", (1, 4))]
+        {
+            let error = Motor::from_json(text).expect_err(text);
+            let MotorFileError::Text { line, column, ref reason } = error else { panic!("{text}: {error}") };
+            assert_eq!((line, column), expected, "{text}: {error}");
+            assert!(!reason.contains("at line"), "{error}");
+        }
+        let deep = format!("{{\"mass\": {}1{}}}", "[".repeat(100_000), "]".repeat(100_000));
+        for text in [
+            "null",
+            "1",
+            "\"mass\"",
+            "{\"mass\": 01}",
+            "{\"mass\": NaN}",
+            "{mass: 1}",
+            "{\"mass\": 1,}",
+            deep.as_str(),
+        ] {
+            assert!(matches!(Motor::from_json(text), Err(MotorFileError::Text { .. })));
+        }
+        let (motor, text) = (Motor::paper_70_khz(), Motor::paper_70_khz().to_json());
+        let with = |from: &str, to: &str| {
+            assert!(text.contains(from));
+            Motor::from_json(&text.replace(from, to))
+        };
+        // Numbers that no double holds, from both ends, and nothing in their place.
+        let error = with("\"load_torque\": 0.0", "\"load_torque\": 1e999").expect_err("infinite").to_string();
+        assert!(error.starts_with("line 12: "), "{error}");
+        for value in ["\"load_torque\": 1e-999", "\"load_torque\": null", "\"rotor_radius\": null"] {
+            assert_eq!(with("\"load_torque\": 0.0", value), Ok(motor));
+        }
+        let error = with("\"friction\": 0.1", "\"friction\": null");
+        assert_eq!(error, Err(Error::NotGiven { field: "friction" }.into()));
+        // Escapes in a key are letters like others.
+        assert_eq!(with("\"friction\"", "\"\\u0066riction\""), Ok(motor));
+        let long = with("\"friction\"", &format!("\"{}\"", "friction".repeat(1_000)));
+        assert!(long.expect_err("unknown").to_string().len() < 600);
+    }
+
+    #[cfg(feature = "toml")]
+    #[test]
+    fn every_number_of_toml_is_judged() {
+        let (motor, text) = (Motor::paper_70_khz(), Motor::paper_70_khz().to_toml());
+        assert!(text.contains("drive_frequency = 70000.0 # Hz\n"), "{text}");
+        for form in ["70_000", "70_000.0", "7e4", "+70000", "0x11170", "70e3"] {
+            assert_eq!(Motor::from_toml(&text.replace("70000.0", form)), Ok(motor), "{form}");
+        }
+        for form in [
+            "nan",
+            "inf",
+            "-inf",
+            "1e999",
+            "0",
+            "-0x1",
+            "2009-11-23",
+            "{ Hz = 7 }",
+            "'70'",
+            "7,0",
+            "7.0.0",
+            "",
+        ] {
+            assert!(Motor::from_toml(&text.replace("70000.0", form)).is_err(), "{form}");
+        }
+        for (from, to) in [("phase_lag", "friction"), ("friction = 0.1", "friction")] {
+            let changed = text.replace(from, to);
+            let error = Motor::from_toml(&changed).expect_err(to);
+            let MotorFileError::Text { line, .. } = error else { panic!("{to}: {error}") };
+            assert!(changed.lines().nth(line - 1).expect("there").contains("friction"), "{to}: {error}");
+        }
+        assert_eq!(Motor::from_toml(""), Err(Error::NotGiven { field: "drive_frequency" }.into()));
+        let error = Motor::from_toml(&format!("{text}[motor]\n")).expect_err("a table").to_string();
+        assert!(error.contains("\"motor\""), "{error}");
+    }
+}

@@ -1,11 +1,7 @@
-//! What a data sheet says, and how it becomes a system.
+//! What a data sheet says.
 
-use std::f64::consts::{PI, SQRT_2, TAU};
+use std::f64::consts::TAU;
 
-use crate::error::{Error, check, finite, not_negative, positive, restitution};
-use crate::motor::data_sheet::Motor;
-use crate::parameters::disk::DiskParameters;
-use crate::parameters::platform::PlatformParameters;
 use crate::parameters::system::System;
 
 /// The data sheet of a motor, not yet checked. Alternatives are optional; of each pair exactly one is given:
@@ -67,31 +63,35 @@ pub struct MotorParameters {
     pub load_torque: f64,
 }
 
-/// Which of two alternatives is given.
-enum Alternative {
-    One(f64),
-    Other(f64),
-}
-
-fn one_of(
-    one: (&'static str, Option<f64>),
-    other: (&'static str, Option<f64>),
-) -> Result<Alternative, Error> {
-    match (one.1, other.1) {
-        (Some(value), None) => Ok(Alternative::One(value)),
-        (None, Some(value)) => Ok(Alternative::Other(value)),
-        (None, None) => Err(Error::NeitherGiven { one: one.0, other: other.0 }),
-        (Some(_), Some(_)) => Err(Error::BothGiven { one: one.0, other: other.0 }),
-    }
-}
-
 impl MotorParameters {
+    /// A sheet without a number. A needed one that stays NaN is refused before anybody sees it.
+    pub(crate) const EMPTY: Self = Self {
+        drive_frequency: f64::NAN,
+        amplitude: f64::NAN,
+        peak_angular_speed: None,
+        twist_amplitude: None,
+        phase_lag: 0.0,
+        mass: None,
+        density: None,
+        rotor_radius: None,
+        rotor_thickness: None,
+        contact_radius: f64::NAN,
+        gyration_radius: None,
+        preload_force: None,
+        preload_acceleration: None,
+        spring_constant: None,
+        friction: f64::NAN,
+        restitution: f64::NAN,
+        load_torque: 0.0,
+    };
+
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload acceleration of the
     /// system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The frequency omega/(2 pi) is
     /// rounded, so that the angular frequency of the motor may differ in the last bit.
     ///
     /// ```
-    /// use bouncing_disk::{MotorParameters, System};
+    /// use bouncing_disk::System;
+    /// use bouncing_disk::motor::MotorParameters;
     ///
     /// let motor = MotorParameters::of_system(&System::motor(), 1e-3).build()?;
     /// assert!((motor.parameters().drive_frequency - 70e3).abs() < 1e-10);
@@ -105,134 +105,16 @@ impl MotorParameters {
         Self {
             drive_frequency: platform.angular_frequency() / TAU,
             amplitude: platform.amplitude(),
-            peak_angular_speed: None,
             twist_amplitude: Some(platform.twist_amplitude()),
             phase_lag: platform.phase_lag(),
             mass: Some(mass),
-            density: None,
-            rotor_radius: None,
-            rotor_thickness: None,
             contact_radius: disk.contact_radius(),
             gyration_radius: Some(gyration_radius),
-            preload_force: None,
             preload_acceleration: Some(disk.preload_acceleration()),
-            spring_constant: None,
             friction: disk.friction(),
             restitution: disk.restitution(),
             load_torque: disk.load_acceleration() * (mass * gyration_radius * gyration_radius),
-        }
-    }
-
-    /// Checks the ranges and the alternatives.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] names the field, its value and its legal range; [`Error::NeitherGiven`] and
-    /// [`Error::BothGiven`] name two fields of which exactly one is needed, [`Error::NotGiven`] the radius or
-    /// thickness that a density needs. Those of [`System::new`] if the combination is out of range.
-    pub fn build(self) -> Result<Motor, Error> {
-        self.check_ranges()?;
-        let angular_frequency = TAU * self.drive_frequency;
-        check(
-            angular_frequency.is_normal(),
-            "drive_frequency",
-            self.drive_frequency,
-            "[3.6e-309, 2.8e307] (Hz)",
-        )?;
-        let twist = one_of(
-            ("peak_angular_speed", self.peak_angular_speed),
-            ("twist_amplitude", self.twist_amplitude),
-        )?;
-        let twist_amplitude = match twist {
-            Alternative::One(speed) => speed / angular_frequency,
-            Alternative::Other(amplitude) => amplitude,
-        };
-        let mass = self.rotor_mass()?;
-        let gyration_radius = match (self.gyration_radius, self.rotor_radius) {
-            (Some(gyration), _) => gyration,
-            (None, Some(radius)) => radius / SQRT_2,
-            (None, None) => {
-                return Err(Error::NeitherGiven { one: "gyration_radius", other: "rotor_radius" });
-            }
-        };
-        let preload = one_of(
-            ("preload_force", self.preload_force),
-            ("preload_acceleration", self.preload_acceleration),
-        )?;
-        let preload_acceleration = match preload {
-            Alternative::One(force) => {
-                let acceleration = force / mass;
-                positive("preload_acceleration = preload_force/mass", acceleration)?
-            }
-            Alternative::Other(acceleration) => acceleration,
-        };
-        let force = mass * preload_acceleration;
-        check(force.is_normal(), "preload_force = mass*preload_acceleration", force, "normal (N)")?;
-        let stator = PlatformParameters {
-            amplitude: self.amplitude,
-            twist_amplitude,
-            angular_frequency,
-            phase_lag: self.phase_lag,
-        };
-        let rotor = DiskParameters {
-            contact_radius: self.contact_radius,
-            gyration_radius,
-            friction: self.friction,
-            restitution: self.restitution,
-            preload_acceleration,
-            load_acceleration: 0.0,
-        };
-        let rotor = rotor.with_load_torque(self.load_torque, mass)?;
-        let system = System::new(stator.build()?, rotor.build()?)?;
-        Ok(Motor { parameters: self, system, mass })
-    }
-
-    /// Checks each field by itself.
-    fn check_ranges(&self) -> Result<(), Error> {
-        positive("drive_frequency", self.drive_frequency)?;
-        not_negative("amplitude", self.amplitude)?;
-        finite("phase_lag", self.phase_lag)?;
-        positive("contact_radius", self.contact_radius)?;
-        not_negative("friction", self.friction)?;
-        restitution(self.restitution)?;
-        finite("load_torque", self.load_torque)?;
-        for (field, value) in
-            [("peak_angular_speed", self.peak_angular_speed), ("twist_amplitude", self.twist_amplitude)]
-        {
-            value.map(|value| not_negative(field, value)).transpose()?;
-        }
-        for (field, value) in [
-            ("mass", self.mass),
-            ("density", self.density),
-            ("rotor_radius", self.rotor_radius),
-            ("rotor_thickness", self.rotor_thickness),
-            ("gyration_radius", self.gyration_radius),
-            ("preload_force", self.preload_force),
-            ("preload_acceleration", self.preload_acceleration),
-            ("spring_constant", self.spring_constant),
-        ] {
-            value.map(|value| positive(field, value)).transpose()?;
-        }
-        Ok(())
-    }
-
-    /// The mass (kg), given or that of a solid disc. A thickness that nothing would read is refused.
-    fn rotor_mass(&self) -> Result<f64, Error> {
-        match one_of(("mass", self.mass), ("density", self.density))? {
-            Alternative::One(_) if self.rotor_thickness.is_some() => {
-                Err(Error::BothGiven { one: "mass", other: "rotor_thickness" })
-            }
-            Alternative::One(mass) => Ok(mass),
-            Alternative::Other(density) => {
-                let radius = self.rotor_radius.ok_or(Error::NotGiven { field: "rotor_radius" })?;
-                let thickness = self.rotor_thickness.ok_or(Error::NotGiven { field: "rotor_thickness" })?;
-                let mass = density * PI * radius * radius * thickness;
-                check(
-                    mass.is_normal(),
-                    "mass = density*pi*rotor_radius^2*rotor_thickness",
-                    mass,
-                    "[2.3e-308, 1.7e308] (kg)",
-                )
-            }
+            ..Self::EMPTY
         }
     }
 }

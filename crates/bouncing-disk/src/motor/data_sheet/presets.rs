@@ -22,20 +22,13 @@ fn table_iii(drive_frequency: f64) -> Motor {
         drive_frequency,
         amplitude: STATOR_AMPLITUDE,
         peak_angular_speed: Some(STATOR_SPEED),
-        twist_amplitude: None,
-        phase_lag: 0.0,
         mass: Some(STEEL_DENSITY * PI * BALL_DIAMETER * BALL_DIAMETER * BALL_DIAMETER / 6.0),
-        density: None,
-        rotor_radius: None,
-        rotor_thickness: None,
         contact_radius: ROTOR.contact_radius,
         gyration_radius: Some(ROTOR.gyration_radius),
-        preload_force: None,
         preload_acceleration: Some(ROTOR.preload_acceleration),
-        spring_constant: None,
         friction: ROTOR.friction,
         restitution: ROTOR.restitution,
-        load_torque: 0.0,
+        ..MotorParameters::EMPTY
     }
     .build()
     .expect("the values of Table III are legal, which a test shows")

@@ -13,10 +13,10 @@ use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Observer, OrbitEvent,
 use crate::display::rough;
 use crate::error::Error;
 use crate::motion::initial_condition::InitialCondition;
-use crate::motor::statistics::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
-use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
+use crate::toss::chattering_cycle::{EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
 use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
 use crate::toss::single::TOSS_START;
 
@@ -168,7 +168,7 @@ impl Seen {
 }
 
 /// The regime, and the mean number of the stator's periods in a long flight.
-pub(super) fn regime(
+pub(crate) fn regime(
     system: &DimensionlessSystem,
     observer: &dyn Observer,
 ) -> Result<(MotorRegime, Option<f64>), Error> {

@@ -4,10 +4,9 @@ use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::Observer;
 
-use crate::display::rough;
+use crate::display::{number, rough};
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::facts::{Facts, write_warnings};
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 
@@ -49,23 +48,16 @@ impl Motor {
     /// Those of the core, for a flight that lasts longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         let (regime, periods_per_flight) = regime(self.system().dimensionless(), observer)?;
-        let Facts {
-            axial_forcing,
-            angular_forcing,
-            peak_acceleration,
-            largest_torque,
-            static_deflection,
-            preload_change_bound,
-        } = Facts::of(self);
+        let system = self.system();
         Ok(MotorReport {
-            axial_forcing,
-            angular_forcing,
-            peak_acceleration,
+            axial_forcing: system.axial_forcing(),
+            angular_forcing: system.angular_forcing(),
+            peak_acceleration: system.peak_acceleration(),
             regime,
             periods_per_flight,
-            largest_torque,
-            static_deflection,
-            preload_change_bound,
+            largest_torque: self.largest_torque(),
+            static_deflection: self.static_deflection(),
+            preload_change_bound: self.preload_change_bound(),
             warnings: self.warnings(),
         })
     }
@@ -74,20 +66,52 @@ impl Motor {
 /// Several lines, without a line end after the last one.
 impl Display for MotorReport {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let facts = Facts {
-            axial_forcing: self.axial_forcing,
-            angular_forcing: self.angular_forcing,
-            peak_acceleration: self.peak_acceleration,
-            largest_torque: self.largest_torque,
-            static_deflection: self.static_deflection,
-            preload_change_bound: self.preload_change_bound,
-        };
-        facts.write_forcing(f)?;
+        write_forcing(f, self.axial_forcing, self.angular_forcing, self.peak_acceleration)?;
         write!(f, "\nregime: {}", self.regime)?;
         if let Some(periods) = self.periods_per_flight {
             write!(f, "\na flight lasts {} periods in the mean", rough(periods))?;
         }
-        facts.write_rest(f)?;
+        write_torque_and_spring(f, self.largest_torque, self.static_deflection, self.preload_change_bound)?;
         write_warnings(f, &self.warnings)
     }
+}
+
+/// Several lines, without a line end after the last one.
+impl Display for Motor {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let system = self.system();
+        write_forcing(f, system.axial_forcing(), system.angular_forcing(), system.peak_acceleration())?;
+        let (deflection, bound) = (self.static_deflection(), self.preload_change_bound());
+        write_torque_and_spring(f, self.largest_torque(), deflection, bound)?;
+        write_warnings(f, &self.warnings())
+    }
+}
+
+/// The forcing parameters, on one line.
+fn write_forcing(f: &mut Formatter<'_>, axial: f64, angular: Option<f64>, peak: f64) -> fmt::Result {
+    let angular = angular.map_or("infinite (no friction)".to_owned(), |forcing| number(forcing).to_string());
+    write!(f, "Gamma = {}, Gamma_T = {angular}, P = {} g", number(axial), number(peak))
+}
+
+/// Torque and spring, on lines of their own.
+fn write_torque_and_spring(
+    f: &mut Formatter<'_>,
+    largest_torque: f64,
+    static_deflection: Option<f64>,
+    preload_change_bound: Option<f64>,
+) -> fmt::Result {
+    write!(f, "\nlargest torque mu m g a_e = {} N m", number(largest_torque))?;
+    if let Some(deflection) = static_deflection {
+        write!(f, "\nstatic deflection of the spring = {} m", number(deflection))?;
+    }
+    if let Some(bound) = preload_change_bound {
+        let change = rough(100.0 * bound);
+        write!(f, "\nthe preload is kept constant; in a flight it changes by at most {change} %")?;
+    }
+    Ok(())
+}
+
+/// Each warning on a line of its own.
+fn write_warnings(f: &mut Formatter<'_>, warnings: &[MotorWarning]) -> fmt::Result {
+    warnings.iter().try_for_each(|warning| write!(f, "\nwarning: {warning}"))
 }

@@ -8,13 +8,13 @@ use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::{ImpactMap, ImpactState, Launch, Progress, Unobserved, Vibration};
 use proptest::prelude::*;
 
-use super::fields::FIELDS;
 use super::*;
+use crate::estimate::ensemble::TransientEnsemble;
+use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
-use crate::motor::ensemble::ensemble;
-use crate::motor::measured_speeds::{MeasuredRun, MeasuredSpeeds};
-use crate::motor::transient::TransientSettings;
+use crate::motor::rotor::transient::TransientSettings;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 
 /// A motor with many traps: 40 kHz, 0.5 um, 20 g, 5 N, 12 rad/s, 30 degrees.
@@ -146,7 +146,7 @@ fn every_field_is_checked_at_every_seam() {
         ["twist_speed", "moment of inertia", "load", "load_acceleration", "friction", "twist_amplitude"];
     for base in [designers(), disc()] {
         let motor = base.build().expect("legal");
-        for field in FIELDS.iter().filter(|field| (field.get)(&base).is_some()) {
+        for field in MotorField::ALL.into_iter().filter(|field| field.value(&base).is_some()) {
             for value in [
                 f64::NAN,
                 f64::INFINITY,
@@ -162,10 +162,10 @@ fn every_field_is_checked_at_every_seam() {
                 1e160,
                 f64::MAX,
             ] {
-                let place = format!("{} = {value:e}", field.name);
-                match motor.with(|sheet| set(sheet, field.name, value)) {
+                let place = format!("{field} = {value:e}");
+                match motor.with(|sheet| field.set(sheet, value)) {
                     Err(Error::OutOfRange { field: named, .. }) => {
-                        let derived = named.contains(field.name)
+                        let derived = named.contains(field.name())
                             || named.starts_with("unit of")
                             || COMBINED.contains(&named);
                         assert!(derived, "{place}: {named}");
@@ -183,37 +183,9 @@ fn every_field_is_checked_at_every_seam() {
                     }
                 }
             }
-            let negative = motor.with(|sheet| set(sheet, field.name, -1.0));
-            assert_eq!(
-                negative.is_ok(),
-                ["phase_lag", "load_torque"].contains(&field.name),
-                "{}",
-                field.name
-            );
+            let negative = motor.with(|sheet| field.set(sheet, -1.0));
+            assert_eq!(negative.is_ok(), ["phase_lag", "load_torque"].contains(&field.name()), "{field}");
         }
-    }
-}
-
-fn set(sheet: &mut MotorParameters, name: &str, value: f64) {
-    match name {
-        "drive_frequency" => sheet.drive_frequency = value,
-        "amplitude" => sheet.amplitude = value,
-        "peak_angular_speed" => sheet.peak_angular_speed = Some(value),
-        "twist_amplitude" => sheet.twist_amplitude = Some(value),
-        "phase_lag" => sheet.phase_lag = value,
-        "mass" => sheet.mass = Some(value),
-        "density" => sheet.density = Some(value),
-        "rotor_radius" => sheet.rotor_radius = Some(value),
-        "rotor_thickness" => sheet.rotor_thickness = Some(value),
-        "contact_radius" => sheet.contact_radius = value,
-        "gyration_radius" => sheet.gyration_radius = Some(value),
-        "preload_force" => sheet.preload_force = Some(value),
-        "preload_acceleration" => sheet.preload_acceleration = Some(value),
-        "spring_constant" => sheet.spring_constant = Some(value),
-        "friction" => sheet.friction = value,
-        "restitution" => sheet.restitution = value,
-        "load_torque" => sheet.load_torque = value,
-        other => panic!("{other} is no field"),
     }
 }
 
@@ -408,7 +380,7 @@ fn the_paper_s_motor_rests_as_often_as_its_ensemble() {
         panic!("{:?}", motor.report(&Unobserved))
     };
     let settings = TransientSettings { duration: 5.0, intervals: 10, ..TransientSettings::default() };
-    let runs = ensemble(motor.system(), &settings, 8, &Unobserved).expect("no failure");
+    let runs = TransientEnsemble::new(motor.system(), &settings, 8, &Unobserved).expect("no failure");
     let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
     let expected = 8.0 * 5.0 * 70e3 / separations as f64;
     // Waiting times scatter by about their mean.

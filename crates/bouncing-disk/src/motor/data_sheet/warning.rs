@@ -4,14 +4,10 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::fields::{FIELDS, Field};
-use crate::motor::measured_speeds::MeasuredSpeeds;
+use crate::motor::data_sheet::motor_field::{Field, MotorField};
 
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;
-
-/// A measurement this many times above or below what the drive gives is in another unit.
-const OTHER_SCALE: f64 = 100.0;
 
 /// A bound on the change of the preload above this is told.
 const LARGEST_CHANGE: f64 = 0.01;
@@ -131,9 +127,9 @@ impl Motor {
     #[must_use]
     pub fn warnings(&self) -> Vec<MotorWarning> {
         let sheet = self.parameters();
-        let mut warnings: Vec<_> = FIELDS
-            .iter()
-            .filter_map(|field| (field.get)(&sheet).and_then(|value| of_field(field, value)))
+        let mut warnings: Vec<_> = MotorField::ALL
+            .into_iter()
+            .filter_map(|field| of_field(field.field(), field.value(&sheet)?))
             .collect();
         if let Some(rotor_radius) = sheet.rotor_radius {
             let disk = self.system().disk();
@@ -152,30 +148,6 @@ impl Motor {
         }
         let changes = self.preload_change_bound().filter(|bound| *bound > LARGEST_CHANGE);
         warnings.extend(changes.map(|bound| MotorWarning::PreloadChanges { bound }));
-        warnings
-    }
-
-    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed against
-    /// omega Phi, and the time from the first row to half of it against the shortest rise
-    /// ([`System::rise_time`](crate::System::rise_time)).
-    #[must_use]
-    pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {
-        let system = self.system();
-        let mut warnings = Vec::new();
-        for run in speeds.runs() {
-            let fastest = run.speeds.iter().fold(0.0, |most: f64, speed| most.max(speed.abs()));
-            let half = run.speeds.iter().position(|speed| speed.abs() >= 0.5 * fastest);
-            let rise = half.map_or(0.0, |row| run.times[row] - run.times[0]);
-            for (measured, drive, unit) in
-                [(fastest, system.platform().peak_angular_speed(), "rad/s"), (rise, system.rise_time(), "s")]
-            {
-                // Nothing measured, and a stator that does not twist, are no unit.
-                let ratio = measured / drive;
-                if ratio > 0.0 && ratio.is_finite() && !(1.0 / OTHER_SCALE..=OTHER_SCALE).contains(&ratio) {
-                    warnings.push(MotorWarning::OtherScale { measured, drive, unit });
-                }
-            }
-        }
         warnings
     }
 }

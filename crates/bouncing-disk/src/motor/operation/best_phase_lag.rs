@@ -5,10 +5,10 @@ use std::f64::consts::{PI, TAU};
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
-use super::ensemble::{LoadedMotor, Operations, operate};
-use super::point::Estimate;
-use super::settings::OperatingSettings;
 use crate::error::Error;
+use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate};
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
 
 /// Lags around the whole circle.
 const COARSE: usize = 32;
@@ -18,8 +18,7 @@ const FINE: usize = 16;
 
 /// The phase lag at which a motor turns fastest forwards, under its load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BestPhaseLag {
     /// The lag theta (rad), in (-pi, pi]. The other direction is best half a circle away.
     pub phase_lag: Estimate,

@@ -2,22 +2,22 @@
 
 use bouncing_disk_core::sweep::LaneLoop;
 
-use crate::motor::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
+use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 
 /// What the rotors of a row have turned, got and lost since the window began.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Energies {
+pub(crate) struct Energies {
     /// Angle turned in flights.
-    pub(super) angle: Row,
+    pub(crate) angle: Row,
     /// Work of the platform by friction, and loss in it, in impacts.
-    pub(super) work: Row,
-    pub(super) loss: Row,
+    pub(crate) work: Row,
+    pub(crate) loss: Row,
 }
 
 /// Carries all rotors through a flight and the impact that ends it.
-pub(super) struct CarryAll<'a> {
-    pub(super) impact: SharedImpact,
-    pub(super) rows: &'a mut [RotorRows<Energies>],
+pub(crate) struct CarryAll<'a> {
+    pub(crate) impact: SharedImpact,
+    pub(crate) rows: &'a mut [RotorRows<Energies>],
 }
 
 impl LaneLoop for CarryAll<'_> {

@@ -5,12 +5,13 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::run::Watch;
 
-use super::member::{AxialWindow, Member, RotorWindow, Window, far_above};
-use super::point::{Estimate, OperatingPoint, Operation, Shortfall};
-use super::settings::OperatingSettings;
-use super::settling::{left_out, shortfall};
 use crate::error::{Error, positive, within_limit};
-use crate::motor::shared_orbit::shared_by;
+use crate::motor::batch::shared_orbit::shared_by;
+use crate::motor::operation::member::{Member, far_above};
+use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::settling::{left_out, shortfall};
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 

@@ -8,9 +8,6 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
-use super::energy_rows::{CarryAll, Energies};
-use super::no_lift_off::Lying;
-use super::settings::OperatingSettings;
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
@@ -19,90 +16,26 @@ use crate::motion::impact::{axial_impulse, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::{DiskState, Mode};
-use crate::motor::ensemble::starting_phase;
-use crate::motor::rotor_rows::{RotorRows, SharedImpact, WIDTH};
-use crate::motor::shared_orbit::vertical::VerticalMotion;
-use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::batch::members::starting_phase;
+use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
+use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
+use crate::motor::operation::energy_rows::{CarryAll, Energies};
+use crate::motor::operation::no_lift_off::Lying;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
-
-/// What a rotor did in a window of time, without units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct RotorWindow {
-    /// Angle turned.
-    pub(super) angle: f64,
-    /// Work of the platform by friction, and loss in it.
-    pub(super) friction_work: f64,
-    pub(super) friction_loss: f64,
-    /// Work done against the load.
-    pub(super) load_work: f64,
-    /// Change of the kinetic energy.
-    pub(super) kinetic_change: f64,
-}
-
-/// What all rotors share in a window of time, without units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct AxialWindow {
-    /// Duration (rad).
-    pub(super) duration: f64,
-    /// Work of the platform by normal forces.
-    pub(super) normal_work: f64,
-    /// What the perturbations of the relaunches have given.
-    pub(super) perturbation_work: f64,
-    pub(super) restitution_loss: f64,
-    /// Change of the kinetic and potential energy.
-    pub(super) energy_change: f64,
-    /// Impacts; periods of rotors that never bounce.
-    pub(super) impacts: u64,
-}
-
-/// A window of time.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Window {
-    pub(super) axial: AxialWindow,
-    pub(super) rotors: Vec<RotorWindow>,
-}
-
-impl RotorWindow {
-    pub(super) fn add(&mut self, next: &Self) {
-        self.angle += next.angle;
-        self.friction_work += next.friction_work;
-        self.friction_loss += next.friction_loss;
-        self.load_work += next.load_work;
-        self.kinetic_change += next.kinetic_change;
-    }
-}
-
-impl AxialWindow {
-    pub(super) fn add(&mut self, next: &Self) {
-        self.duration += next.duration;
-        self.normal_work += next.normal_work;
-        self.perturbation_work += next.perturbation_work;
-        self.restitution_loss += next.restitution_loss;
-        self.energy_change += next.energy_change;
-        self.impacts += next.impacts;
-    }
-}
-
-impl Window {
-    /// This window and the one that follows it as one.
-    pub(super) fn add(&mut self, next: &Self) {
-        self.axial.add(&next.axial);
-        for (rotor, next) in self.rotors.iter_mut().zip(&next.rotors) {
-            rotor.add(next);
-        }
-    }
-}
 
 /// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and what friction
 /// brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
-pub(super) fn far_above(system: &DimensionlessSystem) -> f64 {
+pub(crate) fn far_above(system: &DimensionlessSystem) -> f64 {
     let friction = system.friction();
     if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
 }
 
 /// A member of the ensemble: it starts at a phase and with a stream of random numbers of its own.
 #[derive(Debug)]
-pub(super) enum Member {
+pub(crate) enum Member {
     /// The platform throws the rotors up.
     Bouncing(Box<Bouncing>),
     /// It never does: each rotor moves by itself.
@@ -113,7 +46,7 @@ impl Member {
     /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have two rotors,
     /// one from far below all steady speeds and one, behind those of all systems, from as far above; the others start
     /// at rest.
-    pub(super) fn new(
+    pub(crate) fn new(
         systems: &[DimensionlessSystem],
         bracketed: usize,
         index: usize,
@@ -155,7 +88,7 @@ impl Member {
 
     /// The next window: of `duration` rad at least, and of a number of impacts in a range, whatever the
     /// duration; up to the end of an event. Rotors that never bounce have periods instead of impacts.
-    pub(super) fn next_window(
+    pub(crate) fn next_window(
         &mut self,
         duration: f64,
         impacts: RangeInclusive<u64>,
@@ -170,7 +103,7 @@ impl Member {
 
 /// Rotors that bounce.
 #[derive(Debug)]
-pub(super) struct Bouncing {
+pub(crate) struct Bouncing {
     vertical: VerticalMotion,
     /// How many of the first systems have a second rotor.
     bracketed: usize,

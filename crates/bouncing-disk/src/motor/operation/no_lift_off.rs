@@ -8,14 +8,14 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 
-use super::member::{AxialWindow, RotorWindow, Window};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motor::transient::FLIGHTS_OF_EVENT;
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
 /// Halvings that find the steady speed: to 1e-18 of the range in which it lies.
@@ -27,7 +27,7 @@ const PERIODS: u64 = 16;
 
 /// Rotors that lie on the platform for ever.
 #[derive(Debug)]
-pub(super) struct Lying {
+pub(crate) struct Lying {
     engines: Vec<Engine>,
     phase: Phase,
     /// [`PERIODS`] that all rotors repeat; computed when they are first asked for.
@@ -35,12 +35,12 @@ pub(super) struct Lying {
 }
 
 impl Lying {
-    pub(super) const fn new(engines: Vec<Engine>, phase: Phase) -> Self {
+    pub(crate) const fn new(engines: Vec<Engine>, phase: Phase) -> Self {
         Self { engines, phase, round: None }
     }
 
     /// A window of whole periods of the steady motion, at least of `duration` rad but for the most of them.
-    pub(super) fn next_window(
+    pub(crate) fn next_window(
         &mut self,
         duration: f64,
         most: u64,

@@ -2,14 +2,14 @@
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
-use super::best_phase_lag::{BestPhaseLag, best_phase_lag};
-use super::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
-use super::point::{Estimate, Operation};
-use super::settings::OperatingSettings;
-use super::stall_load::{StallLoad, stall_load};
 use crate::error::{Error, check, finite};
+use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
-use crate::motor::shared_orbit::is_shared;
+use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
+use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
+use crate::motor::operation::point::{Estimate, Operation};
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::stall_load::{StallLoad, stall_load};
 
 impl LoadedMotor {
     pub(crate) fn of(motor: &Motor) -> Self {
@@ -24,7 +24,8 @@ impl Motor {
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{Motor, OperatingSettings, Operation};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{OperatingSettings, Operation};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let half = 0.5 * motor.largest_torque();
@@ -156,7 +157,7 @@ pub fn operations(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::OperatingPoint;
+    use crate::motor::OperatingPoint;
 
     #[test]
     fn a_curve_is_that_of_its_loads_and_a_map_that_of_its_motors() {
@@ -189,8 +190,10 @@ mod tests {
     fn loads_that_are_none_are_refused_by_name() {
         let (motor, settings) = (Motor::paper_70_khz(), OperatingSettings::default());
         for load in [f64::NAN, f64::INFINITY] {
-            let error = motor.operating_point(load, &settings, &Unobserved).expect_err("illegal");
-            assert!(matches!(error, Error::OutOfRange { field: "load_torque", .. }), "{error}");
+            assert_eq!(
+                crate::testing::refused_field(motor.operating_point(load, &settings, &Unobserved)),
+                "load_torque"
+            );
         }
         assert!(motor.torque_speed_curve(&[], &settings, &Unobserved).is_err());
         assert!(operations(&[], &settings, &Unobserved).is_err());

@@ -1,15 +1,14 @@
 //! What is known of a motor under a load.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
-use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, finite, not_negative};
-use crate::motor::interval_estimate::student_quantile;
+use crate::statistics::student_quantile;
 
 /// A number that was estimated from independent runs, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedEstimate"))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
@@ -18,15 +17,7 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-read_checked!(Estimate as UncheckedEstimate { value: f64, standard_error: f64 });
-
 impl Estimate {
-    fn check(&self) -> Result<(), Error> {
-        finite("value", self.value)?;
-        not_negative("standard_error", self.standard_error)?;
-        Ok(())
-    }
-
     /// The mean of independent values, at least one.
     pub(crate) fn of(values: &[f64]) -> Result<Self, Error> {
         let value = finite("estimate", mean(values))?;

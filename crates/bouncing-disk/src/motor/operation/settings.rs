@@ -21,7 +21,7 @@ pub struct OperatingSettings {
     pub members: usize,
     /// Most impacts that all members together may take (periods, of a rotor that never bounces; a dozen of each member are
     /// always taken): where they are spent before the error is reached, the result is
-    /// [`Operation::Unsettled`](crate::Operation::Unsettled). In [1, 1e15]. Default 20 million, a few seconds.
+    /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). In [1, 1e15]. Default 20 million, a few seconds.
     pub most_impacts: u64,
     /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the motor
     /// locks on a cycle that the rounding has chosen, whose speed may be wrong by a third. Default 1e-3.

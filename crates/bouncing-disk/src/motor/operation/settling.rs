@@ -3,7 +3,7 @@
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 
-use super::point::{Estimate, Shortfall, error_of_mean};
+use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
 /// A drift counts as one beyond so many of its standard errors, however loose the error is that was asked for: of a vertical
 /// motion that still changes no bound tells. A drift has about twice the standard error of the mean. With 15 degrees of
@@ -18,12 +18,12 @@ const NEGLIGIBLE: f64 = 1e-3;
 const PARTS: usize = 3;
 
 /// Windows that are left out of so many.
-pub(super) const fn left_out(windows: usize) -> usize {
+pub(crate) const fn left_out(windows: usize) -> usize {
     windows / PARTS
 }
 
 /// Mean speeds of windows in order of time, `[member][window]` without the start-up.
-pub(super) type Speeds = [Vec<f64>];
+pub(crate) type Speeds = [Vec<f64>];
 
 /// The mean speed in the middle of rotors that started from far below and far above on the same vertical motions, with a bound of
 /// its bias by those from above: a rotor never overtakes another one, and steady ones are between them. `None` if it is
@@ -36,7 +36,7 @@ fn steady_speed(middle: &Speeds, above: &Speeds) -> Option<Estimate> {
 
 /// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more of this a bound of
 /// the start-up than scatter.
-pub(super) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
+pub(crate) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
     let drifts: Vec<f64> = middle
         .iter()
         .map(|windows| {

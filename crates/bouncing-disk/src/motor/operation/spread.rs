@@ -11,12 +11,12 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::{Observer, Progress};
 
-use super::ensemble::{LoadedMotor, Operations, operate, operate_for};
-use super::point::Estimate;
-use super::settings::OperatingSettings;
-use super::stall_load::stall_share;
 use crate::error::{Error, check, finite, within_limit};
 use crate::motor::data_sheet::Motor;
+use crate::motor::operation::ensemble::{LoadedMotor, Operations, operate, operate_for};
+use crate::motor::operation::point::Estimate;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::stall_load::stall_share;
 
 /// Members of a draw, each followed as long as one of the motor itself: the fewest that have a scatter. It is pooled over all
 /// draws, and what is stopped by no error of its own has one without bias.
@@ -112,7 +112,7 @@ pub struct InputSpread {
     pub without: usize,
     /// Draws of which the start-up leaves more than the standard deviation: taken as they were.
     pub unsettled: usize,
-    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::TrapVerdict)).
+    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
 }
 
@@ -191,7 +191,8 @@ impl Motor {
     ///
     /// ```
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{InputTolerance, Motor, OperatingSettings};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{InputTolerance, OperatingSettings};
     ///
     /// let (motor, tolerance) = (Motor::paper_70_khz(), InputTolerance { draws: 12, ..InputTolerance::default() });
     /// let settings = OperatingSettings { relative_error: 0.02, ..OperatingSettings::default() };

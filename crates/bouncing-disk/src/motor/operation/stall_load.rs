@@ -3,10 +3,10 @@
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::elementary::hypot;
 
-use super::ensemble::{LoadedMotor, operate};
-use super::point::{Estimate, Operation, Shortfall};
-use super::settings::OperatingSettings;
 use crate::error::Error;
+use crate::motor::operation::ensemble::{LoadedMotor, operate};
+use crate::motor::operation::point::{Estimate, Operation, Shortfall};
+use crate::motor::operation::settings::OperatingSettings;
 
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;
@@ -24,11 +24,10 @@ const EVEN: f64 = 3.464_101_615_137_754_5;
 const SIGNIFICANT: f64 = 3.0;
 
 /// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
-/// ([`ExponentialFit::stall_acceleration`](crate::ExponentialFit::stall_acceleration)), which is an estimate from the
+/// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an estimate from the
 /// transient without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
     /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
     /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) says what their tolerances make of it.

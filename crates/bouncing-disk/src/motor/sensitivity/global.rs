@@ -2,15 +2,15 @@
 
 use bouncing_disk_core::{Observer, Progress};
 
-use super::local::quantity_of;
-use super::morris::{ElementaryEffects, elementary_effects};
-use super::parameter::{SensitivityParameter, SensitivityQuantity};
-use super::sobol::{SamplingSettings, SobolIndices, sobol_indices};
 use crate::error::Error;
+use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::shared_orbit::is_shared;
+use crate::motor::sensitivity::local::quantity_of;
+use crate::motor::sensitivity::morris::{ElementaryEffects, elementary_effects};
+use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+use crate::motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
 
 /// A parameter and the range over which it is spread.
 pub type ParameterRange = (SensitivityParameter, [f64; 2]);
@@ -26,7 +26,7 @@ impl Motor {
     /// The items of `observer` are the rows of the sample.
     ///
     /// # Errors
-    /// Those of [`sobol_indices`](crate::sobol_indices), and of [`Motor::operating_point`] or
+    /// Those of [`sobol_indices`](crate::motor::sobol_indices), and of [`Motor::operating_point`] or
     /// [`Motor::stall_load`]; [`Error::Overpowered`] where a load is more than friction can hold. A parameter
     /// that is given twice takes its last value.
     pub fn sobol_indices(

@@ -3,16 +3,16 @@
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
-use bouncing_disk_core::{Observer, Progress, read_checked};
+use bouncing_disk_core::{Observer, Progress};
 
-use super::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::error::{Error, check, positive};
 use crate::motor::data_sheet::Motor;
-use crate::motor::interval_estimate::student_quantile;
 use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::crossing;
+use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
+use crate::statistics::student_quantile;
 
 /// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
 /// g a_e of the load: with those up and down as many rotors as a row has.
@@ -27,8 +27,7 @@ const LEAST_POINTS: usize = 5;
 
 /// How local sensitivities are computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SensitivitySettings {
     /// How each motor is operated.
     pub operating: OperatingSettings,
@@ -38,12 +37,6 @@ pub struct SensitivitySettings {
     /// Motors that are drawn over it, in [5, 10000]. Default 24.
     pub points: usize,
 }
-
-read_checked!(SensitivitySettings as UncheckedSettings {
-    operating: OperatingSettings,
-    half_range: f64,
-    points: usize,
-});
 
 impl Default for SensitivitySettings {
     fn default() -> Self {
@@ -108,7 +101,8 @@ impl Motor {
     ///
     /// ```no_run
     /// # use bouncing_disk::core::Unobserved;
-    /// use bouncing_disk::{Motor, SensitivityParameter, SensitivityQuantity, SensitivitySettings};
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{SensitivityParameter, SensitivityQuantity, SensitivitySettings};
     ///
     /// let motor = Motor::paper_70_khz();
     /// let all = motor.local_sensitivities(
@@ -167,7 +161,7 @@ impl Motor {
 }
 
 /// The quantity of a motor.
-pub(super) fn quantity_of(
+pub(crate) fn quantity_of(
     motor: &Motor,
     quantity: SensitivityQuantity,
     settings: &OperatingSettings,

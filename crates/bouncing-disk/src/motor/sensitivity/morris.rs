@@ -5,10 +5,10 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::{mean, standard_deviation};
 use bouncing_disk_core::run::Watch;
 
-use super::resamples::standard_errors;
-use super::sobol::{SamplingSettings, check_ranges, evaluated};
 use crate::error::Error;
 use crate::motor::operation::point::Estimate;
+use crate::motor::sensitivity::resamples::standard_errors;
+use crate::motor::sensitivity::sobol::{SamplingSettings, check_ranges, evaluated};
 
 /// Levels of the grid on which arguments are varied, and the share of a range that a step crosses: p/(2 (p -
 /// 1)).
@@ -17,8 +17,7 @@ const STEP: f64 = 4.0 / 7.0;
 
 /// The elementary effects of one argument: by how much the function changes per range of the argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ElementaryEffects {
     /// Mean, mu.
     pub mean: Estimate,
@@ -37,7 +36,7 @@ pub struct ElementaryEffects {
 /// The items of `observer` are the trajectories.
 ///
 /// # Errors
-/// Those of [`sobol_indices`](crate::sobol_indices).
+/// Those of [`sobol_indices`](crate::motor::sobol_indices).
 pub fn elementary_effects(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],

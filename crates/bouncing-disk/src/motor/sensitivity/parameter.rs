@@ -2,10 +2,11 @@
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
 
 /// What is asked of a motor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SensitivityQuantity {
@@ -18,7 +19,7 @@ pub enum SensitivityQuantity {
 
 /// A parameter of a motor that is varied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum SensitivityParameter {
@@ -59,21 +60,26 @@ impl SensitivityParameter {
         Self::DriveFrequency,
     ];
 
-    /// The name of the parameter.
+    /// The field of the data sheet.
+    const fn field(self) -> MotorField {
+        match self {
+            Self::Friction => MotorField::Friction,
+            Self::PeakAngularSpeed => MotorField::PeakAngularSpeed,
+            Self::PhaseLag => MotorField::PhaseLag,
+            Self::ContactRadius => MotorField::ContactRadius,
+            Self::GyrationRadius => MotorField::GyrationRadius,
+            Self::LoadTorque => MotorField::LoadTorque,
+            Self::Amplitude => MotorField::Amplitude,
+            Self::Preload => MotorField::PreloadAcceleration,
+            Self::Restitution => MotorField::Restitution,
+            Self::DriveFrequency => MotorField::DriveFrequency,
+        }
+    }
+
+    /// The name of the parameter: that of the field, or `preload`.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Friction => "friction",
-            Self::PeakAngularSpeed => "peak_angular_speed",
-            Self::PhaseLag => "phase_lag",
-            Self::ContactRadius => "contact_radius",
-            Self::GyrationRadius => "gyration_radius",
-            Self::LoadTorque => "load_torque",
-            Self::Amplitude => "amplitude",
-            Self::Preload => "preload",
-            Self::Restitution => "restitution",
-            Self::DriveFrequency => "drive_frequency",
-        }
+        if matches!(self, Self::Preload) { "preload" } else { self.field().name() }
     }
 
     /// Whether the vertical motion does not depend on it, so that all its values share one orbit.
@@ -103,26 +109,13 @@ impl SensitivityParameter {
     /// The motor with another value of it; where the data sheet gives an alternative, that is replaced.
     ///
     /// # Errors
-    /// Those of [`MotorParameters::build`](crate::MotorParameters::build).
+    /// Those of [`MotorParameters::build`](crate::motor::MotorParameters::build).
     pub fn set(self, motor: &Motor, value: f64) -> Result<Motor, Error> {
         let speed = motor.system().platform().peak_angular_speed();
-        motor.with(|sheet| match self {
-            Self::Friction => sheet.friction = value,
-            Self::PeakAngularSpeed => {
-                (sheet.twist_amplitude, sheet.peak_angular_speed) = (None, Some(value));
-            }
-            Self::PhaseLag => sheet.phase_lag = value,
-            Self::ContactRadius => sheet.contact_radius = value,
-            Self::GyrationRadius => sheet.gyration_radius = Some(value),
-            Self::LoadTorque => sheet.load_torque = value,
-            Self::Amplitude => sheet.amplitude = value,
-            Self::Preload => {
-                (sheet.preload_force, sheet.preload_acceleration) = (None, Some(value));
-            }
-            Self::Restitution => sheet.restitution = value,
-            Self::DriveFrequency => {
-                sheet.drive_frequency = value;
-                (sheet.twist_amplitude, sheet.peak_angular_speed) = (None, Some(speed));
+        motor.with(|sheet| {
+            self.field().set(sheet, value);
+            if self == Self::DriveFrequency {
+                MotorField::PeakAngularSpeed.set(sheet, speed);
             }
         })
     }

@@ -4,12 +4,14 @@
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::standard_deviation;
 
+use crate::statistics::drawn_index;
+
 /// Resamples: the standard deviation of so many values is known to 4 %.
 const RESAMPLES: usize = 300;
 
 /// The standard errors of `N` statistics of `rows` rows. `statistics` is given the numbers of the rows that
 /// are drawn.
-pub(super) fn standard_errors<const N: usize>(
+pub(crate) fn standard_errors<const N: usize>(
     rows: usize,
     seed: u64,
     statistics: impl Fn(&[usize]) -> [f64; N],
@@ -19,7 +21,7 @@ pub(super) fn standard_errors<const N: usize>(
     let mut values = vec![Vec::with_capacity(RESAMPLES); N];
     for _ in 0..RESAMPLES {
         for row in &mut drawn {
-            *row = ((random.unit() * rows as f64) as usize).min(rows.saturating_sub(1));
+            *row = drawn_index(&mut random, rows);
         }
         for (values, value) in values.iter_mut().zip(statistics(&drawn)) {
             values.push(value);

@@ -1,13 +1,13 @@
 //! Sobol' indices of any function: which share of its variance, over ranges of its arguments, each argument
 //! has.
 
+use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::Watch;
-use bouncing_disk_core::{Observer, read_checked};
 
-use super::resamples::standard_errors;
 use crate::error::{Error, check, finite};
 use crate::motor::operation::point::Estimate;
+use crate::motor::sensitivity::resamples::standard_errors;
 
 /// Least and most rows of a sample.
 const ROWS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
@@ -17,8 +17,7 @@ const MOST_ARGUMENTS: usize = 64;
 
 /// How a function is sampled over ranges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSampling"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingSettings {
     /// Rows of the sample, in [8, 1e6]; of d arguments a row takes d + 2 evaluations for Sobol' indices, and
     /// d + 1 for elementary effects. Default 256.
@@ -27,8 +26,6 @@ pub struct SamplingSettings {
     pub seed: u64,
 }
 
-read_checked!(SamplingSettings as UncheckedSampling { rows: usize, seed: u64 });
-
 impl Default for SamplingSettings {
     fn default() -> Self {
         Self { rows: 256, seed: 1 }
@@ -36,7 +33,7 @@ impl Default for SamplingSettings {
 }
 
 impl SamplingSettings {
-    pub(super) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn check(&self) -> Result<(), Error> {
         check(ROWS.contains(&self.rows), "rows", self.rows as f64, "[8, 1000000]")?;
         Ok(())
     }
@@ -44,8 +41,7 @@ impl SamplingSettings {
 
 /// The Sobol' indices of one argument.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SobolIndices {
     /// First order: the share of the variance that goes if this argument alone is known. An estimate near
     /// zero may be negative.
@@ -56,7 +52,7 @@ pub struct SobolIndices {
 }
 
 /// Checks the ranges of arguments.
-pub(super) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
+pub(crate) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
     let count = ranges.len();
     check((1..=MOST_ARGUMENTS).contains(&count), "number of ranges", count as f64, "[1, 64]")?;
     for &[low, high] in ranges {
@@ -69,7 +65,7 @@ pub(super) fn check_ranges(ranges: &[[f64; 2]]) -> Result<(), Error> {
 }
 
 /// The values of a batch of points, as many as points, finite.
-pub(super) fn evaluated(
+pub(crate) fn evaluated(
     points: &[Vec<f64>],
     evaluate: &mut impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
 ) -> Result<Vec<f64>, Error> {
@@ -93,7 +89,7 @@ pub(super) fn evaluated(
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
-/// use bouncing_disk::{SamplingSettings, sobol_indices};
+/// use bouncing_disk::motor::{SamplingSettings, sobol_indices};
 ///
 /// // x + 2 y over the unit square: the variances are as 1 to 4.
 /// let function = |points: &[Vec<f64>]| Ok(points.iter().map(|at| at[0] + 2.0 * at[1]).collect());

@@ -27,7 +27,7 @@ impl SweepAxis {
 }
 
 /// Checks the axes by themselves, whatever motor they are of.
-pub(super) fn check_axes(axes: &[SweepAxis]) -> Result<(), Error> {
+pub(crate) fn check_axes(axes: &[SweepAxis]) -> Result<(), Error> {
     check((1..=2).contains(&axes.len()), "number of axes of a sweep", axes.len() as f64, "1 or 2")?;
     for axis in axes {
         if axis.values.is_empty() {
@@ -55,12 +55,12 @@ pub(super) fn check_axes(axes: &[SweepAxis]) -> Result<(), Error> {
 }
 
 /// Number of cells.
-pub(super) fn cells(axes: &[SweepAxis]) -> usize {
+pub(crate) fn cells(axes: &[SweepAxis]) -> usize {
     axes.iter().fold(1, |cells, axis| cells.saturating_mul(axis.values.len()))
 }
 
 /// The values of the axes in a cell, which exists: the last axis varies fastest.
-pub(super) fn values_of_cell(axes: &[SweepAxis], cell: usize) -> impl Iterator<Item = (MotorField, f64)> {
+pub(crate) fn values_of_cell(axes: &[SweepAxis], cell: usize) -> impl Iterator<Item = (MotorField, f64)> {
     let mut stride = cells(axes);
     axes.iter().filter_map(move |axis| {
         let count = axis.values.len().max(1);
@@ -71,7 +71,7 @@ pub(super) fn values_of_cell(axes: &[SweepAxis], cell: usize) -> impl Iterator<I
 }
 
 /// The data sheet of a cell, which exists.
-pub(super) fn sheet_of_cell(mut sheet: MotorParameters, axes: &[SweepAxis], cell: usize) -> MotorParameters {
+pub(crate) fn sheet_of_cell(mut sheet: MotorParameters, axes: &[SweepAxis], cell: usize) -> MotorParameters {
     for (parameter, value) in values_of_cell(axes, cell) {
         parameter.set(&mut sheet, value);
     }

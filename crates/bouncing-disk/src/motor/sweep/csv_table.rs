@@ -1,9 +1,9 @@
 //! The result of a sweep as comma-separated text.
 
-use super::quantity::SweepQuantity;
-use super::result::MotorSweepResult;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::{OperatingPoint, Operation, Shortfall};
+use crate::motor::sweep::quantity::SweepQuantity;
+use crate::motor::sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has units in the
@@ -122,7 +122,8 @@ fn suffix(unit: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Motor, MotorSweep, OperatingSettings, SweepAxis};
+    use crate::Motor;
+    use crate::motor::{MotorSweep, OperatingSettings, SweepAxis};
     use bouncing_disk_core::Unobserved;
 
     fn result() -> MotorSweepResult {

@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
 use crate::error::Error;
+use crate::motor::batch::shared_orbit::vertical_key;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::settings::OperatingSettings;
-use crate::motor::shared_orbit::vertical_key;
 
 /// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost when a run is
 /// stopped.
@@ -17,12 +17,12 @@ const MOST_CELLS: usize = 256;
 const MOST_ROTORS: usize = 1 << 14;
 
 /// Most cells of a group, so that its memory is bounded for any number of vertical motions.
-pub(super) fn most_cells(settings: &OperatingSettings) -> usize {
+pub(crate) fn most_cells(settings: &OperatingSettings) -> usize {
     (MOST_ROTORS / settings.members.max(1)).clamp(1, MOST_CELLS)
 }
 
 /// The indices of the motors by groups of one vertical motion, at most so many in each.
-pub(super) fn of(
+pub(crate) fn of(
     motors: impl Iterator<Item = Result<Motor, Error>>,
     most: usize,
 ) -> Result<Vec<Vec<usize>>, Error> {

@@ -4,7 +4,7 @@ use crate::motor::operation::point::{Estimate, Operation};
 
 /// A quantity of an operating point that is an estimate with a standard error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum SweepQuantity {
     /// Mean angular speed (rad/s).

@@ -1,20 +1,15 @@
 //! What comes out of a sweep.
 
-use bouncing_disk_core::read_checked;
-
-use super::MotorSweep;
-use super::axis::{SweepAxis, cells, check_axes, values_of_cell};
-use super::quantity::SweepQuantity;
-use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
+use crate::motor::sweep::quantity::SweepQuantity;
 
-/// The operation of each cell of a [`MotorSweep`], with what was computed.
+/// The operation of each cell of a [`MotorSweep`](crate::motor::MotorSweep), with what was computed.
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedSweepResult"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorSweepResult {
     motor: Motor,
     settings: OperatingSettings,
@@ -22,28 +17,14 @@ pub struct MotorSweepResult {
     cells: Vec<Operation>,
 }
 
-read_checked!(MotorSweepResult as UncheckedSweepResult {
-    motor: Motor,
-    settings: OperatingSettings,
-    axes: Vec<SweepAxis>,
-    cells: Vec<Operation>,
-});
-
 impl MotorSweepResult {
-    /// `operations` of all cells.
-    pub(super) fn of(sweep: &MotorSweep, operations: Vec<Operation>) -> Self {
-        let (motor, settings, axes) = (*sweep.motor(), *sweep.settings(), sweep.axes().to_vec());
-        Self { motor, settings, axes, cells: operations }
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        check_axes(&self.axes)?;
-        let (found, expected) = (self.cells.len() as u64, cells(&self.axes) as u64);
-        if found != expected {
-            let what = "cells of a sweep";
-            return Err(bouncing_disk_core::Error::Unfitting { what, found, expected }.into());
-        }
-        Ok(())
+    pub(crate) const fn new(
+        motor: Motor,
+        settings: OperatingSettings,
+        axes: Vec<SweepAxis>,
+        cells: Vec<Operation>,
+    ) -> Self {
+        Self { motor, settings, axes, cells }
     }
 
     /// The motor that was varied.
@@ -89,16 +70,7 @@ impl MotorSweepResult {
     /// runaway, and for an efficiency that there is not.
     #[must_use]
     pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
-        self.map(|operation| quantity.of(operation).map(|estimate| estimate.value))
-    }
-
-    /// The standard errors of [`Self::matrix`].
-    #[must_use]
-    pub fn error_matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
-        self.map(|operation| quantity.of(operation).map(|estimate| estimate.standard_error))
-    }
-
-    fn map(&self, value: impl Fn(&Operation) -> Option<f64>) -> Vec<Vec<Option<f64>>> {
-        self.rows().map(|row| row.iter().map(&value).collect()).collect()
+        let of = |operation: &Operation| quantity.of(operation).map(|estimate| estimate.value);
+        self.rows().map(|row| row.iter().map(of).collect()).collect()
     }
 }

@@ -7,12 +7,12 @@ use bouncing_disk_core::run::Watch;
 use bouncing_disk_core::sweep::PartialResults;
 use bouncing_disk_core::{Observer, Progress};
 
-use super::MotorSweep;
-use super::axis::sheet_of_cell;
-use super::result::MotorSweepResult;
 use crate::error::Error;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
+use crate::motor::sweep::MotorSweep;
+use crate::motor::sweep::axis::sheet_of_cell;
+use crate::motor::sweep::result::MotorSweepResult;
 
 /// A [`MotorSweep`] under way: the groups of cells that are finished.
 ///
@@ -24,7 +24,8 @@ use crate::motor::operation::point::Operation;
 /// use std::sync::atomic::{AtomicU32, Ordering};
 ///
 /// use bouncing_disk::core::Progress;
-/// use bouncing_disk::{Motor, MotorField, MotorSweep, MotorSweepRun, OperatingSettings, SweepAxis, Unobserved};
+/// use bouncing_disk::{Motor, Unobserved};
+/// use bouncing_disk::motor::{MotorField, MotorSweep, MotorSweepRun, OperatingSettings, SweepAxis};
 ///
 /// let sweep = MotorSweep::new(
 ///     Motor::paper_70_khz(),
@@ -180,7 +181,23 @@ impl MotorSweepRun {
     /// finished: [`Self::is_done`] tells before.
     pub fn into_result(self, sweep: &MotorSweep) -> Result<MotorSweepResult, Error> {
         let cells: Option<Vec<Operation>> = self.cells(sweep)?.into_iter().collect();
-        Ok(MotorSweepResult::of(sweep, cells.ok_or_else(|| self.stopped(sweep))?))
+        let cells = cells.ok_or_else(|| self.stopped(sweep))?;
+        Ok(MotorSweepResult::new(*sweep.motor(), *sweep.settings(), sweep.axes().to_vec(), cells))
+    }
+}
+
+impl MotorSweep {
+    /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
+    ///
+    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
+    /// finished.
+    ///
+    /// # Errors
+    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
+    pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
+        let mut run = MotorSweepRun::new(self);
+        run.advance(self, observer)?;
+        run.into_result(self)
     }
 }
 

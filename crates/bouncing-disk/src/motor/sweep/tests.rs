@@ -5,7 +5,7 @@ use bouncing_disk_core::{Progress, Unobserved};
 
 use super::quantity::SweepQuantity;
 use super::*;
-use crate::{MAX_SWEEP_CELLS, Operation, operations};
+use crate::motor::{MAX_SWEEP_CELLS, MotorSweepResult, MotorSweepRun, Operation, operations};
 
 /// Little is asked for, so that much can be tried.
 pub(crate) fn rough() -> OperatingSettings {
@@ -59,12 +59,10 @@ fn the_rows_of_a_map_are_curves() {
     assert_ne!(by_rows.cells()[0], by_rows.cells()[5]);
     let speeds = by_rows.matrix(SweepQuantity::Speed);
     assert_eq!(speeds[1][4], None);
-    let (matrix, errors) =
-        (by_columns.matrix(SweepQuantity::Speed), by_columns.error_matrix(SweepQuantity::Speed));
+    let matrix = by_columns.matrix(SweepQuantity::Speed);
     for (row, speeds) in speeds.iter().enumerate() {
         for (column, speed) in speeds.iter().enumerate() {
             assert_eq!(matrix[column][row].map(f64::to_bits), speed.map(f64::to_bits));
-            assert_eq!(errors[column][row].is_some(), speed.is_some());
         }
     }
 }
@@ -84,8 +82,7 @@ fn a_map_of_one_motion_is_one_group() {
         let sheet = motor.parameters();
         assert_eq!(values, [(MotorField::PhaseLag, sheet.phase_lag), (MotorField::Friction, sheet.friction)]);
     }
-    let error = sweep.motor_of(9).expect_err("there are nine");
-    assert!(matches!(error, Error::OutOfRange { field: "cell of a sweep", .. }), "{error}");
+    assert_eq!(crate::testing::refused_field(sweep.motor_of(9)), "cell of a sweep");
 }
 
 #[test]
@@ -270,30 +267,4 @@ fn a_run_of_another_sweep_is_refused() {
     let wrong = unfitting("cells of a group of a sweep", 0, 1);
     assert_eq!(run.advance(&other, &Unobserved), Err(wrong));
     assert_eq!(run.into_result(&other), Err(wrong));
-}
-
-#[cfg(feature = "json")]
-#[test]
-fn what_is_stored_comes_back_and_what_is_not_legal_does_not() {
-    let sweep = mixed();
-    let text = serde_json::to_string(&sweep).expect("writes");
-    assert_eq!(serde_json::from_str::<MotorSweep>(&text).expect("legal"), sweep);
-    for (good, bad, complaint) in [
-        ("[1e-8,0.0,", "[1e-8,-1.0,", "amplitude = -1 is"),
-        ("\"load_torque\",", "\"amplitude\",", "two axes vary amplitude"),
-        ("\"parameter\":\"load_torque\"", "\"parameter\":\"load\"", "did you mean \"load_torque\"?"),
-        ("\"axes\"", "\"axis\"", "axis"),
-    ] {
-        assert!(text.contains(good), "{text}");
-        let error = serde_json::from_str::<MotorSweep>(&text.replacen(good, bad, 1)).expect_err(bad);
-        assert!(error.to_string().contains(complaint), "{error}");
-    }
-    let result = sweep.run(&Unobserved).expect("no failure");
-    let text = serde_json::to_string(&result).expect("writes");
-    assert_eq!(serde_json::from_str::<MotorSweepResult>(&text).expect("legal"), result);
-    // A value more on an axis, and no cells for it.
-    let more = text.replacen("[1e-8,0.0,", "[1e-8,1e-8,0.0,", 1);
-    assert_ne!(more, text);
-    let error = serde_json::from_str::<MotorSweepResult>(&more).expect_err("cells are missing");
-    assert!(error.to_string().contains("cells of a sweep: 21 where 24 would be legal"), "{error}");
 }

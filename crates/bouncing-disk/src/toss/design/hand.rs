@@ -1,11 +1,13 @@
 //! One hand motion, and the objective of the tosses that it gives.
 
+use std::f64::consts::PI;
+
 use crate::error::Error;
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::platform::Platform;
 use crate::parameters::stroke::Stroke;
 use crate::parameters::system::System;
-use crate::toss::design::{OverFriction, TossConstraints, TossObjective, turns};
+use crate::toss::design::constraints::{OverFriction, TossConstraints, TossObjective};
 use crate::toss::single::{InitialSpin, TossPerformance, single_toss};
 
 /// Coefficients of friction at which the objective is evaluated over a range: odd, so that the middle is one
@@ -80,7 +82,7 @@ pub(super) fn over_frictions(
     let [least, most] = constraints.friction;
     let count = if least < most { frictions } else { 1 };
     let at = |friction: f64| toss(hand, dough, friction, constraints.initial);
-    let Some(middle) = at(self::middle([least, most]))? else { return Ok((0.0, None)) };
+    let Some(middle) = at(crate::toss::design::hand::middle([least, most]))? else { return Ok((0.0, None)) };
     let forwards = 1.0_f64.copysign(middle.airborne_speed);
     let gravity = dough.preload_acceleration;
     let of = |toss: &TossPerformance| of_toss(constraints.objective, toss, forwards, gravity);
@@ -135,4 +137,14 @@ impl Evaluation {
             / constraints.dough.preload_acceleration;
         middle.map(|middle| Self { value, middle }).ok_or(Error::NeverLeaves { peak_acceleration })
     }
+}
+
+/// How high the dough rises above the place where it leaves (m).
+pub(crate) fn flight_height(toss: &TossPerformance, gravity: f64) -> f64 {
+    0.5 * toss.launch_speed * toss.launch_speed / gravity
+}
+
+/// Turns until it is back there.
+pub(crate) fn turns(toss: &TossPerformance, gravity: f64) -> f64 {
+    toss.airborne_speed.abs() * toss.launch_speed / (PI * gravity)
 }

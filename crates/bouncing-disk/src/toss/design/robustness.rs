@@ -3,8 +3,9 @@
 use crate::error::{Error, check};
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::stroke::Stroke;
-use crate::toss::design::hand::{Evaluation, Hand, over_frictions, toss, value_of};
-use crate::toss::design::{TossConstraints, TossDesign, flight_height};
+use crate::toss::design::TossDesign;
+use crate::toss::design::constraints::TossConstraints;
+use crate::toss::design::hand::{Evaluation, Hand, flight_height, over_frictions, toss, value_of};
 
 /// Coefficients of friction at which the range is looked at: odd.
 const FRICTIONS: usize = 129;
@@ -55,8 +56,7 @@ const ALL: [TossInput; INPUTS] = [
 /// 0.25 m. The default is none: all inputs are exact. Friction has its range in
 /// [`TossConstraints::friction`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TossHalfUnits {
     /// Of the stroke c (m).
     pub stroke: f64,
@@ -91,7 +91,6 @@ impl TossHalfUnits {
 /// The spread of an objective about its nominal value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Robustness {
     /// At the inputs as given.
     pub nominal: f64,
@@ -108,7 +107,6 @@ pub struct Robustness {
 /// What is left of a toss where hand and dough are not quite those of the design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct TossRobustness {
     /// Over everything that rounds to the same digits; the objective is taken over the range of friction, as
     /// in the design. A dough that never leaves has none of it.
@@ -234,6 +232,18 @@ impl<'a> Inputs<'a> {
             }
         }
         Ok(best)
+    }
+}
+
+impl TossDesign {
+    /// How much of the objective is left where hand and dough are not quite those of the design: over
+    /// everything that rounds to the same digits, and over the range of friction.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a half unit that is negative or not finite, or one that leaves nothing of
+    /// its input; those of [`best_toss`](crate::toss::best_toss).
+    pub fn robustness(&self, half_units: &TossHalfUnits) -> Result<TossRobustness, Error> {
+        robustness(self, half_units)
     }
 }
 

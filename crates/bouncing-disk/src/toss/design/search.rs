@@ -4,8 +4,8 @@
 use bouncing_disk_core::run::{Watch, WorkCount};
 
 use crate::error::Error;
+use crate::toss::design::constraints::{TossCertificate, TossConstraints};
 use crate::toss::design::hand::{Hand, value_of};
-use crate::toss::design::{TossCertificate, TossConstraints};
 
 /// Points of the grid along frequency, lag and amplitude angle; and where the frequency is given.
 const GRID: [usize; 3] = [9, 25, 33];

@@ -7,7 +7,7 @@ use bouncing_disk_core::{ChatterPolicy, Unobserved};
 use super::*;
 use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameters};
 use crate::toss::collisions::{CollisionEvent, CollisionState, Collisions};
-use crate::toss::period_one::period_one_rotary_speed;
+use crate::toss::rotary_response::period_one_rotary_speed;
 
 /// A system with a friction of 0.4.
 pub(in crate::toss) fn system(

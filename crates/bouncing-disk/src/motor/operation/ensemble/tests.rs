@@ -6,8 +6,11 @@ use bouncing_disk_core::numerics::statistics::mean;
 use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
 
 use super::*;
-use crate::testing::motor;
-use crate::{EnergyLedger, Engine, InitialCondition, Motor, Spread, TransientSettings, ensemble};
+use crate::estimate::{Spread, TransientEnsemble};
+use crate::motion::EnergyLedger;
+use crate::motor::TransientSettings;
+use crate::testing::{motor, tried_motor};
+use crate::{Engine, InitialCondition, Motor};
 
 /// Mass of the rotor (kg): any will do.
 const MASS: f64 = 0.02;
@@ -16,21 +19,6 @@ const MASS: f64 = 0.02;
 fn loaded(system: &System, share: f64) -> LoadedMotor {
     let unloaded = LoadedMotor { system: *system, mass: MASS, load_torque: 0.0 };
     unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
-}
-
-/// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;
-/// radii, friction and restitution of Table III.
-fn tried() -> System {
-    let angular_frequency = TAU * 40e3;
-    System::motor()
-        .with_platform(|stator| {
-            stator.angular_frequency = angular_frequency;
-            stator.amplitude = 0.5e-6;
-            stator.twist_amplitude = 12.0 / angular_frequency;
-            stator.phase_lag = PI / 6.0;
-        })
-        .and_then(|motor| motor.with_disk(|rotor| rotor.preload_acceleration = 5.0 / 0.02))
-        .expect("legal")
 }
 
 fn operated(motors: &[LoadedMotor], settings: &OperatingSettings) -> Vec<Operation> {
@@ -52,7 +40,8 @@ fn energy_is_balanced() {
         motor(amplitude, 0.0).with_disk(|rotor| rotor.restitution = restitution).expect("legal")
     };
     let usual = System::motor().disk().restitution();
-    for system in [of(1e-8, usual), tried(), of(6e-11, usual), of(1e-12, usual), of(1e-8, 0.0), of(1e-8, 0.9)]
+    for system in
+        [of(1e-8, usual), tried_motor(), of(6e-11, usual), of(1e-12, usual), of(1e-8, 0.0), of(1e-8, 0.9)]
     {
         let mut motors: Vec<LoadedMotor> =
             [0.0, 0.3, 0.95, -0.4].iter().map(|&share| loaded(&system, share)).collect();
@@ -84,7 +73,7 @@ fn energy_is_balanced() {
 #[test]
 fn half_a_circle_of_lag_turns_the_motor_round() {
     let settings = OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() };
-    for base in [motor(1e-8, 0.0), tried()] {
+    for base in [motor(1e-8, 0.0), tried_motor()] {
         for share in [0.0, 0.35] {
             let (one, other) = (loaded(&base, share), loaded(&base, -share));
             let lags = [0.0, 0.7, 2.0];
@@ -106,7 +95,7 @@ fn half_a_circle_of_lag_turns_the_motor_round() {
 #[test]
 fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let settings = OperatingSettings { relative_error: 0.5, members: 4, ..OperatingSettings::default() };
-    let base = tried();
+    let base = tried_motor();
     let exact = |load: f64| {
         let scale = base.scales().angular_acceleration;
         let system = base.with_disk(|rotor| rotor.load_acceleration = load * scale).expect("legal");
@@ -155,7 +144,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
 #[test]
 fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     let settings = OperatingSettings::default();
-    let motor = loaded(&tried(), 0.2);
+    let motor = loaded(&tried_motor(), 0.2);
     let operation = operated(&[motor], &settings)[0];
     let point = operation.steady().expect("steady");
     let start = InitialCondition::Contact { phase: Phase::new(1.0).expect("finite"), angular_speed: 0.0 };
@@ -177,8 +166,7 @@ fn the_cycle_of_the_rounding_is_not_mistaken_for_the_motor() {
     assert!(point.speed.standard_error <= 0.01 * 8.0, "{point:?}");
     assert!(point.perturbation_power < 1e-6 * point.input_power.value, "{point:?}");
     let zero = OperatingSettings { relaunch_perturbation: 0.0, ..settings };
-    let error = operate(&[motor], &zero, &Unobserved).expect_err("not mixed");
-    assert!(matches!(error, Error::OutOfRange { field: "relaunch_perturbation", .. }), "{error}");
+    assert_eq!(crate::testing::refused_field(operate(&[motor], &zero, &Unobserved)), "relaunch_perturbation");
     // Ten times more or less of it, or other seeds: the same within the errors, and these are those of the
     // mean.
     let mut deviations = Vec::new();
@@ -199,7 +187,7 @@ fn the_speed_without_load_is_that_of_the_transients() {
     let point =
         *operated(&[loaded(&system, 0.0)], &OperatingSettings::default())[0].steady().expect("steady");
     let long = TransientSettings { duration: 100.0, intervals: 100, ..TransientSettings::default() };
-    let runs = ensemble(&system, &long, 16, &Unobserved).expect("no failure");
+    let runs = TransientEnsemble::new(&system, &long, 16, &Unobserved).expect("no failure");
     let means: Vec<f64> = runs.curves.iter().map(|curve| curve.mean_over_last(0.7).expect("legal")).collect();
     let transient = Spread::of(&means).expect("finite");
     let (one, another) = (point.speed.standard_error, transient.standard_error);
@@ -227,7 +215,7 @@ fn a_spent_budget_is_said() {
 
 #[test]
 fn operations_are_the_same_for_any_number_of_threads() {
-    let motors: Vec<LoadedMotor> = (0..9).map(|k| loaded(&tried(), 0.1 * f64::from(k))).collect();
+    let motors: Vec<LoadedMotor> = (0..9).map(|k| loaded(&tried_motor(), 0.1 * f64::from(k))).collect();
     let settings = OperatingSettings { members: 5, ..OperatingSettings::default() };
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
@@ -253,7 +241,7 @@ fn an_observer_may_stop_it() {
 
 #[test]
 fn illegal_settings_are_named() {
-    let motors = [loaded(&tried(), 0.1)];
+    let motors = [loaded(&tried_motor(), 0.1)];
     let usual = OperatingSettings::default();
     for (settings, name) in [
         (OperatingSettings { relative_error: 0.0, ..usual }, "relative_error"),
@@ -264,8 +252,7 @@ fn illegal_settings_are_named() {
         (OperatingSettings { relaunch_perturbation: -1.0, ..usual }, "relaunch_perturbation"),
         (OperatingSettings { relaunch_perturbation: f64::NAN, ..usual }, "relaunch_perturbation"),
     ] {
-        let error = operate(&motors, &settings, &Unobserved).expect_err("illegal");
-        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+        assert_eq!(crate::testing::refused_field(operate(&motors, &settings, &Unobserved)), name);
     }
     let error = operate(&[], &usual, &Unobserved).expect_err("none");
     assert!(matches!(error, Error::OutOfRange { .. }), "{error}");
@@ -273,8 +260,7 @@ fn illegal_settings_are_named() {
     let error = operate(&many, &usual, &Unobserved).expect_err("too many");
     assert!(matches!(error, Error::Core(bouncing_disk_core::Error::TooLarge { .. })), "{error}");
     let massless = LoadedMotor { mass: 0.0, ..motors[0] };
-    let error = operate(&[massless], &usual, &Unobserved).expect_err("illegal");
-    assert!(matches!(error, Error::OutOfRange { field: "mass", .. }), "{error}");
+    assert_eq!(crate::testing::refused_field(operate(&[massless], &usual, &Unobserved)), "mass");
     let other = loaded(&motor(1e-8, 0.0), 0.1);
     let error = operate(&[motors[0], other], &usual, &Unobserved).expect_err("not shared");
     assert!(matches!(error, Error::NotShared { .. }), "{error}");
@@ -318,7 +304,7 @@ mod searches {
     #[test]
     fn the_stall_load_is_bracketed_by_what_turns_and_what_does_not() {
         let settings = OperatingSettings::default();
-        for (system, sign) in [(motor(1e-8, 0.0), 1.0), (tried(), 1.0), (tried(), -1.0)] {
+        for (system, sign) in [(motor(1e-8, 0.0), 1.0), (tried_motor(), 1.0), (tried_motor(), -1.0)] {
             let motor = loaded(&system, 0.0);
             let motor = if sign > 0.0 {
                 motor
@@ -371,8 +357,8 @@ mod searches {
     fn a_motor_that_does_not_turn_has_neither_stall_nor_best_lag() {
         let settings =
             OperatingSettings { members: 4, most_impacts: 300_000, ..OperatingSettings::default() };
-        let still = tried().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
-        let slippery = tried().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
+        let still = tried_motor().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
+        let slippery = tried_motor().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
         for system in [still, slippery] {
             let motor = LoadedMotor { system, mass: MASS, load_torque: 0.0 };
             let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
@@ -380,7 +366,7 @@ mod searches {
             let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
             assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
         }
-        let overpowered = loaded(&tried(), 1.2);
+        let overpowered = loaded(&tried_motor(), 1.2);
         let error = best_phase_lag(&overpowered, &settings, &Unobserved).expect_err("it runs away");
         assert!(matches!(error, Error::Overpowered { .. }), "{error}");
     }
@@ -389,7 +375,7 @@ mod searches {
     #[test]
     fn no_lag_is_faster_than_the_best_one() {
         let settings = OperatingSettings::default();
-        let motor = loaded(&tried(), 0.2);
+        let motor = loaded(&tried_motor(), 0.2);
         let best = best_phase_lag(&motor, &settings, &Unobserved).expect("it turns");
         let lags: Vec<f64> = (0..90).map(|k| TAU * f64::from(k) / 90.0).collect();
         let motors: Vec<LoadedMotor> =

@@ -158,8 +158,7 @@ fn what_has_no_sensitivity_is_refused() {
         (SensitivitySettings { points: 4, ..quick() }, "points"),
         (SensitivitySettings { points: 10_001, ..quick() }, "points"),
     ] {
-        let error = of(&motor, &[P::Friction], &settings).expect_err("illegal");
-        assert!(matches!(error, Error::OutOfRange { field, .. } if field == name), "{error}");
+        assert_eq!(crate::testing::refused_field(of(&motor, &[P::Friction], &settings)), name);
     }
     // A plastic rotor repeats a ramp whatever the preload: nothing is left for a line.
     let plastic = P::Restitution.set(&motor, 0.0).expect("legal");
@@ -184,25 +183,9 @@ fn parameters_are_set_one_by_one() {
         }
         assert_eq!(
             parameter.shares_vertical_motion(),
-            crate::motor::shared_orbit::is_shared(motor.system(), changed.system()),
+            crate::motor::batch::shared_orbit::is_shared(motor.system(), changed.system()),
             "{parameter}"
         );
         assert!(parameter.set(&motor, f64::NAN).is_err(), "{parameter}");
     }
-}
-
-#[cfg(feature = "serde")]
-#[test]
-fn what_is_stored_comes_back() {
-    let settings = quick();
-    let text = serde_json::to_string(&settings).expect("writes");
-    assert_eq!(serde_json::from_str::<SensitivitySettings>(&text).expect("legal"), settings);
-    for (from, to) in [("\"points\":8", "\"points\":4"), ("\"half_range\":0.2", "\"half_range\":2.5")] {
-        let illegal = text.replace(from, to);
-        assert!(illegal != text && serde_json::from_str::<SensitivitySettings>(&illegal).is_err(), "{to}");
-    }
-    let sampling = crate::SamplingSettings::default();
-    let text = serde_json::to_string(&sampling).expect("writes");
-    assert_eq!(serde_json::from_str::<crate::SamplingSettings>(&text).expect("legal"), sampling);
-    assert!(serde_json::from_str::<crate::SamplingSettings>(&text.replace("256", "7")).is_err());
 }

@@ -1,0 +1,57 @@
+//! Estimates from computed or measured speeds of a rotor, with intervals, or the reason why a fit is refused.
+//!
+//! A run-up gives the steady speed and the time constant of alpha_ss (1 - exp(-t/t_c)), by least squares over
+//! its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha gives
+//! the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
+//!
+//! ```
+//! use bouncing_disk::estimate::{BrakingFit, BrakingRotor};
+//!
+//! // A rotor of 1 kg that slows down by 10 rad/s^2 from 50 rad/s.
+//! let rotor = BrakingRotor { normal_force: 9.8, mass: 1.0, contact_radius: 0.1, gyration_radius: 0.1 };
+//! assert!((rotor.friction(-10.0)? - 1.0 / 9.8).abs() < 1e-15);
+//! let times: Vec<f64> = (0..50).map(|k| 0.1 * f64::from(k)).collect();
+//! let speeds: Vec<f64> = times.iter().map(|time| 50.0 - 10.0 * time).collect();
+//! let fit = BrakingFit::new(&times, &speeds, &rotor)?;
+//! assert!((fit.friction.value - 1.0 / 9.8).abs() < 1e-9);
+//! # Ok::<(), bouncing_disk::estimate::FitError>(())
+//! ```
+//!
+//! [`TransientFit`] fits run-ups, `ParameterFit` (feature `fit`) finds the parameters of a motor that explain
+//! them, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
+//! model are in [`motor`](crate::motor). Where the intervals come from: docs/numerics/motors.md.
+
+pub(crate) mod braking_fit;
+pub(crate) mod ensemble;
+pub(crate) mod fit;
+pub(crate) mod interval;
+pub(crate) mod measured_speeds;
+#[cfg(feature = "fit")]
+pub(crate) mod parameter_fit;
+pub(crate) mod refusal;
+pub(crate) mod statistics;
+pub(crate) mod transient_fit;
+
+pub use braking_fit::{BrakingFit, BrakingRotor};
+pub use ensemble::{Spread, TransientEnsemble};
+pub use fit::{ExponentialFit, RampFit};
+pub use interval::IntervalEstimate;
+#[cfg(feature = "csv")]
+pub use measured_speeds::csv_file::CsvColumns;
+#[cfg(feature = "csv")]
+pub use measured_speeds::error::{CsvFault, MeasuredSpeedsError};
+pub use measured_speeds::units::{SpeedUnit, TimeUnit, UnknownUnit};
+pub use measured_speeds::{MeasuredRun, MeasuredSpeeds};
+#[cfg(feature = "fit")]
+pub use parameter_fit::ParameterFit;
+#[cfg(feature = "fit")]
+pub use parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+#[cfg(feature = "fit")]
+pub use parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
+#[cfg(feature = "fit")]
+pub use parameter_fit::parameter::{FitParameter, FitRange};
+#[cfg(feature = "fit")]
+pub use parameter_fit::settings::ParameterFitSettings;
+pub use refusal::{FitError, FitRefusal};
+pub use statistics::{LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit};
+pub use transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};

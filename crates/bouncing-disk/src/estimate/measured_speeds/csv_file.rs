@@ -1,0 +1,413 @@
+//! Reads measured speeds from separated values, and says exactly where they are malformed.
+//!
+//! What the file means is never guessed: a column has its unit in its name, in the row below the header, or by the
+//! caller; a comma that may be a decimal mark or separate thousands is refused.
+
+use std::collections::BTreeMap;
+use std::io::Read;
+use std::path::Path;
+
+use crate::csv_records::{RecordFault, fields, lines, number, plain, text};
+use crate::estimate::measured_speeds::error::{CsvFault, MeasuredSpeedsError};
+use crate::estimate::measured_speeds::units::{SpeedUnit, TimeUnit};
+use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
+use crate::regular_file;
+
+/// The names of columns without their units, in small letters.
+const NAMES: [&[&str]; 3] =
+    [&["time", "t"], &["speed", "angular speed", "angular_speed", "omega", "n"], &["member", "run", "trial"]];
+
+/// What a message calls the columns.
+const COLUMNS: [&str; 3] = ["time_s", "speed_rad_s", "member"];
+
+/// The legal values of each column.
+const LEGAL: [&str; 3] = ["a finite number", "a finite number", "a whole number from 0 to 4294967295"];
+
+/// What may separate columns, in the order in which it is tried.
+const SEPARATORS: [char; 3] = [';', '\t', ','];
+
+/// The largest file that is read (bytes).
+const LARGEST_FILE: u64 = 64 << 20;
+
+/// The longest line that is read (bytes).
+const LONGEST_LINE: usize = 1 << 16;
+
+/// The most lines of numbers.
+const MOST_ROWS: usize = 4_000_000;
+
+/// The fewest lines of a run.
+const LEAST_POINTS: usize = 3;
+
+/// How many characters of a text a message shows.
+const SHOWN: usize = 40;
+
+/// What the caller says of the columns of a file; what is `None` the file must say itself.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct CsvColumns {
+    /// The column of the times. If it or that of the speeds is named, columns of other names are passed over.
+    pub time: Option<String>,
+    /// The column of the speeds.
+    pub speed: Option<String>,
+    /// The unit of the times.
+    pub time_unit: Option<TimeUnit>,
+    /// The unit of the speeds.
+    pub speed_unit: Option<SpeedUnit>,
+}
+
+impl MeasuredSpeeds {
+    /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs,
+    /// `member` (a whole number), or with times and speeds in other units that it names. Feature `csv`.
+    ///
+    /// The header is the first line that names the columns, in any order; text before it, a row of units below it, blank
+    /// lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by commas, semicolons or tabs;
+    /// numbers have a decimal point or, if commas do not separate columns, a decimal comma. Another column is refused and
+    /// not passed over: it may be a misspelt one. Within a run the times rise; runs may follow each other or alternate. At
+    /// most 64 MiB, 4,000,000 lines of numbers and 65,536 bytes of one line are read.
+    ///
+    /// # Errors
+    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and says how to
+    /// mend them. A folder, a named pipe, a socket and a device are refused before they are opened.
+    pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
+        Self::from_csv_with(path, &CsvColumns::default())
+    }
+
+    /// [`Self::from_csv`] with columns that the caller knows more of.
+    ///
+    /// # Errors
+    /// Those of [`Self::from_csv`]; a unit that is another one in the file.
+    pub fn from_csv_with(path: impl AsRef<Path>, columns: &CsvColumns) -> Result<Self, MeasuredSpeedsError> {
+        let path = path.as_ref();
+        let file = path.to_string_lossy();
+        let bytes = regular_file::read(path, LARGEST_FILE);
+        parse(
+            &file,
+            &bytes.map_err(|source| MeasuredSpeedsError::Unreadable { file: file.to_string(), source })?,
+            columns,
+        )
+    }
+
+    /// [`Self::from_csv_with`] of a reader, whose content messages call `name`.
+    ///
+    /// # Errors
+    /// Those of [`Self::from_csv_with`].
+    pub fn from_csv_reader(
+        name: &str,
+        reader: impl Read,
+        columns: &CsvColumns,
+    ) -> Result<Self, MeasuredSpeedsError> {
+        let bytes = regular_file::limited(reader, LARGEST_FILE);
+        let bytes =
+            bytes.map_err(|source| MeasuredSpeedsError::Unreadable { file: name.to_owned(), source })?;
+        parse(name, &bytes, columns)
+    }
+}
+
+/// The beginning of a text of somebody else's.
+fn shortened(text: &str) -> String {
+    if text.chars().nth(SHOWN).is_none() {
+        return text.to_owned();
+    }
+    text.chars().take(SHOWN).chain(['…']).collect()
+}
+
+/// A fault and its place: line and field, counted from 1.
+struct Located(Option<usize>, Option<usize>, CsvFault);
+
+impl From<RecordFault> for Located {
+    fn from(fault: RecordFault) -> Self {
+        match fault {
+            RecordFault::NotText { line, byte } => Self(Some(line), None, CsvFault::NotText(byte)),
+            RecordFault::OpenQuote { line, field } => Self(Some(line), Some(field), CsvFault::OpenQuote),
+        }
+    }
+}
+
+/// Times and speeds of each run in SI units, by the number of the run.
+type Runs = BTreeMap<u32, (Vec<f64>, Vec<f64>)>;
+
+fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeeds, MeasuredSpeedsError> {
+    let (runs, units) = runs_of(bytes, columns).map_err(|Located(line, field, fault)| {
+        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
+    })?;
+    let run = |(member, (times, speeds))| MeasuredRun { member, times, speeds };
+    let mut measured = MeasuredSpeeds::new(runs.into_iter().map(run).collect())?;
+    measured.units = units;
+    Ok(measured)
+}
+
+fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, SpeedUnit)), Located> {
+    let text = text(bytes)?;
+    let long = bytes.split(|byte| *byte == b'\n').position(|line| line.len() > LONGEST_LINE);
+    if let Some(index) = long {
+        return Err(Located(Some(index + 1), None, CsvFault::LongLine(LONGEST_LINE)));
+    }
+    let mut lines = lines(text).peekable();
+    let mut header = Header::find(&mut lines, columns)?;
+    if let Some(&line) = lines.peek() {
+        let row = fields(line, header.separator)?;
+        let is_text = row.iter().all(|field| header.number(field).is_none());
+        if row.len() >= header.fields && is_text && row.iter().any(|field| !field.is_empty()) {
+            header.units_below(line.0, &row)?;
+            lines.next();
+        }
+    }
+    let (time_unit, speed_unit) = header.units(columns)?;
+    let mut runs = Runs::new();
+    let mut rows = 0;
+    for line in lines {
+        rows += 1;
+        if rows > MOST_ROWS {
+            return Err(Located(Some(line.0), None, CsvFault::TooLong(MOST_ROWS)));
+        }
+        let (time, speed, member) = header.row(line.0, fields(line, header.separator)?)?;
+        let (times, speeds) = runs.entry(member).or_default();
+        let (time, speed) = (time_unit.to_si(time), speed_unit.to_si(speed));
+        if let Some(&previous) = times.last()
+            && time <= previous
+        {
+            let fault = CsvFault::NotRising { time, previous, member };
+            return Err(Located(Some(line.0), Some(header.places[0] + 1), fault));
+        }
+        times.push(time);
+        speeds.push(speed);
+    }
+    if let (Some((line, field)), false) = (header.comma, header.commas_are_decimal) {
+        let fault = CsvFault::DecimalMarks("its commas may separate thousands");
+        return Err(Located(Some(line), Some(field), fault));
+    }
+    if runs.is_empty() {
+        runs.insert(0, (Vec::new(), Vec::new()));
+    }
+    for (&member, (times, _)) in &runs {
+        let (points, least) = (times.len(), LEAST_POINTS);
+        if points < least {
+            return Err(Located(None, None, CsvFault::TooFewPoints { member, points, least }));
+        }
+    }
+    Ok((runs, (time_unit, speed_unit)))
+}
+
+/// The name of a column and its unit in brackets or behind an underscore, if it has one.
+fn name_and_unit(field: &str) -> (String, Option<&str>) {
+    for (open, close) in [('(', ')'), ('[', ']')] {
+        if let Some((name, unit)) = field.strip_suffix(close).and_then(|rest| rest.split_once(open)) {
+            return (name.trim().to_lowercase(), Some(unit.trim()));
+        }
+    }
+    for name in NAMES[..2].iter().copied().flatten() {
+        let prefix = field.get(..name.len()).filter(|prefix| prefix.eq_ignore_ascii_case(name));
+        if let Some(unit) = prefix.and_then(|_| field[name.len()..].strip_prefix('_')) {
+            return ((*name).to_owned(), Some(unit));
+        }
+    }
+    (field.to_lowercase(), None)
+}
+
+/// Where the columns are in the file, and how its numbers are written.
+struct Header<'a> {
+    line: usize,
+    separator: char,
+    /// Fields of a line.
+    fields: usize,
+    /// For times and speeds the place in a line; that of the members may be missing.
+    places: [usize; 2],
+    member: Option<usize>,
+    /// For times and speeds the unit in the name, or below it.
+    units: [Option<&'a str>; 2],
+    /// Line and field of the first decimal point and of the first comma.
+    point: Option<(usize, usize)>,
+    comma: Option<(usize, usize)>,
+    /// Whether a number shows that commas do not separate thousands.
+    commas_are_decimal: bool,
+}
+
+impl<'a> Header<'a> {
+    /// The first line that names times and speeds. Only text is before it: a line of numbers ends the search.
+    fn find(
+        lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
+        columns: &CsvColumns,
+    ) -> Result<Self, Located> {
+        let mut fault = None;
+        while let Some(&line) = lines.peek() {
+            let is_number = |field: &str| number(&plain(field).replacen(',', ".", 1)).is_ok();
+            let are_numbers = line.1.split([';', '\t', ',']).all(is_number);
+            if are_numbers && fault.is_some() {
+                break;
+            }
+            lines.next();
+            let mut own = None;
+            for separator in SEPARATORS.into_iter().filter(|separator| line.1.contains(*separator)) {
+                let Ok(names) = fields(line, separator) else { continue };
+                match Self::read(line.0, separator, &names, columns) {
+                    Ok(header) => return Ok(header),
+                    // The first separator that is tried has the message.
+                    Err(other) => own = own.or(Some(other)),
+                }
+            }
+            // A line without any separator is text, unless it is all that there is.
+            let single = || Self::read(line.0, ',', &[plain(line.1)], columns).err();
+            fault = own.or_else(|| if fault.is_none() { single() } else { fault.take() }).or(fault);
+            if are_numbers {
+                break;
+            }
+        }
+        Err(fault.unwrap_or(Located(None, None, CsvFault::Empty)))
+    }
+
+    fn read(line: usize, separator: char, names: &[&'a str], columns: &CsvColumns) -> Result<Self, Located> {
+        let said = [columns.time.as_deref(), columns.speed.as_deref(), None];
+        let is_said = said.iter().any(Option::is_some);
+        let (mut places, mut units) = ([None; COLUMNS.len()], [None; COLUMNS.len()]);
+        let mut unknown = None;
+        for (place, field) in names.iter().enumerate() {
+            let (name, unit) = name_and_unit(field);
+            let index = (0..COLUMNS.len()).find(|&index| match said[index] {
+                Some(said) => said == *field || said.to_lowercase() == name,
+                None => NAMES[index].contains(&name.as_str()),
+            });
+            match index {
+                Some(index) if places[index].is_some() => {
+                    let fault = CsvFault::RepeatedColumn(COLUMNS[index]);
+                    return Err(Located(Some(line), Some(place + 1), fault));
+                }
+                Some(index) => (places[index], units[index]) = (Some(place), unit),
+                // Some programs end each line by a separator.
+                None if is_said || (field.is_empty() && place + 1 == names.len()) => {}
+                None => {
+                    let fault = CsvFault::UnknownColumn(shortened(field));
+                    unknown = unknown.or(Some(Located(Some(line), Some(place + 1), fault)));
+                }
+            }
+        }
+        if let Some(fault) = unknown {
+            return Err(fault);
+        }
+        let missing = |index: usize| {
+            let name = shortened(said[index].unwrap_or(COLUMNS[index]));
+            Located(Some(line), None, CsvFault::MissingColumn(name))
+        };
+        let [times, speeds, member] = places;
+        Ok(Self {
+            line,
+            separator,
+            fields: names.len(),
+            places: [times.ok_or_else(|| missing(0))?, speeds.ok_or_else(|| missing(1))?],
+            member,
+            units: [units[0], units[1]],
+            point: None,
+            comma: None,
+            commas_are_decimal: false,
+        })
+    }
+
+    /// Takes the units from a row below the header, for columns whose names have none.
+    fn units_below(&mut self, line: usize, row: &[&'a str]) -> Result<(), Located> {
+        for index in 0..2 {
+            let Some(field) = row.get(self.places[index]).filter(|field| !field.is_empty()) else { continue };
+            let unit = field.trim_matches(['(', ')', '[', ']', ' ']);
+            let is_known = [TimeUnit::of(unit).is_some(), SpeedUnit::of(unit).is_some()][index];
+            if !is_known || self.units[index].is_some_and(|own| !same_unit(own, unit)) {
+                return Err(self.unit_fault(index, line, unit));
+            }
+            self.units[index] = Some(unit);
+        }
+        Ok(())
+    }
+
+    fn unit_fault(&self, index: usize, line: usize, unit: &str) -> Located {
+        let name = ["time", "speed"][index];
+        let legal = [TimeUnit::NAMES, SpeedUnit::NAMES][index];
+        let fault = CsvFault::Unit { name, unit: shortened(unit), legal };
+        Located(Some(line), Some(self.places[index] + 1), fault)
+    }
+
+    /// The units of times and speeds, by the file or the caller, who must not contradict each other.
+    fn units(&self, columns: &CsvColumns) -> Result<(TimeUnit, SpeedUnit), Located> {
+        let own = |index: usize| self.units[index].unwrap_or_default();
+        let (time, speed) = (TimeUnit::of(own(0)), SpeedUnit::of(own(1)));
+        let fault = |index: usize| self.unit_fault(index, self.line, own(index));
+        let differs = [
+            columns.time_unit.is_some_and(|said| self.units[0].is_some() && time != Some(said)),
+            columns.speed_unit.is_some_and(|said| self.units[1].is_some() && speed != Some(said)),
+        ];
+        if let Some(index) = differs.iter().position(|differs| *differs) {
+            return Err(fault(index));
+        }
+        let time = columns.time_unit.or(time).ok_or_else(|| fault(0))?;
+        Ok((time, columns.speed_unit.or(speed).ok_or_else(|| fault(1))?))
+    }
+
+    /// The number of a field, with the decimal mark that the separator leaves.
+    fn number(&self, field: &str) -> Option<f64> {
+        let comma = self.separator != ',' && field.contains(',');
+        if comma { number(&field.replacen(',', ".", 1)).ok() } else { number(field).ok() }
+    }
+
+    /// Notes the decimal mark of a number.
+    fn note_mark(&mut self, line: usize, place: usize, text: &str) -> Result<(), Located> {
+        let here = Some((line, place + 1));
+        if text.contains('.') {
+            self.point = self.point.or(here);
+        }
+        let digits = text.trim_start_matches(['+', '-']);
+        match digits.split_once(',') {
+            Some((whole, part)) => {
+                self.comma = self.comma.or(here);
+                let may_be_thousand =
+                    part.len() == 3 && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
+                self.commas_are_decimal |= !may_be_thousand;
+            }
+            None => {
+                let is_whole = digits.bytes().all(|digit| digit.is_ascii_digit());
+                self.commas_are_decimal |= is_whole && digits.len() > 3;
+            }
+        }
+        if self.point.is_some() && self.comma.is_some() {
+            let fault = CsvFault::DecimalMarks("it has points and commas in its numbers");
+            return Err(Located(Some(line), Some(place + 1), fault));
+        }
+        Ok(())
+    }
+
+    /// Time, speed and member of a line.
+    fn row(&mut self, line: usize, mut row: Vec<&str>) -> Result<(f64, f64, u32), Located> {
+        while row.len() > self.fields && row[row.len() - 1].is_empty() {
+            row.pop();
+        }
+        let (fields, columns) = (row.len(), self.fields);
+        if fields != columns {
+            return Err(Located(Some(line), None, CsvFault::Fields { fields, columns }));
+        }
+        let mut numbers = [0.0; 2];
+        for (column, value) in numbers.iter_mut().enumerate() {
+            let place = self.places[column];
+            let text = row[place];
+            if self.separator != ',' {
+                self.note_mark(line, place, text)?;
+            }
+            *value = self.number(text).ok_or_else(|| self.refuse(line, column, place, text))?;
+        }
+        let member = match self.member {
+            None => 0,
+            Some(place) => row[place].parse().map_err(|_| self.refuse(line, 2, place, row[place]))?,
+        };
+        Ok((numbers[0], numbers[1], member))
+    }
+
+    fn refuse(&self, line: usize, column: usize, place: usize, text: &str) -> Located {
+        let (name, value) = (COLUMNS[column], shortened(text));
+        let fault = if text.contains(',') && number(&text.replacen(',', ".", 1)).is_ok() {
+            CsvFault::DecimalComma { name, value }
+        } else {
+            CsvFault::NotLegal { name, value, legal: LEGAL[column] }
+        };
+        Located(Some(line), Some(place + 1), fault)
+    }
+}
+
+fn same_unit(one: &str, other: &str) -> bool {
+    (TimeUnit::of(one), SpeedUnit::of(one)) == (TimeUnit::of(other), SpeedUnit::of(other))
+}
+
+#[cfg(test)]
+mod tests;

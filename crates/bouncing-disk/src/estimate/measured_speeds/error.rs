@@ -1,0 +1,147 @@
+//! What can be wrong with a file of measured speeds.
+
+use crate::error::Error;
+
+/// The columns, the last of which may be missing.
+pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, member, or time and speed with other units, such as t (ms) and n (rpm)";
+
+/// Why a file gives no measured speeds.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MeasuredSpeedsError {
+    /// The system refuses, or the path is that of no regular file or of one that is too large.
+    #[error("{file:?} cannot be read")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// The report of the system.
+        source: std::io::Error,
+    },
+    /// The text is malformed. Lines and fields are counted from 1.
+    #[error("{}", located(file, *line, *field, fault))]
+    Malformed {
+        /// The file.
+        file: String,
+        /// The line; `None` for a fault of the whole file.
+        line: Option<usize>,
+        /// The field; `None` for a fault of the whole line.
+        field: Option<usize>,
+        /// The fault, with what to do about it.
+        fault: CsvFault,
+    },
+    /// An error of the model.
+    #[error(transparent)]
+    Model(#[from] Error),
+}
+
+fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFault) -> String {
+    let line = line.map(|line| format!(", line {line}")).unwrap_or_default();
+    let field = field.map(|field| format!(", field {field}")).unwrap_or_default();
+    format!("{file:?}{line}{field}: {fault}")
+}
+
+/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust, so that
+/// they cannot disturb a terminal.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CsvFault {
+    /// A byte is no text in UTF-8.
+    #[error("byte {0} is not text in UTF-8; save the file as UTF-8")]
+    NotText(usize),
+    /// A line is longer than so many bytes.
+    #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
+    LongLine(usize),
+    /// There is no header.
+    #[error("it is empty; a line must name the columns: {HEADER}")]
+    Empty,
+    /// A column has no unit that is known, or another one than the caller or the row below the header says.
+    #[error(
+        "the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in the row below it, or by the caller \
+         (--{name}-unit), and nowhere two that differ"
+    )]
+    Unit {
+        /// `time` or `speed`.
+        name: &'static str,
+        /// The unit found; empty where there is none.
+        unit: String,
+        /// The units that are known.
+        legal: &'static str,
+    },
+    /// The decimal mark of the file is not clear, for this reason.
+    #[error(
+        "the decimal mark of the file is not clear: {0}; write one decimal mark and no separators of thousands"
+    )]
+    DecimalMarks(&'static str),
+    /// A quotation mark begins a field and nothing ends it on the line.
+    #[error("a quotation mark is not closed on its line; close or remove it")]
+    OpenQuote,
+    /// The header has a name that is not known.
+    #[error(
+        "there is no column {0:?}; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
+         columns that count (--time-column, --speed-column)"
+    )]
+    UnknownColumn(String),
+    /// The header has a name twice.
+    #[error("the column {0:?} is there again; remove one of the two")]
+    RepeatedColumn(&'static str),
+    /// The header lacks a name.
+    #[error("the column {0:?} is missing; the header must have times and speeds")]
+    MissingColumn(String),
+    /// A line has more or fewer fields than the header.
+    #[error(
+        "it has {fields} fields where the header has {columns}; write numbers with a decimal point, or separate the \
+         columns by semicolons"
+    )]
+    Fields {
+        /// Fields of the line.
+        fields: usize,
+        /// Columns of the header.
+        columns: usize,
+    },
+    /// A number is written with a decimal comma.
+    #[error("{value:?} in the column {name} has a decimal comma; write a decimal point")]
+    DecimalComma {
+        /// The name of the column.
+        name: &'static str,
+        /// The text of the field.
+        value: String,
+    },
+    /// A field is no number, or none that is legal in its column.
+    #[error("{value:?} is not legal in the column {name}; legal is {legal}")]
+    NotLegal {
+        /// The name of the column.
+        name: &'static str,
+        /// The text of the field.
+        value: String,
+        /// The legal values.
+        legal: &'static str,
+    },
+    /// A time does not rise within its run.
+    #[error(
+        "time_s = {time:?} follows {previous:?} in the run of member {member}; sort the lines by time, remove repeated \
+         ones, or number the runs in a column member"
+    )]
+    NotRising {
+        /// The time (s).
+        time: f64,
+        /// The one before it in the run (s).
+        previous: f64,
+        /// The number of the run; 0 where there is only one.
+        member: u32,
+    },
+    /// A run has too few lines.
+    #[error(
+        "the run of member {member} has {points} lines of numbers where {least} are needed; add lines, or remove the run"
+    )]
+    TooFewPoints {
+        /// The number of the run; 0 where there is only one.
+        member: u32,
+        /// Its lines.
+        points: usize,
+        /// The fewest.
+        least: usize,
+    },
+    /// There are more lines of numbers than so many.
+    #[error("there are more than {0} lines of numbers; average neighbouring ones")]
+    TooLong(usize),
+}

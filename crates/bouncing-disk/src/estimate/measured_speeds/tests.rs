@@ -1,0 +1,126 @@
+use super::*;
+use crate::estimate::refusal::FitRefusal;
+use crate::testing::Noise;
+use bouncing_disk_core::Unobserved;
+
+fn run(member: u32, noise: &mut Noise) -> MeasuredRun {
+    let times: Vec<f64> = (0..100).map(|i| 0.04 * f64::from(i)).collect();
+    let speeds = times
+        .iter()
+        .map(|time| {
+            20.0 * (1.0 - bouncing_disk_core::numerics::elementary::exp(-time / 0.6)) + noise.normal()
+        })
+        .collect();
+    MeasuredRun { member, times, speeds }
+}
+
+fn field<T: std::fmt::Debug>(result: Result<T, Error>) -> &'static str {
+    match result {
+        Err(Error::OutOfRange { field, .. }) => field,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn one_run_is_fitted_by_its_residuals_and_several_by_their_scatter() {
+    let mut noise = Noise::new(6);
+    let runs: Vec<MeasuredRun> = (1..=6).map(|member| run(member, &mut noise)).collect();
+    let settings = FitSettings::default();
+    let one = MeasuredSpeeds::new(runs[..1].to_vec()).expect("legal");
+    assert_eq!(
+        one.fit(&settings, &Unobserved),
+        TransientFit::of_measured(&[(&runs[0].times, &runs[0].speeds)], &settings, &Unobserved)
+    );
+    let several = MeasuredSpeeds::new(runs.clone()).expect("legal");
+    let fit = several.fit(&settings, &Unobserved);
+    assert_eq!(fit.expect("fitted").members, 6);
+    let few = MeasuredSpeeds::new(runs[..2].to_vec()).expect("legal").fit(&settings, &Unobserved);
+    let reason = FitRefusal::TooFewMembers { members: 2, least: 5 };
+    assert_eq!(few, Err(FitError::Refused(reason)));
+}
+
+/// The same rise, seen at other instants and for another time in each run.
+#[test]
+fn repeats_with_times_and_lengths_of_their_own_are_fitted_together() {
+    let mut covered = [0; 2];
+    for seed in 1..=100 {
+        let mut noise = Noise::new(seed);
+        let runs = (0..6).map(|member| {
+            let (step, rows) = (0.03 + 0.004 * f64::from(member), 90 - 4 * member);
+            let jitter =
+                |i: u32| 0.3 * crate::testing::golden_spread(1_000 * seed + 100 * u64::from(member + i));
+            let times: Vec<f64> = (0..rows).map(|i| step * (f64::from(i) + jitter(i))).collect();
+            let steady = 20.0 + 0.3 * noise.normal();
+            let speed =
+                |time: &f64| steady * (1.0 - bouncing_disk_core::numerics::elementary::exp(-time / 0.6));
+            let speeds = times.iter().map(|time| speed(time) + 0.5 * noise.normal()).collect();
+            MeasuredRun { member, times, speeds }
+        });
+        let runs = MeasuredSpeeds::new(runs.collect()).expect("legal");
+        let fit = runs.fit(&FitSettings { seed, ..FitSettings::default() }, &Unobserved).expect("fitted");
+        assert_eq!((fit.members, fit.points), (6, 90 + 86 + 82 + 78 + 74 + 70));
+        covered[0] += u32::from(fit.steady_speed().contains(20.0));
+        covered[1] += u32::from(fit.time_constant().contains(0.6));
+    }
+    println!("{covered:?}");
+    assert!(covered.iter().all(|&count| count >= 90), "{covered:?}");
+}
+
+/// An observer is heard of one run and of several, and changes no bit.
+#[test]
+fn a_fit_can_be_watched_and_stopped() {
+    use std::ops::ControlFlow;
+    use std::sync::atomic::{AtomicU64, Ordering};
+
+    use bouncing_disk_core::Progress;
+
+    let mut noise = Noise::new(6);
+    let runs: Vec<MeasuredRun> = (1..=6).map(|member| run(member, &mut noise)).collect();
+    let settings = FitSettings::default();
+    for count in [1, 6] {
+        let measured = MeasuredSpeeds::new(runs[..count].to_vec()).expect("legal");
+        let calls = AtomicU64::new(0);
+        let counted = |_: Progress| {
+            calls.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        assert_eq!(measured.fit(&settings, &counted), measured.fit(&settings, &Unobserved));
+        assert!(calls.into_inner() >= 2);
+        let stopped = measured.fit(&settings, &|_: Progress| ControlFlow::Break(()));
+        assert!(matches!(
+            stopped,
+            Err(FitError::Model(Error::Core(bouncing_disk_core::Error::Stopped { done: 0, .. })))
+        ));
+    }
+}
+
+#[test]
+fn each_run_brakes_by_its_own_friction() {
+    let rotor = BrakingRotor { normal_force: 0.5, mass: 0.05, contact_radius: 0.002, gyration_radius: 0.01 };
+    let run = |member: u32| {
+        let times: Vec<f64> = (0..100).map(|i| 0.01 * f64::from(i)).collect();
+        let speeds = times.iter().map(|time| 50.0 - 10.0 * f64::from(member) * time).collect();
+        MeasuredRun { member, times, speeds }
+    };
+    let measured = MeasuredSpeeds::new(vec![run(1), run(2)]).expect("legal");
+    let fits = measured.fit_braking(&rotor).expect("fitted");
+    assert!((fits[0].friction.value - 0.05).abs() < 1e-12 && (fits[1].friction.value - 0.1).abs() < 1e-12);
+    let measured = MeasuredSpeeds::new(vec![run(0), run(2)]).expect("legal");
+    assert!(matches!(measured.fit_braking(&rotor), Err(FitError::Refused(_))));
+}
+
+#[test]
+fn runs_that_cannot_be_fitted_do_not_exist() {
+    let legal = run(3, &mut Noise::new(1));
+    assert_eq!(field(MeasuredSpeeds::new(Vec::new())), "runs");
+    assert_eq!(field(MeasuredSpeeds::new(vec![legal.clone(), legal.clone()])), "member");
+    let spoilt = |change: &dyn Fn(&mut MeasuredRun)| {
+        let mut run = legal.clone();
+        change(&mut run);
+        field(MeasuredSpeeds::new(vec![run]))
+    };
+    assert_eq!(spoilt(&|run| run.times.clear()), "number of points of the speed curve");
+    assert_eq!(spoilt(&|run| run.speeds.truncate(5)), "number of speeds");
+    assert_eq!(spoilt(&|run| run.speeds[9] = f64::NAN), "speed");
+    assert_eq!(spoilt(&|run| run.times[9] = run.times[8]), "times of the speed curve");
+}

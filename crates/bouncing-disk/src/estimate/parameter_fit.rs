@@ -1,0 +1,292 @@
+//! Parameters of a motor from its transients at one preload or several, with intervals, and what they cannot
+//! tell.
+//!
+//! A transient of a chaotic motor is compared by its means over windows of time, weighted by what such means
+//! scatter by; docs/numerics/motors.md, "Parameters from transients", derives how, and what can be known at
+//! all.
+
+mod bootstrap;
+mod determined;
+mod display;
+pub(crate) mod estimate;
+pub(crate) mod measured_transient;
+mod model;
+pub(crate) mod parameter;
+mod search;
+pub(crate) mod settings;
+mod weights;
+mod windows;
+
+use bouncing_disk_core::Observer;
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+use bouncing_disk_core::run::Watch;
+use nalgebra::DVector;
+
+use crate::error::{Error, check, within_limit};
+use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::parameter_fit::bootstrap::resampled_places;
+use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
+use crate::estimate::parameter_fit::model::{Model, mean_of};
+use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
+use crate::estimate::parameter_fit::search::{Evaluations, Linearised, least_squares};
+use crate::estimate::parameter_fit::settings::ParameterFitSettings;
+use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
+use crate::motor::data_sheet::Motor;
+use crate::statistics::percentile;
+use crate::statistics::small_sample_widening;
+
+/// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
+const MOST_TRANSIENTS: usize = 1_000;
+
+/// The normal quantile that one of 10,000 exceeds.
+const RARE: f64 = 3.719_016_485_455_709;
+
+/// A clock that is off by more than so many of its standard errors is one.
+const SIGNIFICANT: f64 = 3.0;
+
+/// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
+const AT_END: f64 = 1.0e-6;
+
+/// Parameters of a motor that were fitted to its transients.
+///
+/// ```
+/// use bouncing_disk::core::{Phase, Unobserved};
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::estimate::{
+///     FitParameter, FitRange, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit,
+///     ParameterFitSettings, RunPreload,
+/// };
+/// use bouncing_disk::motor::{TransientSettings, transient};
+///
+/// // Synthetic: a run of the paper's motor with a friction of 0.2, where its data sheet says 0.1.
+/// let sheet = Motor::paper_70_khz();
+/// let built = sheet.with(|sheet| sheet.friction = 0.2)?;
+/// let settings = TransientSettings { duration: 2.0, intervals: 200, ..TransientSettings::default() };
+/// let curve = transient(built.system(), Phase::new(1.0)?, &settings, &Unobserved)?;
+/// let run = MeasuredRun { member: 0, times: curve.times, speeds: curve.speeds };
+/// let measured = MeasuredTransient {
+///     preload: RunPreload::Acceleration(9.8),
+///     runs: MeasuredSpeeds::new(vec![run])?,
+///     speed_error: None,
+/// };
+///
+/// let friction = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
+/// let settings = ParameterFitSettings::default();
+/// let fit = ParameterFit::new(&sheet, &[measured], &[friction], &settings, &Unobserved)?;
+/// let found = fit.estimate(FitParameter::Friction).expect("determined");
+/// assert!((found.value - 0.2).abs() < 0.04);
+/// // Printed, it is a table.
+/// assert!(fit.to_string().contains("friction   0.1"));
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ParameterFit {
+    /// The fitted parameters, in the order of their ranges: at least one, and none twice.
+    pub parameters: Vec<ParameterEstimate>,
+    /// Directions that the transients do not determine, the least uncertain first; each names all fitted
+    /// parameters, in their order. Along them the motor stays where the search found them so: where it began, unless
+    /// they were determined there and are not where it ended.
+    pub undetermined: Vec<UndeterminedDirection>,
+    /// The motor with the fitted parameters, at the preload of its data sheet.
+    pub motor: Motor,
+    /// Sum of the weighted squares that is left, not negative.
+    pub misfit: f64,
+    /// Its expectation: the number of means less that of the directions that are determined.
+    pub degrees_of_freedom: usize,
+    /// How often all motors have been computed, at least once.
+    pub evaluations: usize,
+}
+
+impl ParameterFit {
+    /// Fits the parameters that have a range to the transients, which may be at different preloads. All else
+    /// is that of the data sheet, also the load; its preload is not used.
+    ///
+    /// The items of `observer` are the evaluations that the search may spend.
+    ///
+    /// # Errors
+    /// [`FitError::Refused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
+    /// times that do not count from the switch-on, a parameter at the end of its range, a search that found no end, a model
+    /// that does not describe the transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
+    /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
+    /// and a range that is illegal or does not hold the data sheet's value.
+    pub fn new(
+        nominal: &Motor,
+        transients: &[MeasuredTransient],
+        ranges: &[FitRange],
+        settings: &ParameterFitSettings,
+        observer: &dyn Observer,
+    ) -> Result<Self, FitError> {
+        let model = checked(nominal, transients, ranges, settings)?;
+        let watch = Watch::begin(observer, 0, settings.most_evaluations as u64)?;
+        let mut evaluations = Evaluations { spent: 0, most: settings.most_evaluations };
+        let start = ranges.iter().map(|range| range.place_of(range.parameter.of(nominal)).clamp(-1.0, 1.0));
+        let start = DVector::from_iterator(ranges.len(), start);
+        let mut state = Linearised::at(&model, start, &mut evaluations, &watch)?;
+        let mut is_near = state.directions.determined.ncols() == 0;
+        while !is_near {
+            let places = least_squares(&model, &state, &mut evaluations, &watch)?;
+            let next = Linearised::at(&model, places, &mut evaluations, &watch)?;
+            is_near = next.directions.determined.ncols() == 0 || next.is_near(&state);
+            state = next;
+        }
+        let fit = Self::of(&model, &state, evaluations.spent, &watch)?;
+        watch.end();
+        Ok(fit)
+    }
+
+    fn of(
+        model: &Model<'_>,
+        state: &Linearised,
+        evaluations: usize,
+        watch: &Watch<'_>,
+    ) -> Result<Self, FitError> {
+        check_clocks(model, state, watch)?;
+        let Linearised { places, local, weights, directions } = state;
+        let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
+        let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
+        let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
+        let response = directions.response();
+        let resampled = resampled_places(model, local, weights, &response, &mut watch.work())?;
+        let mut parameters = Vec::with_capacity(model.ranges.len());
+        for (index, range) in model.ranges.iter().enumerate() {
+            let (low, high) = (percentile(&resampled[index], 0.025), percentile(&resampled[index], 0.975));
+            let place = places[index];
+            let mut estimate = None;
+            if directions.tells(index, (high - low) / (2.0 * NORMAL_975)) {
+                let value = range.value_at(place);
+                if place.abs() >= 1.0 - AT_END {
+                    return refused(FitRefusal::AtRangeEnd {
+                        parameter: range.parameter,
+                        value,
+                        low: range.low,
+                        high: range.high,
+                    });
+                }
+                let end = |from: f64| range.value_at(place + widening * from);
+                estimate = Some(IntervalEstimate::about(value, end(low), end(high))?);
+            }
+            let nominal = range.parameter.of(&model.nominal);
+            parameters.push(ParameterEstimate { parameter: range.parameter, nominal, estimate });
+        }
+        let undetermined = directions.undetermined.iter();
+        Ok(Self {
+            parameters,
+            undetermined: undetermined
+                .map(|(direction, error)| named(model.ranges, direction, *error))
+                .collect(),
+            motor: model.motor(places)?,
+            misfit,
+            degrees_of_freedom,
+            evaluations,
+        })
+    }
+
+    /// The value and interval of a parameter; `None` if it was not fitted or is not determined.
+    #[must_use]
+    pub fn estimate(&self, parameter: FitParameter) -> Option<IntervalEstimate> {
+        self.parameters.iter().find(|fitted| fitted.parameter == parameter).and_then(|fitted| fitted.estimate)
+    }
+}
+
+/// The model of legal input.
+fn checked<'a>(
+    nominal: &Motor,
+    transients: &'a [MeasuredTransient],
+    ranges: &'a [FitRange],
+    settings: &'a ParameterFitSettings,
+) -> Result<Model<'a>, FitError> {
+    settings.check()?;
+    check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
+    within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
+    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 5]")?;
+    for (k, range) in ranges.iter().enumerate() {
+        range.check_for(nominal)?;
+        let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
+        check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
+    }
+    let mut windows = Vec::with_capacity(transients.len());
+    for transient in transients {
+        transient.check_for_fit()?;
+        let peak_acceleration = transient.motor(nominal)?.system().peak_acceleration();
+        if peak_acceleration <= 1.0 {
+            return Err(Error::NeverLeaves { peak_acceleration }.into());
+        }
+        windows.push(Windows::of(transient, settings.windows, transient.error_variance()?, 0.0));
+    }
+    Ok(Model { nominal: *nominal, transients, ranges, settings, windows })
+}
+
+/// Refuses transients whose times do not count from the switch-on. To first order a clock that is off leaves of the means a
+/// part in proportion to the acceleration, of which the fitted parameters have taken what they can.
+fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Result<(), FitError> {
+    let Linearised { places, local, weights, directions } = state;
+    let step = |windows: &Windows| windows.duration / INTERVALS as f64;
+    let all = || model.windows.iter().zip(model.transients);
+    // Variances of errors are not looked at here.
+    let windows =
+        all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
+    let moved =
+        Model { windows: windows.collect(), ..*model }.members(std::slice::from_ref(places), watch)?;
+    let gained = mean_of(&moved[0]) - mean_of(&local.members);
+    let rest = weights.apply(&(model.measured() - &local.smooth));
+    let response = directions.response();
+    let mut first = 0;
+    for (transient, windows) in model.windows.iter().enumerate() {
+        let mut along = DVector::zeros(gained.len());
+        let own = first..first + windows.count();
+        own.for_each(|index| along[index] = gained[index] / step(windows));
+        first += windows.count();
+        let along = weights.apply(&along);
+        let open = &along - &directions.derivatives * (&response * &along);
+        let standard_error = sample_widening(model) / open.norm();
+        let early = open.dot(&rest) / open.norm_squared();
+        if early.abs() > SIGNIFICANT * standard_error {
+            return refused(FitRefusal::ShiftedClock { transient, early, standard_error });
+        }
+    }
+    Ok(())
+}
+
+/// What the intervals are multiplied by because of a misfit that was allowed.
+fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, FitError> {
+    if degrees == 0 {
+        return Ok(1.0);
+    }
+    // Wilson and Hilferty's approximation of the quantile.
+    let expected = degrees as f64;
+    let spread = 2.0 / (9.0 * expected);
+    let root = 1.0 - spread + RARE * spread.sqrt();
+    let rare = expected * root * root * root;
+    let largest = model.settings.largest_misfit * rare;
+    if misfit > largest {
+        return refused(FitRefusal::Misfit { misfit, degrees_of_freedom: degrees, largest });
+    }
+    Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
+}
+
+/// What the intervals are multiplied by because so few members were computed: their scatter is known no
+/// better, the weights have an error, and scatter and weights come from the same members.
+fn sample_widening(model: &Model<'_>) -> f64 {
+    let windows = model.windows.iter().map(Windows::count).max().unwrap_or(1) as f64;
+    let members = model.settings.members as f64;
+    let weights = 1.0 + (windows - 1.0) / (members - windows - 4.0);
+    let shared = (members - 1.0) / (members - windows);
+    small_sample_widening(model.settings.members) * (weights * shared).sqrt()
+}
+
+/// A direction in the coordinates of the parameters.
+fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
+    let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
+    let changes: Vec<f64> = changes.collect();
+    let largest =
+        changes.iter().fold(0.0_f64, |most, change| if change.abs() > most.abs() { *change } else { most });
+    let direction =
+        ranges.iter().zip(&changes).map(|(range, change)| (range.parameter, change / largest)).collect();
+    UndeterminedDirection { direction, standard_error: error * largest.abs() }
+}
+
+#[cfg(test)]
+mod tests;

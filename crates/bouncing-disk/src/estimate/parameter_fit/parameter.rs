@@ -1,0 +1,178 @@
+//! The parameters of a motor that are fitted, and the coordinates in which they are.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::elementary::{exp, ln};
+
+use crate::error::{Error, check, finite, positive};
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::data_sheet::parameters::MotorParameters;
+
+/// A parameter of a motor that its transients may tell.
+///
+/// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in
+/// [0, 1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum FitParameter {
+    /// Coefficient of friction mu. Coordinate: its logarithm.
+    Friction,
+    /// Coefficient of restitution epsilon. Coordinate: itself.
+    Restitution,
+    /// Phase lag theta of the twist (rad). Coordinate: itself.
+    PhaseLag,
+    /// Axial amplitude A of the stator (m). Coordinate: its logarithm.
+    Amplitude,
+    /// Twist amplitude Phi of the stator (rad), also where the data sheet has the peak angular speed omega
+    /// Phi. Coordinate: its logarithm.
+    TwistAmplitude,
+}
+
+impl FitParameter {
+    /// The field of the data sheet.
+    const fn field(self) -> MotorField {
+        match self {
+            Self::Friction => MotorField::Friction,
+            Self::Restitution => MotorField::Restitution,
+            Self::PhaseLag => MotorField::PhaseLag,
+            Self::Amplitude => MotorField::Amplitude,
+            Self::TwistAmplitude => MotorField::TwistAmplitude,
+        }
+    }
+
+    /// The name of the field of [`MotorParameters`].
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.field().name()
+    }
+
+    /// Its unit as it is written: `rad`; `1` for a number without a unit.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        self.field().unit()
+    }
+
+    /// Its value for a motor (SI).
+    #[must_use]
+    pub const fn of(self, motor: &Motor) -> f64 {
+        let (stator, rotor) = (motor.system().platform(), motor.system().disk());
+        match self {
+            Self::Friction => rotor.friction(),
+            Self::Restitution => rotor.restitution(),
+            Self::PhaseLag => stator.phase_lag(),
+            Self::Amplitude => stator.amplitude(),
+            Self::TwistAmplitude => stator.twist_amplitude(),
+        }
+    }
+
+    /// Whether motors that differ in this parameter alone have different vertical motions.
+    pub(crate) const fn changes_orbit(self) -> bool {
+        matches!(self, Self::Restitution | Self::Amplitude)
+    }
+
+    pub(crate) const fn is_size(self) -> bool {
+        matches!(self, Self::Friction | Self::Amplitude | Self::TwistAmplitude)
+    }
+
+    pub(crate) fn coordinate(self, value: f64) -> f64 {
+        if self.is_size() { ln(value) } else { value }
+    }
+
+    pub(crate) fn value(self, coordinate: f64) -> f64 {
+        if self.is_size() { exp(coordinate) } else { coordinate }
+    }
+
+    /// Checks that a motor may have this value.
+    pub(crate) fn check(self, field: &'static str, value: f64) -> Result<f64, Error> {
+        if self.is_size() {
+            positive(field, value)
+        } else if self == Self::Restitution {
+            check((0.0..1.0).contains(&value), field, value, "[0, 1)")
+        } else {
+            finite(field, value)
+        }
+    }
+
+    /// Writes a value into a data sheet.
+    pub(crate) fn set(self, sheet: &mut MotorParameters, value: f64) {
+        match sheet.peak_angular_speed {
+            Some(_) if self == Self::TwistAmplitude => {
+                sheet.peak_angular_speed = Some(value * (TAU * sheet.drive_frequency));
+            }
+            _ => self.field().set(sheet, value),
+        }
+    }
+}
+
+impl std::fmt::Display for FitParameter {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.name())
+    }
+}
+
+/// A parameter that is fitted, and what it can be at all.
+///
+/// The range is also what "determined" is measured by: a direction in which the data leave more than half of
+/// the ranges open is none that they determine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FitRange {
+    /// The parameter.
+    pub parameter: FitParameter,
+    /// Lower end (SI): positive, or in [0, 1) for the restitution, or finite for the phase lag.
+    pub low: f64,
+    /// Upper end (SI), above the lower one, below 1 for the restitution, at most a turn above for the phase
+    /// lag.
+    pub high: f64,
+}
+
+impl FitRange {
+    fn check(&self) -> Result<(), Error> {
+        let Self { parameter, low, high } = *self;
+        for end in [low, high] {
+            parameter.check(parameter.name(), end)?;
+        }
+        check(self.half_width() > 0.0, "upper end of a range", high, "above its lower end")?;
+        if parameter == FitParameter::PhaseLag {
+            check(high - low <= TAU, "width of the range of the phase lag", high - low, "(0, 2 pi] (rad)")?;
+        }
+        Ok(())
+    }
+
+    /// Checks the range, and that it holds the data sheet's value.
+    pub(crate) fn check_for(&self, motor: &Motor) -> Result<(), Error> {
+        self.check()?;
+        let Self { parameter, low, high } = *self;
+        let nominal = parameter.of(motor);
+        check(
+            nominal >= low && nominal <= high,
+            parameter.name(),
+            nominal,
+            "within the range that is searched",
+        )?;
+        Ok(())
+    }
+
+    /// Middle of the range of the coordinate.
+    fn middle(&self) -> f64 {
+        0.5 * (self.parameter.coordinate(self.low) + self.parameter.coordinate(self.high))
+    }
+
+    /// Half of the width of the range of the coordinate.
+    pub(crate) fn half_width(&self) -> f64 {
+        0.5 * (self.parameter.coordinate(self.high) - self.parameter.coordinate(self.low))
+    }
+
+    /// The value at a place in the range, from -1 to 1; beyond the ends, that of the end.
+    pub(crate) fn value_at(&self, place: f64) -> f64 {
+        let coordinate = self.middle() + self.half_width() * place.clamp(-1.0, 1.0);
+        self.parameter.value(coordinate).clamp(self.low, self.high)
+    }
+
+    /// The place of a value.
+    pub(crate) fn place_of(&self, value: f64) -> f64 {
+        (self.parameter.coordinate(value) - self.middle()) / self.half_width()
+    }
+}

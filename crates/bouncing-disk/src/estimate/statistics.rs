@@ -1,0 +1,189 @@
+//! What an ensemble of transients says about its motor, and what the motor would repeat if nothing perturbed
+//! it.
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+
+use bouncing_disk_core::{ChatterPolicy, Phase, Unobserved};
+
+use crate::error::Error;
+use crate::estimate::ensemble::{Spread, TransientEnsemble};
+use crate::estimate::fit::RampFit;
+use crate::motion::initial_condition::InitialCondition;
+use crate::parameters::system::System;
+use crate::toss::chattering_cycle::{ChatteringCycle, EXAMINED_IMPACTS, LOCKED_FLIGHTS, LOCKED_WITHIN};
+use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
+use crate::toss::single::TOSS_START;
+
+/// A fit whose constant exceeds this share of the duration, or whose residual exceeds [`LARGEST_RESIDUAL`] of
+/// its steady speed, has no meaning: the speed does not settle, or it is not told apart from zero.
+pub const LARGEST_CONSTANT: f64 = 0.5;
+/// See [`LARGEST_CONSTANT`].
+pub const LARGEST_RESIDUAL: f64 = 0.25;
+
+/// What the motor repeats if nothing perturbs it, from a rotor at rest on the stator at its lowest point.
+///
+/// # Errors
+/// Those of [`multi_toss`].
+pub fn unperturbed_orbit(motor: &System, policy: ChatterPolicy) -> Result<OrbitClass, Error> {
+    let settings = MultiTossSettings {
+        policy,
+        transient_impacts: 0,
+        examined_impacts: EXAMINED_IMPACTS,
+        ..MultiTossSettings::default()
+    };
+    let start = InitialCondition::Contact { phase: Phase::new(TOSS_START)?, angular_speed: 0.0 };
+    Ok(multi_toss(*motor, start, settings, &Unobserved)?.class)
+}
+
+/// Which curve a stall acceleration was read from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum RiseForm {
+    /// alpha_ss (1 - exp(-t/t_c)): stall acceleration alpha_ss/t_c.
+    Exponential,
+    /// alpha_ss min(t/t_r, 1): stall acceleration alpha_ss/t_r. Only for a chattering cycle that survives the
+    /// perturbation.
+    Ramp,
+}
+
+/// Ensemble statistics of one motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MotorStatistics {
+    /// Steady speed (rad/s) from the fits; where less than half of the members can be fitted, the mean over
+    /// the last half of each.
+    pub steady_speed: Spread,
+    /// Stall acceleration (rad/s^2) over the members that can be fitted; `None` where less than half can.
+    pub stall_acceleration: Option<Spread>,
+    /// The curve that was fitted: the ramp where a cycle survives the perturbation and it fits better.
+    pub form: RiseForm,
+    /// Members without a meaningful fit ([`LARGEST_CONSTANT`]).
+    pub unfitted: usize,
+    /// What the motor repeats without perturbation ([`unperturbed_orbit`]).
+    pub orbit: OrbitClass,
+    /// Whether that is a chattering cycle of at most eight long flights and the perturbed members repeat it,
+    /// too, judged by the mean time between their separations.
+    pub locked: bool,
+}
+
+impl MotorStatistics {
+    /// Of the transients of `motor`, each of `duration` (s).
+    ///
+    /// # Errors
+    /// Those of the fits, of [`Spread::of`] and of [`multi_toss`].
+    pub fn of(
+        motor: &System,
+        runs: &TransientEnsemble,
+        duration: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let orbit = unperturbed_orbit(motor, policy)?;
+        let ramps = runs
+            .curves
+            .iter()
+            .map(|curve| RampFit::new(&curve.times, &curve.speeds))
+            .collect::<Result<Vec<_>, _>>()?;
+        let locked = matches!(orbit, OrbitClass::Chattering(cycle) if repeats(motor, runs, duration, cycle));
+        let squares =
+            |residuals: &mut dyn Iterator<Item = f64>| residuals.map(|value| value * value).sum::<f64>();
+        let exponential = squares(&mut runs.fits.iter().map(|fit| fit.residual));
+        let ramp = squares(&mut ramps.iter().map(|fit| fit.residual));
+        let form = if locked && ramp < exponential { RiseForm::Ramp } else { RiseForm::Exponential };
+        let fits: Vec<(f64, f64, f64)> = match form {
+            RiseForm::Exponential => {
+                runs.fits.iter().map(|fit| (fit.steady_speed, fit.time_constant, fit.residual)).collect()
+            }
+            RiseForm::Ramp => {
+                ramps.iter().map(|fit| (fit.steady_speed, fit.rise_time, fit.residual)).collect()
+            }
+        };
+        let fitted: Vec<_> = fits
+            .iter()
+            .filter(|(steady, constant, residual)| {
+                *constant < LARGEST_CONSTANT * duration && *residual < LARGEST_RESIDUAL * steady.abs()
+            })
+            .collect();
+        let enough = 2 * fitted.len() >= fits.len();
+        let steady: Vec<f64> = if enough {
+            fitted.iter().map(|fit| fit.0).collect()
+        } else {
+            runs.curves.iter().map(|curve| curve.mean_over_last(0.5)).collect::<Result<_, _>>()?
+        };
+        let stall: Vec<f64> = fitted.iter().map(|fit| fit.0 / fit.1).collect();
+        Ok(Self {
+            steady_speed: Spread::of(&steady)?,
+            stall_acceleration: enough.then(|| Spread::of(&stall)).transpose()?,
+            form,
+            unfitted: fits.len() - fitted.len(),
+            orbit,
+            locked,
+        })
+    }
+}
+
+/// Whether the members of an ensemble repeat a short cycle.
+fn repeats(motor: &System, runs: &TransientEnsemble, duration: f64, cycle: ChatteringCycle) -> bool {
+    let separations: u64 = runs.curves.iter().map(|curve| curve.separations).sum();
+    let frequency = motor.platform().angular_frequency() / TAU;
+    let between = duration * frequency * runs.curves.len() as f64 / separations.max(1) as f64;
+    cycle.long_flights <= LOCKED_FLIGHTS
+        && (between / cycle.platform_periods as f64 - 1.0).abs() <= LOCKED_WITHIN
+}
+
+impl Display for MotorStatistics {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str("steady speed (rad/s) ")?;
+        self.steady_speed.fmt(f)?;
+        f.write_str(", stall acceleration (rad/s^2) ")?;
+        match self.stall_acceleration {
+            Some(stall) => stall.fmt(f)?,
+            None => f.write_str("without a fit")?,
+        }
+        write!(f, ", undisturbed: {}", self.orbit)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
+
+    use super::*;
+    use crate::estimate::ensemble::TransientEnsemble;
+    use crate::motor::rotor::transient::TransientSettings;
+
+    fn statistics(motor: &System, members: usize) -> MotorStatistics {
+        let settings = TransientSettings {
+            duration: 6.0 * motor.rise_time(),
+            intervals: 240,
+            ..TransientSettings::default()
+        };
+        let runs = TransientEnsemble::new(motor, &settings, members, &Unobserved).expect("no failure");
+        MotorStatistics::of(motor, &runs, settings.duration, settings.policy).expect("no failure")
+    }
+
+    #[test]
+    fn a_gentle_stator_never_throws_the_rotor() {
+        let motor = System::motor().with_platform(|stator| stator.amplitude = 4e-11).expect("legal");
+        assert!(motor.axial_forcing() < FRAC_1_PI);
+        assert_eq!(unperturbed_orbit(&motor, ChatterPolicy::Complete), Ok(OrbitClass::AtRest));
+    }
+
+    #[test]
+    fn a_plastic_rotor_repeats_a_ramp_and_is_fitted_by_one() {
+        let motor = System::motor().with_disk(|rotor| rotor.restitution = 0.0).expect("legal");
+        let statistics = statistics(&motor, 2);
+        assert!(statistics.locked && statistics.form == RiseForm::Ramp, "{statistics:?}");
+        let stall = statistics.stall_acceleration.expect("fitted").mean;
+        assert!((stall / motor.disk().friction_acceleration() - 1.0).abs() < 0.02, "{stall}");
+    }
+
+    #[test]
+    fn a_quarter_of_a_turn_leaves_nothing_to_fit() {
+        let motor = System::motor().with_platform(|stator| stator.phase_lag = FRAC_PI_2).expect("legal");
+        let statistics = statistics(&motor, 4);
+        assert!(statistics.steady_speed.mean.abs() < 0.4 * motor.platform().peak_angular_speed());
+        assert_eq!(statistics.stall_acceleration.is_none(), statistics.unfitted > 2);
+    }
+}

@@ -1,0 +1,585 @@
+//! Fits of speed transients that say how far they can be trusted, or why they cannot.
+//!
+//! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to curves that scatter is not the
+//! fit to what they scatter about. Errors come from resampling. docs/numerics/motors.md, "Fits with intervals", derives
+//! how.
+
+mod blocks;
+mod members;
+mod onset;
+mod resamples;
+mod shape_grid;
+
+use bouncing_disk_core::numerics::elementary::{exp, ln};
+use bouncing_disk_core::numerics::statistics::summing_scale;
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{Observer, Unobserved};
+
+use crate::error::{check, within_limit};
+use crate::estimate::fit::{ExponentialFit, Saturation, Start};
+use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
+use crate::estimate::statistics::RiseForm;
+use crate::estimate::transient_fit::blocks::Blocks;
+use crate::estimate::transient_fit::members::Members;
+use crate::estimate::transient_fit::onset::{LEAST_POINTS, rows_before_rise};
+use crate::estimate::transient_fit::resamples::{Resampled, Resamples};
+use crate::estimate::transient_fit::shape_grid::{Rise, Run, ShapeGrid, exponential, ramp};
+use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
+use crate::motor::rotor::transient::SpeedCurve;
+use crate::motor::rotor::transient::{check_curve, check_rows};
+use crate::statistics::group_means;
+
+/// The fewest members whose scatter is resampled: with fewer, Student's quantile makes any interval useless.
+pub const LEAST_MEMBERS: usize = 5;
+
+/// The fewest points up to the time constant: intervals of a fourth of it lose 0.3 % of the rise by their averaging.
+const LEAST_POINTS_OF_RISE: usize = 4;
+
+/// The fewest flights within the time constant: the speed of a rotor that flies is constant, which looks like one that has
+/// settled.
+const LEAST_FLIGHTS: f64 = 2.0;
+
+/// Curves of more points are averaged in groups before they are fitted.
+const MOST_POINTS: usize = 4_096;
+
+/// Ensembles of more members are resampled in groups of neighbours.
+const MOST_GROUPS: usize = 512;
+
+/// A rise below this share of the steady speed is rounding.
+const NO_RISE: f64 = 1.0e-9;
+
+/// A start that lies beyond its interval by this share of the distance of its end is not from rest: three standard errors.
+const DENIED: f64 = 1.5;
+
+/// The mean over runs may miss its fit by twice its standard error before the intervals grow with it.
+const LARGEST_MISFIT: f64 = 2.0;
+
+/// How near an end of the search a time constant is taken to lie at it.
+const AT_LIMIT: f64 = 0.01;
+
+/// What a fit with intervals asks of a curve, and how it is resampled.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct FitSettings {
+    /// Number of resampled curves, in [200, 100000]. Default 1000: the ends of an interval then scatter by 5 % of its
+    /// half width.
+    pub resamples: usize,
+    /// Seed of the resampling. Default 1.
+    pub seed: u64,
+    /// The fewest time constants t_c that a curve must last, in [1, 1000]. Default 3: 5 % of the rise may be missing.
+    pub least_duration: f64,
+    /// The largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1]. Default 0.1. Noise of
+    /// a measurement counts, too: raise it where the noise is known to be larger.
+    pub largest_residual: f64,
+    /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest. Default false:
+    /// time zero, a dead time and the speed at the start are found from the record, and the intervals are wider. A record
+    /// that denies it is refused.
+    pub from_rest: bool,
+}
+
+impl Default for FitSettings {
+    fn default() -> Self {
+        Self { resamples: 1_000, seed: 1, least_duration: 3.0, largest_residual: 0.1, from_rest: false }
+    }
+}
+
+impl FitSettings {
+    fn check(&self) -> Result<(), FitError> {
+        let resamples = self.resamples as f64;
+        check((200..=100_000).contains(&self.resamples), "resamples", resamples, "[200, 100000]")?;
+        let least = self.least_duration;
+        check((1.0..=1_000.0).contains(&least), "least_duration", least, "[1, 1000] (time constants)")?;
+        let largest = self.largest_residual;
+        check(largest > 0.0 && largest <= 1.0, "largest_residual", largest, "(0, 1]")?;
+        Ok(())
+    }
+}
+
+/// The rise of one form, with intervals.
+///
+/// The intervals hold the error of the scatter, not that of a form which is not the motor's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct RiseEstimate {
+    /// Steady speed alpha_ss (rad/s). It depends on the duration where the speed creeps on after the rise: it is
+    /// the plateau up to the end of the curve.
+    pub steady_speed: IntervalEstimate,
+    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). It depends on the
+    /// duration where the rise has another form: it is the constant that is best on the whole for a curve of this length.
+    pub constant: IntervalEstimate,
+    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not the load that
+    /// stops the motor. It depends on the duration as both of its parts do.
+    pub stall_acceleration: IntervalEstimate,
+    /// Speed (rad/s) at the start time of the fit; `None` where the motor starts from rest at time zero.
+    pub start_speed: Option<IntervalEstimate>,
+    /// Root mean square of the residuals (rad/s).
+    pub residual: f64,
+}
+
+/// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured curve.
+///
+/// A computed motor starts from rest at time zero. Of a measured one neither is known
+/// ([`FitSettings::from_rest`]): alpha_ss - b exp(-t/t_c) is fitted from its own start on. A later start and a higher
+/// speed there are one number of an exponential, b, so that the fit says at which time the curve would have been at
+/// rest ([`Self::zero_time`]), not which of the two it was.
+///
+/// ```
+/// # use bouncing_disk::core::Unobserved;
+/// use bouncing_disk::System;
+/// use bouncing_disk::estimate::{
+///     FitError, FitRefusal, FitSettings, TransientEnsemble, TransientFit,
+/// };
+/// use bouncing_disk::motor::TransientSettings;
+///
+/// let motor = System::motor();
+/// let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
+/// let fit = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default())?;
+/// assert!(fit.steady_speed().low > 15.0 && fit.steady_speed().high < 23.0);
+///
+/// // Too short for any statement: the speed still rises at the end.
+/// let settings = TransientSettings { duration: 0.4, intervals: 120, ..TransientSettings::default() };
+/// let refused = TransientFit::new(&TransientEnsemble::new(&motor, &settings, 8, &Unobserved)?.curves, &FitSettings::default());
+/// assert!(matches!(refused, Err(FitError::Refused(_))));
+/// # Ok::<(), bouncing_disk::estimate::FitError>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct TransientFit {
+    /// The fit of alpha_ss (1 - exp(-t/t_c)), or of alpha_ss - b exp(-t/t_c).
+    pub exponential: RiseEstimate,
+    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` where the curve does not determine t_r.
+    pub ramp: Option<RiseEstimate>,
+    /// The form that leaves the smaller residual.
+    pub form: RiseForm,
+    /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed: they lie before
+    /// the switch-on or in a dead time.
+    pub start_time: f64,
+    /// Last time of the curve (s): what was fitted ends here.
+    pub duration: f64,
+    /// Points of the curve; of several runs with times of their own those of all of them.
+    pub points: usize,
+    /// Members whose mean was fitted; 1 for a single measured curve.
+    pub members: usize,
+}
+
+impl TransientFit {
+    /// Steady speed alpha_ss (rad/s) of the exponential.
+    #[must_use]
+    pub const fn steady_speed(&self) -> IntervalEstimate {
+        self.exponential.steady_speed
+    }
+
+    /// Time constant t_c (s) of the exponential.
+    #[must_use]
+    pub const fn time_constant(&self) -> IntervalEstimate {
+        self.exponential.constant
+    }
+
+    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2) of the exponential: an estimate, not the load that stops
+    /// the motor.
+    #[must_use]
+    pub const fn stall_acceleration(&self) -> IntervalEstimate {
+        self.exponential.stall_acceleration
+    }
+
+    /// The fitted exponential (rad/s) at `time` (s), not before [`Self::start_time`].
+    #[must_use]
+    pub fn speed(&self, time: f64) -> f64 {
+        let steady = self.exponential.steady_speed.value;
+        let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
+        start + (steady - start) * exponential((time - self.start_time) / self.exponential.constant.value)
+    }
+
+    /// The time (s) at which the fitted exponential is at rest: the switch-on and its dead time, if the motor rises from
+    /// rest. Infinite where it starts above its steady speed by as much again.
+    #[must_use]
+    pub fn zero_time(&self) -> f64 {
+        let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
+        let left = 1.0 - start / self.exponential.steady_speed.value;
+        let behind = if left > 0.0 { ln(left) } else { f64::NEG_INFINITY };
+        self.start_time + self.exponential.constant.value * behind
+    }
+
+    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with intervals by
+    /// resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
+    ///
+    /// Curves of more than 4096 points are averaged in groups of points first; more than 512 members are resampled in groups
+    /// of neighbours.
+    ///
+    /// # Errors
+    /// [`FitError::Refused`] says why the fit would mean nothing;
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted, or
+    /// times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or more than
+    /// [`MAX_SPEEDS`] speeds of all together.
+    pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, FitError> {
+        settings.check()?;
+        let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
+        for curve in members {
+            let (own, first) = (&curve.times, times);
+            check(own.len() == first.len(), "number of times", own.len() as f64, "that of the first member")?;
+            for (&own, first) in own.iter().zip(first) {
+                check(own.total_cmp(first).is_eq(), "time of a member (s)", own, "that of the first member")?;
+            }
+            check_curve(own, &curve.speeds)?;
+        }
+        let runs: Vec<_> = members.iter().map(|curve| (times, curve.speeds.as_slice())).collect();
+        let flights: f64 = members.iter().map(|curve| curve.impacts as f64 + curve.separations as f64).sum();
+        let watch = Watch::begin(&Unobserved, 0, 2 * settings.resamples as u64)?;
+        let rows = Rows::of(&runs, Some(flights / members.len() as f64), &mut watch.work())?;
+        rows.fit(Start::FromRest, settings, &mut watch.work())
+    }
+
+    /// The fit of measured runs, each with its times (s, rising, also below zero) and speeds (rad/s): of one run with
+    /// intervals by its residuals, whose noise may be correlated and vary along the curve, of at least [`LEAST_MEMBERS`]
+    /// with intervals by their scatter.
+    ///
+    /// The items of `observer` are the resampled curves, once for each form.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from rest and the
+    /// runs deny it.
+    pub fn of_measured(
+        runs: &[(&[f64], &[f64])],
+        settings: &FitSettings,
+        observer: &dyn Observer,
+    ) -> Result<Self, FitError> {
+        settings.check()?;
+        for (times, speeds) in runs {
+            if settings.from_rest { check_curve(times, speeds) } else { check_rows(times, speeds) }?;
+        }
+        let fits = if settings.from_rest { 4 } else { 2 };
+        let watch = Watch::begin(observer, 0, fits * settings.resamples as u64)?;
+        let mut work = watch.work();
+        let rows = Rows::of(runs, None, &mut work)?;
+        let fit = if settings.from_rest {
+            let free = rows.fit(Start::AnySpeed, settings, &mut work);
+            let fit = rows.fit(Start::FromRest, settings, &mut work)?;
+            match free {
+                Ok(free) => fit.refuse_other_start(&free)?,
+                Err(FitError::Refused(_)) => {}
+                Err(other) => return Err(other),
+            }
+            fit
+        } else {
+            rows.fit(Start::AnySpeed, settings, &mut work)?
+        };
+        watch.end();
+        Ok(fit)
+    }
+
+    /// Refuses a start from rest that a fit without it denies.
+    fn refuse_other_start(&self, free: &Self) -> Result<(), FitError> {
+        let (own, other, shape): (_, _, fn(f64) -> f64) = match free.form {
+            RiseForm::Exponential => (Some(self.exponential), Some(free.exponential), exponential),
+            RiseForm::Ramp => (self.ramp, free.ramp, ramp),
+        };
+        let (Some(own), Some(start)) = (own, other.and_then(|rise| rise.start_speed)) else { return Ok(()) };
+        let by = own.steady_speed.value * shape(free.start_time / own.constant.value) - start.value;
+        let reach = if by > 0.0 { start.high - start.value } else { start.value - start.low };
+        if by.abs() > DENIED * reach {
+            let (zero_time, start_time) = (free.zero_time(), free.start_time);
+            return refused(FitRefusal::NotFromRest { start_time, start_speed: start, zero_time });
+        }
+        Ok(())
+    }
+}
+
+/// The form with the smaller residual.
+fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseForm {
+    match ramp {
+        Some(ramp) if ramp.residual < exponential.residual => RiseForm::Ramp,
+        _ => RiseForm::Exponential,
+    }
+}
+
+/// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
+struct Rows {
+    runs: Vec<Run>,
+    /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if the runs do.
+    times: Vec<f64>,
+    speeds: Vec<f64>,
+    have_same_times: bool,
+    scale: f64,
+    members: usize,
+    points: usize,
+    /// Flights of a computed member, or 0.
+    flights: f64,
+}
+
+impl Rows {
+    /// Of legal curves, which are computed if their flights are known.
+    fn of(
+        curves: &[(&[f64], &[f64])],
+        flights: Option<f64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Self, FitError> {
+        let members = curves.len();
+        if members < LEAST_MEMBERS && (members != 1 || flights.is_some()) {
+            return refused(FitRefusal::TooFewMembers { members, least: LEAST_MEMBERS });
+        }
+        within_limit("members of an ensemble", members, MAX_MEMBERS)?;
+        let all: usize = curves.iter().map(|(times, _)| times.len()).sum();
+        within_limit("speeds of an ensemble", all, MAX_SPEEDS)?;
+        let largest =
+            |(_, speeds): &(&[f64], &[f64])| speeds.iter().fold(0.0_f64, |most, speed| most.max(speed.abs()));
+        let scale = summing_scale(&curves.iter().map(largest).collect::<Vec<_>>());
+        let have_same_times = curves.iter().all(|(times, _)| *times == curves[0].0);
+        let groups = if have_same_times { members.min(MOST_GROUPS) } else { members };
+        let mut runs: Vec<Run> = Vec::with_capacity(groups);
+        for (member, (times, speeds)) in curves.iter().enumerate() {
+            let group = times.len().div_ceil(MOST_POINTS);
+            let own = group_means(speeds, group, scale);
+            if member * groups / members < runs.len() {
+                let run = &mut runs[member * groups / members];
+                run.weight += 1.0;
+                run.speeds.iter_mut().zip(&own).for_each(|(mean, own)| *mean += (own - *mean) / run.weight);
+            } else {
+                let unit = summing_scale(times);
+                let times = group_means(times, group, unit).iter().map(|time| time / unit).collect();
+                runs.push(Run { times, speeds: own, weight: 1.0 });
+            }
+            work.spend(1 + speeds.len() as u64 / 64)?;
+        }
+        let points = if have_same_times { curves[0].0.len() } else { all };
+        let mut rows = Self {
+            runs,
+            times: Vec::new(),
+            speeds: Vec::new(),
+            have_same_times,
+            scale,
+            members,
+            points,
+            flights: flights.unwrap_or(0.0),
+        };
+        rows.average();
+        Ok(rows)
+    }
+
+    /// The weight, time and speed of every row of all runs, by their times.
+    fn sorted(&self) -> Vec<[f64; 3]> {
+        let of = |run: &Run| {
+            let rows = run.times.iter().zip(&run.speeds).map(|(&time, &speed)| [run.weight, time, speed]);
+            rows.collect::<Vec<_>>()
+        };
+        let mut rows: Vec<[f64; 3]> = self.runs.iter().flat_map(of).collect();
+        if self.runs.len() > 1 {
+            rows.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        }
+        rows
+    }
+
+    fn average(&mut self) {
+        let unit = summing_scale(&self.runs[0].times);
+        for rows in self.sorted().chunks(self.runs.len()) {
+            let weight: f64 = rows.iter().map(|row| row[0]).sum();
+            let mean =
+                |of: &dyn Fn(&[f64; 3]) -> f64| rows.iter().map(|row| row[0] * of(row)).sum::<f64>() / weight;
+            let is_one = rows.iter().all(|row| row[1].total_cmp(&rows[0][1]).is_eq());
+            self.times.push(if is_one { rows[0][1] } else { mean(&|row| row[1] * unit) / unit });
+            self.speeds.push(mean(&|row| row[2]));
+        }
+    }
+
+    /// How much larger than its standard error the residual of the mean curve is, if it is much larger: another form.
+    fn misfit(&self, of: impl Fn(f64) -> f64, from: f64, parameters: usize) -> f64 {
+        let (mut residual, mut expected, mut points) = (0.0, 0.0, 0.0);
+        let runs = self.runs.len();
+        for rows in self.sorted().chunks_exact(runs).filter(|rows| rows[0][1] >= from) {
+            let differences: Vec<f64> = rows.iter().map(|row| row[2] - of(row[1])).collect();
+            let mean = differences.iter().sum::<f64>() / runs as f64;
+            let squares: f64 = differences.iter().map(|own| (own - mean) * (own - mean)).sum();
+            expected += squares / (runs * (runs - 1)) as f64;
+            residual += mean * mean;
+            points += 1.0;
+        }
+        let misfit = (residual * points / ((points - parameters as f64) * expected)).sqrt();
+        if misfit > LARGEST_MISFIT && misfit.is_finite() { misfit } else { 1.0 }
+    }
+
+    fn fit(
+        &self,
+        start: Start,
+        settings: &FitSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<TransientFit, FitError> {
+        let before = if start == Start::AnySpeed && self.times.len() > LEAST_POINTS {
+            rows_before_rise(&self.times, &self.speeds, work)?
+        } else {
+            0
+        };
+        let start_time = if start == Start::AnySpeed { self.times[before] } else { 0.0 };
+        let times: Vec<f64> = self.times[before..].iter().map(|time| time - start_time).collect();
+        let part = Part { rows: self, start, start_time, times, speeds: &self.speeds[before..] };
+        let curve = Saturation::of(&part.times, part.speeds, exponential, start, work)?;
+        if let Err(reason) = part.judge(&curve, settings) {
+            return refused(reason);
+        }
+        let exponential = part.rise(exponential, &curve, settings, work)?.or_else(refused)?;
+        let duration = part.times[part.times.len() - 1];
+        if exponential.constant.high >= duration {
+            let time_constant = exponential.constant.high;
+            return refused(FitRefusal::TooShort { duration, time_constant, least: 1.0 });
+        }
+        let curve = Saturation::of(&part.times, part.speeds, ramp, start, work)?;
+        // A ramp that goes on to the end of the curve, or is over before its second point, is no ramp.
+        let is_ramp =
+            curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
+        let ramp = if is_ramp { part.rise(ramp, &curve, settings, work)?.ok() } else { None };
+        Ok(TransientFit {
+            form: better_form(&exponential, ramp.as_ref()),
+            exponential,
+            ramp,
+            start_time,
+            duration: self.times[self.times.len() - 1],
+            points: self.points,
+            members: self.members,
+        })
+    }
+}
+
+/// The part of the rows that is fitted: from the start of the rise on, from which its times count.
+struct Part<'r> {
+    rows: &'r Rows,
+    start: Start,
+    start_time: f64,
+    times: Vec<f64>,
+    speeds: &'r [f64],
+}
+
+impl Part<'_> {
+    /// Whether the mean curve lets its fit mean anything.
+    fn judge(&self, fit: &Saturation, settings: &FitSettings) -> Result<(), FitRefusal> {
+        let times = &self.times;
+        let (points, last, time_constant) = (times.len(), times[times.len() - 1], fit.constant);
+        if points < LEAST_POINTS {
+            return Err(FitRefusal::TooFewPoints { points, least: LEAST_POINTS });
+        }
+        if fit.rise.abs() <= NO_RISE * fit.steady.abs() {
+            return Err(FitRefusal::NoRise);
+        }
+        let (shortest, longest) = ExponentialFit::searched(times);
+        if time_constant <= shortest * (1.0 + AT_LIMIT) || time_constant >= longest * (1.0 - AT_LIMIT) {
+            return Err(FitRefusal::AtSearchLimit { time_constant, shortest, longest });
+        }
+        let least = settings.least_duration;
+        if last < least * time_constant {
+            return Err(FitRefusal::TooShort { duration: last, time_constant, least });
+        }
+        let rising = times.iter().filter(|&&time| time <= time_constant).count();
+        if rising < LEAST_POINTS_OF_RISE {
+            let least = LEAST_POINTS_OF_RISE;
+            return Err(FitRefusal::TooCoarse { points: rising, time_constant, least });
+        }
+        let flights = self.rows.flights * (time_constant / last);
+        if self.rows.flights > 0.0 && flights < LEAST_FLIGHTS {
+            return Err(FitRefusal::TooFewFlights { flights, time_constant, least: LEAST_FLIGHTS });
+        }
+        let largest = settings.largest_residual;
+        if fit.residual > largest * fit.steady.abs() {
+            return Err(FitRefusal::Residual {
+                residual: fit.residual / self.rows.scale,
+                steady_speed: fit.steady / self.rows.scale,
+                largest,
+            });
+        }
+        Ok(())
+    }
+
+    /// The rows of a run from the start on.
+    fn of_run(&self, run: &Run) -> Run {
+        let before = run.times.iter().take_while(|&&time| time < self.start_time).count();
+        let (times, speeds) = (run.times[before..].to_vec(), run.speeds[before..].to_vec());
+        Run { times, speeds, weight: run.weight }
+    }
+
+    /// The fit of a form with its intervals.
+    fn rise(
+        &self,
+        shape: fn(f64) -> f64,
+        fit: &Saturation,
+        settings: &FitSettings,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Result<RiseEstimate, FitRefusal>, FitError> {
+        let grid = ShapeGrid::new(fit.constant, shape, self.start);
+        let at = |time: f64, constant: f64| fit.steady - fit.rise * (1.0 - shape(time / constant));
+        let parameters = if self.start == Start::AnySpeed { 3 } else { 2 };
+        let runs: Vec<Run> = self.rows.runs.iter().map(|run| self.of_run(run)).collect();
+        let runs: Vec<Run> = runs.into_iter().filter(|run| !run.times.is_empty()).collect();
+        let sample: Box<dyn Resampled> = if let [run] = runs.as_slice() {
+            let row =
+                |of: &dyn Fn(f64) -> f64| run.times.iter().map(|time| of(time - self.start_time)).collect();
+            let fitted: Vec<f64> = row(&|time| at(time, fit.constant));
+            let step = 1.0e-6;
+            let mut derivatives: Vec<Vec<f64>> = vec![
+                row(&|time| shape(time / fit.constant)),
+                row(&|time| (at(time, fit.constant * (1.0 + step)) - at(time, fit.constant)) / step),
+            ];
+            if self.start == Start::AnySpeed {
+                derivatives.push(vec![1.0; run.times.len()]);
+            }
+            match Blocks::new(run, self.start_time, &fitted, &derivatives, &grid, work)? {
+                Ok(blocks) => Box::new(blocks),
+                Err(refusal) => return Ok(Err(refusal)),
+            }
+        } else {
+            // A computed motor has a form of its own, which its fit does not claim to be.
+            let is_measured = self.rows.flights <= 0.0;
+            let curve = |time: f64| at(time - self.start_time, fit.constant);
+            let misfit = if is_measured { self.rows.misfit(curve, self.start_time, parameters) } else { 1.0 };
+            Box::new(Members::new(&runs, self.start_time, misfit, &grid, work)?)
+        };
+        Ok(match Resamples::draw(&grid, sample.as_ref(), settings.resamples, settings.seed, work)? {
+            Ok(resamples) => Ok(self.estimate(shape(2.0) >= 1.0, fit, &resamples)?),
+            Err(refusal) => Err(refusal),
+        })
+    }
+
+    /// The values of a fit with the intervals of its resamples.
+    fn estimate(
+        &self,
+        is_ramp: bool,
+        fit: &Saturation,
+        resamples: &Resamples,
+    ) -> Result<RiseEstimate, FitError> {
+        let (scale, centre) = (self.rows.scale, resamples.centre());
+        // The mean of rows that do not have the same times is not at its fit: all rows together are.
+        let Rise { steady, rise, log_constant } = if self.rows.have_same_times {
+            Rise { steady: fit.steady, rise: fit.rise, log_constant: ln(fit.constant) }
+        } else {
+            centre
+        };
+        let constant = if self.rows.have_same_times { fit.constant } else { exp(log_constant) };
+        // A ramp that starts at some speed has another time to rise from rest.
+        let is_part = is_ramp && self.start == Start::AnySpeed;
+        let from_rest =
+            |own: &Rise| if is_part { (own.steady / own.rise).max(f64::MIN_POSITIVE) } else { 1.0 };
+        let own = Rise { steady, rise, log_constant };
+        let (low, high) = resamples.about(steady, &|own| own.steady);
+        let steady_speed = IntervalEstimate::about(steady / scale, low / scale, high / scale)?;
+        let constant = constant * from_rest(&own);
+        let log = ln(constant);
+        let (low, high) = resamples.about(log, &|own| own.log_constant + ln(from_rest(own)));
+        let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
+        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in it.
+        let quotient = |own: &Rise| own.steady * exp(log - own.log_constant) / from_rest(own);
+        let (low, high) = resamples.about(steady, &quotient);
+        let [value, low, high] = [steady, low, high].map(|speed| speed / scale / constant);
+        let stall_acceleration = IntervalEstimate::about(value, low, high)?;
+        let start = steady - rise;
+        let (low, high) = resamples.about(start, &|own| own.steady - own.rise);
+        let start_speed = IntervalEstimate::about(start / scale, low / scale, high / scale)?;
+        Ok(RiseEstimate {
+            steady_speed,
+            constant: time_constant,
+            stall_acceleration,
+            start_speed: (self.start == Start::AnySpeed).then_some(start_speed),
+            residual: fit.residual / scale,
+        })
+    }
+}
+
+#[cfg(test)]
+mod motor_tests;
+#[cfg(test)]
+mod tests;

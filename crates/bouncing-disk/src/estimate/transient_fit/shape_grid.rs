@@ -1,0 +1,139 @@
+//! Least-squares fits of many curves by their moments with shapes that are computed once.
+
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln};
+use bouncing_disk_core::run::WorkCount;
+
+use crate::error::Error;
+use crate::estimate::fit::Start;
+
+/// Reach of the grid to either side, in the logarithm of the constant: a factor of five.
+const REACH: f64 = 1.6;
+
+/// Steps of the grid to either side. The parabola through three of them is off the best constant by less than 1e-4 of it,
+/// far below any interval.
+const STEPS: i32 = 80;
+
+/// Constants of the grid.
+const CONSTANTS: usize = 2 * STEPS as usize + 1;
+
+/// Numbers of a curve that its fit needs: its weight, the sum of its speeds, and for each constant the sums of the
+/// shapes f, of their squares and of their products with the speeds. Those of several curves add up.
+pub(crate) const MOMENTS: usize = 2 + 3 * CONSTANTS;
+
+/// 1 - exp(-x).
+pub(crate) fn exponential(x: f64) -> f64 {
+    -exp_m1(-x)
+}
+
+/// min(x, 1).
+pub(crate) fn ramp(x: f64) -> f64 {
+    x.min(1.0)
+}
+
+/// A run, or the mean of a group of runs with the same times.
+pub(crate) struct Run {
+    pub(crate) times: Vec<f64>,
+    pub(crate) speeds: Vec<f64>,
+    /// How many runs it stands for.
+    pub(crate) weight: f64,
+}
+
+/// steady - rise (1 - shape(t/constant)) of the least squares.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rise {
+    pub(crate) steady: f64,
+    pub(crate) rise: f64,
+    pub(crate) log_constant: f64,
+}
+
+/// Constants about that of a fit, from which the best one for the moments of a curve is chosen.
+///
+/// For a given constant the best rise B is (f.y)/(f.f), and the sum of squares falls by G = (f.y)^2/(f.f); with any
+/// speed at the start f and y are taken from their means (docs/numerics/motors.md, "Fits with intervals").
+pub(crate) struct ShapeGrid {
+    logs: Vec<f64>,
+    shape: fn(f64) -> f64,
+    start: Start,
+}
+
+/// The shapes of a grid at the times of one curve.
+pub(crate) struct Shapes {
+    points: usize,
+    shapes: Vec<f64>,
+}
+
+impl ShapeGrid {
+    pub(crate) fn new(constant: f64, shape: fn(f64) -> f64, start: Start) -> Self {
+        let step = REACH / f64::from(STEPS);
+        let logs = (-STEPS..=STEPS).map(|k| ln(constant) + f64::from(k) * step).collect();
+        Self { logs, shape, start }
+    }
+
+    /// The shapes at these times, counted from `from`.
+    pub(crate) fn at(&self, times: &[f64], from: f64, work: &mut WorkCount<'_>) -> Result<Shapes, Error> {
+        let mut shapes = Vec::with_capacity(CONSTANTS * times.len());
+        for log in &self.logs {
+            let constant = exp(*log);
+            shapes.extend(times.iter().map(|time| (self.shape)((time - from) / constant)));
+            work.spend(1 + times.len() as u64 / 4)?;
+        }
+        Ok(Shapes { points: times.len(), shapes })
+    }
+
+    /// The fit of the curve that has these moments; `None` where the best constant lies at an end of the grid.
+    pub(crate) fn best(&self, moments: &[f64]) -> Option<Rise> {
+        let (weight, speeds) = (moments[0], moments[1]);
+        let is_free = self.start == Start::AnySpeed;
+        // Product and square of the shape of a constant.
+        let of = |k: usize| {
+            let [sum, square, product] = [2, 2 + CONSTANTS, 2 + 2 * CONSTANTS].map(|from| moments[from + k]);
+            let mean = if is_free { sum / weight } else { 0.0 };
+            (product - mean * speeds, square - mean * sum, mean)
+        };
+        let gain = |k: usize| {
+            let (product, square, _) = of(k);
+            if square > 0.0 { product * product / square } else { 0.0 }
+        };
+        let best = (0..CONSTANTS).fold(0, |best, k| if gain(k) > gain(best) { k } else { best });
+        if best == 0 || best + 1 == CONSTANTS {
+            return None;
+        }
+        let (before, at, after) = (gain(best - 1), gain(best), gain(best + 1));
+        let bend = before - 2.0 * at + after;
+        // Where three gains are alike the curve does not say which constant is best.
+        let offset = if bend < 0.0 { (0.5 * (before - after) / bend).clamp(-1.0, 1.0) } else { 0.0 };
+        let between = |of: &dyn Fn(usize) -> f64| {
+            let (before, at, after) = (of(best - 1), of(best), of(best + 1));
+            at + 0.5 * offset * ((after - before) + offset * (before - 2.0 * at + after))
+        };
+        let rise = |k: usize| of(k).0 / of(k).1;
+        let steady = |k: usize| if is_free { speeds / weight + rise(k) * (1.0 - of(k).2) } else { rise(k) };
+        Some(Rise {
+            steady: between(&steady),
+            rise: between(&rise),
+            log_constant: self.logs[best] + offset * (REACH / f64::from(STEPS)),
+        })
+    }
+}
+
+impl Shapes {
+    /// Adds the moments of a curve at all times, each with this weight.
+    pub(crate) fn add_curve(&self, speeds: &[f64], weight: f64, moments: &mut [f64]) {
+        moments[0] += weight * self.points as f64;
+        for (k, row) in self.shapes.chunks_exact(self.points).enumerate() {
+            moments[2 + k] += weight * row.iter().sum::<f64>();
+            moments[2 + CONSTANTS + k] += weight * row.iter().map(|shape| shape * shape).sum::<f64>();
+        }
+        self.add_speeds(0, speeds, weight, moments);
+    }
+
+    /// Adds to the moments what further speeds, from the point `from` on, change of them.
+    pub(crate) fn add_speeds(&self, from: usize, speeds: &[f64], weight: f64, moments: &mut [f64]) {
+        moments[1] += weight * speeds.iter().sum::<f64>();
+        let products = &mut moments[2 + 2 * CONSTANTS..];
+        for (row, product) in self.shapes.chunks_exact(self.points).zip(products) {
+            let shapes = row[from..].iter();
+            *product += weight * shapes.zip(speeds).map(|(shape, value)| shape * value).sum::<f64>();
+        }
+    }
+}

@@ -1,0 +1,96 @@
+//! The members of an ensemble: transients of one motor with phases and seeds of their own.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
+
+use crate::error::{Error, check, room_for, within_limit};
+use crate::motor::rotor::transient::{SpeedCurve, TransientSettings};
+use crate::parameters::system::System;
+
+/// Most members of an ensemble.
+pub const MAX_MEMBERS: usize = 1_000_000;
+
+/// Most speeds of all members of an ensemble together: with their times a gigabyte.
+pub const MAX_SPEEDS: usize = 1 << 26;
+
+/// The arguments of one [`transient`](crate::motor::transient()).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct TransientMember {
+    /// The motor.
+    pub system: System,
+    /// Phase of the stator at which it starts to vibrate.
+    pub phase: Phase,
+    /// Duration, sampling, perturbation and seed.
+    pub settings: TransientSettings,
+}
+
+impl TransientMember {
+    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients with starting phases
+    /// spread evenly over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`. Ensembles
+    /// that are to be independent of each other need seeds that lie at least `members` apart.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
+    /// [`MAX_SPEEDS`] speeds of all together or than there is memory for.
+    pub fn of_ensemble(
+        system: &System,
+        settings: &TransientSettings,
+        members: usize,
+    ) -> Result<Vec<Self>, Error> {
+        settings.check_for(&system.scales())?;
+        check(members > 0, "members", 0.0, "[1, 1000000]")?;
+        let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
+        // The memory for them is asked for where they are computed.
+        within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
+        let member = |index: usize| -> Result<Self, Error> {
+            let phase = starting_phase(settings.seed, index, members)?;
+            let seed = SplitMix64::new(settings.seed.wrapping_add(index as u64)).next_number();
+            Ok(Self { system: *system, phase, settings: TransientSettings { seed, ..*settings } })
+        };
+        for index in 0..members {
+            starts.push(member(index)?);
+        }
+        Ok(starts)
+    }
+
+    /// As [`transient`](crate::motor::transient()).
+    pub(crate) fn alone(&self, work: &mut WorkCount<'_>) -> Result<SpeedCurve, Error> {
+        SpeedCurve::alone(&self.system, self.phase, &self.settings, work)
+    }
+}
+
+/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by what the
+/// seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases that are special; other
+/// seeds move on by the golden ratio of a step, so that a few of them are spread evenly, too.
+pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
+    /// 2^64 over the golden ratio.
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let turn = seed.wrapping_sub(1).wrapping_mul(GOLDEN).wrapping_add(1 << 63) >> 11;
+    let step = turn as f64 / (1_u64 << 53) as f64;
+    Ok(Phase::new(TAU * (index as f64 + step) / members as f64)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A member alone starts at a phase of its own for each seed: they are spread evenly.
+    #[test]
+    fn the_starting_phase_is_one_of_the_seed() {
+        let mut phases: Vec<f64> =
+            (1..=21).map(|seed| starting_phase(seed, 0, 1).expect("finite").angle() / TAU).collect();
+        assert!((phases[0] - 0.5).abs() <= 0.0);
+        phases.sort_by(f64::total_cmp);
+        assert!(
+            phases.windows(2).all(|pair| pair[1] - pair[0] > 0.5 / 21.0 && pair[1] - pair[0] < 2.0 / 21.0)
+        );
+        for (index, seed) in [(0, 0), (3, 7), (7, u64::MAX)] {
+            let share = starting_phase(seed, index, 8).expect("finite").angle() / TAU * 8.0 - index as f64;
+            assert!((0.0..=1.0).contains(&share), "{share}");
+        }
+    }
+}

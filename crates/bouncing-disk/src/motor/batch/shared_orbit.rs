@@ -1,0 +1,53 @@
+//! One vertical motion that carries many rotors.
+//!
+//! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase lag, twist
+//! amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and each rotor adds to an
+//! impact no more than a clamp and a few products. The rotors share the perturbations of the relaunches, too: what
+//! differs between them is sharper than what each is by itself (common random numbers), and their errors are not
+//! independent of each other. See docs/numerics/motors.md.
+
+#[cfg(feature = "fit")]
+pub(crate) mod transients;
+pub(crate) mod vertical;
+
+use crate::error::Error;
+use crate::parameters::system::System;
+
+/// Checks that these motors share one vertical motion ([`is_shared`]). The first one stands for all.
+///
+/// # Errors
+/// [`Error::NotShared`] names what differs; [`Error::OutOfRange`] for no motor.
+pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
+    let Some(first) = systems.first() else {
+        return Err(Error::OutOfRange { field: "number of rotors", value: 0.0, legal: "[1, 1000000]" });
+    };
+    for system in systems {
+        for (one, other) in of_vertical_motion(first).into_iter().zip(of_vertical_motion(system)) {
+            let ((field, one), (_, other)) = (one, other);
+            if one.to_bits() != other.to_bits() {
+                return Err(Error::NotShared { field, one, other });
+            }
+        }
+    }
+    Ok(first)
+}
+
+/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and the same
+/// seconds.
+pub(crate) fn is_shared(one: &System, other: &System) -> bool {
+    vertical_key(one) == vertical_key(other)
+}
+
+/// What is the same for motors that share one vertical motion, and for these alone.
+pub(crate) fn vertical_key(system: &System) -> [u64; 4] {
+    of_vertical_motion(system).map(|(_, value)| value.to_bits())
+}
+
+fn of_vertical_motion(system: &System) -> [(&'static str, f64); 4] {
+    [
+        ("peak acceleration P", system.peak_acceleration()),
+        ("restitution", system.disk().restitution()),
+        ("angular frequency (rad/s)", system.platform().angular_frequency()),
+        ("preload acceleration (m/s^2)", system.disk().preload_acceleration()),
+    ]
+}

@@ -1,0 +1,241 @@
+//! Ranges of the preload that trap a motor, and the one that is nearest.
+
+use std::f64::consts::PI;
+
+use bouncing_disk_core::numerics::elementary::{exp, ln_1p};
+use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::{ImpactMap, Observer, Unobserved, Vibration};
+
+use crate::error::{Error, check};
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::traps::TrapVerdict;
+use crate::motor::operation::of_motor::operations;
+use crate::motor::operation::point::Operation;
+use crate::motor::operation::settings::OperatingSettings;
+
+/// Traps that are narrower, relative to the preload, are not told unless they are asked for: a motor whose preload is known to
+/// 1 % is in one with a chance of less than one in 40.
+pub const LEAST_TRAP_WIDTH: f64 = 5.0e-4;
+
+/// Most steps of a scan.
+const MOST_STEPS: f64 = 1.0e7;
+
+/// Halvings of a step that find the edge of a trap.
+const HALVINGS: u32 = 24;
+
+/// Where in a range of preloads the speed is computed, as shares of its width.
+const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
+
+/// A range of the preload that traps a motor ([`Motor::trap_ranges`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct TrapRange {
+    /// From where to where, as accelerations (m/s^2).
+    pub preload_from_to: [f64; 2],
+    /// Its width relative to the preload. A motor whose preload is known to t on either side, and which lies well within that,
+    /// is trapped with a chance of this over 2 t.
+    pub relative_width: f64,
+    /// From where to where in the axial forcing parameter Gamma.
+    pub forcing_from_to: [f64; 2],
+    /// What the rotor does in the middle of it.
+    pub verdict: TrapVerdict,
+    /// How it turns at the lower edge, in the middle and at the upper edge (a tenth of the width inside), under the load of its
+    /// data sheet: most traps hardly slow a motor, some stop it.
+    pub operations: [Operation; 3],
+}
+
+/// The low-period trap that is nearest to a motor.
+///
+/// Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
+/// amplitude or of frequency: the near edge is given for each of them, the others kept.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct NearestTrap {
+    /// Distance of the near edge: the relative change of amplitude or preload that reaches it, the smaller of
+    /// the two in size; zero for a motor in the trap.
+    pub relative_distance: f64,
+    /// Preload (m/s^2) of the near edge; that of the motor, if it is in the trap.
+    pub preload_acceleration: f64,
+    /// Amplitude (m) of the near edge.
+    pub amplitude: f64,
+    /// Drive frequency (Hz) of the near edge.
+    pub drive_frequency: f64,
+    /// From where to where in Gamma the trap reaches, or the range that was scanned does.
+    pub forcing_from_to: [f64; 2],
+    /// What the rotor does in the middle of it.
+    pub verdict: TrapVerdict,
+    /// Step of the scan in Gamma: traps that are narrower than two may have been missed.
+    pub forcing_step: f64,
+}
+
+impl Motor {
+    /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and are at least
+    /// `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good one. In rising order, each with its speed inside,
+    /// computed as well as `settings` asks for.
+    ///
+    /// The items of `observer` are the steps of the scan, then the ranges.
+    ///
+    /// ```
+    /// # use bouncing_disk::core::Unobserved;
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings};
+    ///
+    /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
+    /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
+    /// // It turns at 21 rad/s besides.
+    /// assert!(!traps.is_empty());
+    /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
+    /// # Ok::<(), bouncing_disk::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an error of the core for a
+    /// scan of more than ten million steps, of half a width each; those of [`Motor::operating_point`].
+    pub fn trap_ranges(
+        &self,
+        [low, high]: [f64; 2],
+        least_relative_width: f64,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<TrapRange>, Error> {
+        settings.check()?;
+        check(low > 0.0 && low.is_finite(), "lowest preload", low, "(0, highest preload) (m/s^2)")?;
+        check(high > low && high.is_finite(), "highest preload", high, "(lowest preload, inf) (m/s^2)")?;
+        let legal = least_relative_width > 0.0 && least_relative_width <= 0.1;
+        check(legal, "least_relative_width", least_relative_width, "(0, 0.1]")?;
+        let own = self.preload_acceleration();
+        // In the logarithm of the forcing, which falls as the preload rises.
+        let scan = Scan { motor: self, step: 0.5 * least_relative_width };
+        let (from, to) = (ln_1p((own - high) / high), ln_1p((own - low) / low));
+        let found = scan.ranges(from, to, observer)?;
+        let at = |offset: f64| {
+            self.with(|sheet| {
+                sheet.preload_force = None;
+                sheet.preload_acceleration = Some(own / exp(offset));
+            })
+        };
+        if found.is_empty() {
+            return Ok(Vec::new());
+        }
+        let inside = found.iter().flat_map(|[from, to]| PLACES.map(|place| at(to + place * (from - to))));
+        let motors = inside.collect::<Result<Vec<_>, _>>()?;
+        let operations = operations(&motors, settings, observer)?;
+        let mut all = found
+            .into_iter()
+            .zip(motors.chunks_exact(PLACES.len()).zip(operations.chunks_exact(PLACES.len())))
+            .map(|(ends, (motors, operations))| {
+                let forcing = self.system().peak_acceleration() / PI;
+                let [least, most] = [ends[1], ends[0]].map(|end| own / exp(end));
+                Ok(TrapRange {
+                    preload_from_to: [least, most],
+                    relative_width: exp(ends[1] - ends[0]) - 1.0,
+                    forcing_from_to: ends.map(|end| forcing * exp(end)),
+                    verdict: motors[1].trap_verdict()?,
+                    operations: [operations[0], operations[1], operations[2]],
+                })
+            })
+            .collect::<Result<Vec<_>, Error>>()?;
+        all.reverse();
+        Ok(all)
+    }
+
+    /// The low-period trap of at least [`LEAST_TRAP_WIDTH`] that is nearest to the motor, if there is one within a relative
+    /// change of its preload or amplitude of `relative_range`, in (0, 1]. That a motor itself is locked, however narrow its
+    /// trap, is told by its regime ([`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked)).
+    ///
+    /// The items of `observer` are the steps of the scan.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for another range; the errors of the flights.
+    pub fn nearest_trap(
+        &self,
+        relative_range: f64,
+        observer: &dyn Observer,
+    ) -> Result<Option<NearestTrap>, Error> {
+        let legal = relative_range > 0.0 && relative_range <= 1.0;
+        check(legal, "relative_range", relative_range, "(0, 1]")?;
+        let reach = ln_1p(relative_range);
+        let scan = Scan { motor: self, step: 0.5 * LEAST_TRAP_WIDTH };
+        let near = |[from, to]: &[f64; 2]| if *from > 0.0 { *from } else { to.min(0.0) };
+        let found = scan.ranges(-reach, reach, observer)?;
+        let nearest = found.into_iter().min_by(|one, other| near(one).abs().total_cmp(&near(other).abs()));
+        let Some(ends) = nearest else { return Ok(None) };
+        let (offset, forcing) = (near(&ends), self.system().peak_acceleration() / PI);
+        let factor = exp(offset);
+        let watch = Watch::begin(&Unobserved, 0, 1)?;
+        Ok(Some(NearestTrap {
+            relative_distance: 1.0 - 1.0 / exp(offset.abs()),
+            preload_acceleration: self.preload_acceleration() / factor,
+            amplitude: self.parameters().amplitude * factor,
+            drive_frequency: self.parameters().drive_frequency * factor.sqrt(),
+            forcing_from_to: ends.map(|end| forcing * exp(end)),
+            verdict: scan.verdict(0.5 * (ends[0] + ends[1]), &mut watch.work())?,
+            forcing_step: forcing * scan.step,
+        }))
+    }
+}
+
+/// A scan over the logarithm of the forcing, relative to that of the motor.
+struct Scan<'a> {
+    motor: &'a Motor,
+    step: f64,
+}
+
+impl Scan<'_> {
+    fn verdict(&self, offset: f64, work: &mut WorkCount<'_>) -> Result<TrapVerdict, Error> {
+        let map = self.motor.system().dimensionless().map();
+        let factor = exp(offset);
+        let map =
+            ImpactMap::new(Vibration::new(map.vibration().peak_acceleration() * factor)?, map.restitution())?;
+        TrapVerdict::of(&map, self.motor.preload_acceleration() / factor, work)
+    }
+
+    /// The traps between two offsets that are at least two steps wide, those that reach beyond them cut off there. Each place
+    /// of a comb of steps is judged, so that none is missed but one with a hole at a place of the comb.
+    fn ranges(&self, from: f64, to: f64, observer: &dyn Observer) -> Result<Vec<[f64; 2]>, Error> {
+        // The stator that never throws has no trap, however hard it is shaken within the range.
+        if self.motor.system().peak_acceleration() <= 0.0 {
+            return Ok(Vec::new());
+        }
+        let steps = ((to - from) / self.step).ceil();
+        check(steps <= MOST_STEPS, "steps of the scan for traps", steps, "[0, 1e7]")?;
+        let watch = Watch::begin(observer, 0, steps as u64)?;
+        let mut work = watch.work();
+        let (mut found, mut since) = (Vec::new(), None);
+        let place = |index: u64| (from + self.step * index as f64).min(to);
+        for index in 0..=steps as u64 {
+            let (is_trap, here) = (self.verdict(place(index), &mut work)?.is_trap, place(index));
+            match since {
+                None if is_trap => {
+                    let begin = index.checked_sub(1).map(|last| self.edge(here, place(last), &mut work));
+                    since = Some(begin.transpose()?.unwrap_or(from));
+                }
+                Some(begin) if !is_trap => {
+                    found.push([begin, self.edge(place(index - 1), here, &mut work)?]);
+                    since = None;
+                }
+                _ => {}
+            }
+            watch.set_done(index);
+        }
+        found.extend(since.map(|begin| [begin, to]));
+        watch.end();
+        let least = 2.0 * self.step;
+        found.retain(|[begin, end]| end - begin >= least.min(to - from));
+        Ok(found)
+    }
+
+    /// The last offset in the trap, between one in it and one that is not.
+    fn edge(&self, mut inside: f64, mut outside: f64, work: &mut WorkCount<'_>) -> Result<f64, Error> {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if self.verdict(middle, work)?.is_trap {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        Ok(inside)
+    }
+}

@@ -1,0 +1,69 @@
+//! What rotors did in a window of time, without units.
+
+/// What a rotor did in a window of time, without units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct RotorWindow {
+    /// Angle turned.
+    pub(crate) angle: f64,
+    /// Work of the platform by friction, and loss in it.
+    pub(crate) friction_work: f64,
+    pub(crate) friction_loss: f64,
+    /// Work done against the load.
+    pub(crate) load_work: f64,
+    /// Change of the kinetic energy.
+    pub(crate) kinetic_change: f64,
+}
+
+/// What all rotors share in a window of time, without units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct AxialWindow {
+    /// Duration (rad).
+    pub(crate) duration: f64,
+    /// Work of the platform by normal forces.
+    pub(crate) normal_work: f64,
+    /// What the perturbations of the relaunches have given.
+    pub(crate) perturbation_work: f64,
+    pub(crate) restitution_loss: f64,
+    /// Change of the kinetic and potential energy.
+    pub(crate) energy_change: f64,
+    /// Impacts; periods of rotors that never bounce.
+    pub(crate) impacts: u64,
+}
+
+/// A window of time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Window {
+    pub(crate) axial: AxialWindow,
+    pub(crate) rotors: Vec<RotorWindow>,
+}
+
+impl RotorWindow {
+    pub(crate) fn add(&mut self, next: &Self) {
+        self.angle += next.angle;
+        self.friction_work += next.friction_work;
+        self.friction_loss += next.friction_loss;
+        self.load_work += next.load_work;
+        self.kinetic_change += next.kinetic_change;
+    }
+}
+
+impl AxialWindow {
+    pub(crate) fn add(&mut self, next: &Self) {
+        self.duration += next.duration;
+        self.normal_work += next.normal_work;
+        self.perturbation_work += next.perturbation_work;
+        self.restitution_loss += next.restitution_loss;
+        self.energy_change += next.energy_change;
+        self.impacts += next.impacts;
+    }
+}
+
+impl Window {
+    /// This window and the one that follows it as one.
+    pub(crate) fn add(&mut self, next: &Self) {
+        self.axial.add(&next.axial);
+        for (rotor, next) in self.rotors.iter_mut().zip(&next.rotors) {
+            rotor.add(next);
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The errors of stored files. They are not among those of [`Error`], which can be copied and compared: what a
+//! system reports can not.
+
+use std::io;
+use std::path::PathBuf;
+
+use crate::error::Error;
+
+/// What can go wrong with a stored file. Every variant names the file; texts of files are shown as they are
+/// escaped in Rust, so that none can disturb a terminal.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StorageError {
+    /// The system refuses.
+    #[error("cannot {action} {path:?}")]
+    Io {
+        /// What was tried: open, lock, read, write.
+        action: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the system reported.
+        source: io::Error,
+    },
+    /// Another process, or another journal of this one, writes in the file.
+    #[error("{path:?} is locked: somebody else writes in it")]
+    Busy {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file of a format that this version does not know yet.
+    #[error(
+        "{file:?} has version {found} of the format \"{format}\" (written by {written_by:?}), newer than \
+         version {newest}, the newest that {} {} reads: read it with the newer program",
+        env!("CARGO_PKG_NAME"),
+        env!("CARGO_PKG_VERSION")
+    )]
+    NewerFormat {
+        /// The file.
+        file: PathBuf,
+        /// The name of the format.
+        format: &'static str,
+        /// The version of the format that the file has.
+        found: u32,
+        /// Program and version that wrote it.
+        written_by: String,
+        /// The newest version of the format that is known.
+        newest: u32,
+    },
+    /// A file of a format that this version does not read any more.
+    #[error(
+        "{file:?} has version {found} of the format \"{format}\" (written by {written_by:?}); the oldest that \
+         is still read is version {oldest}"
+    )]
+    OlderFormat {
+        /// The file.
+        file: PathBuf,
+        /// The name of the format.
+        format: &'static str,
+        /// The version of the format that the file has.
+        found: u32,
+        /// Program and version that wrote it.
+        written_by: String,
+        /// The oldest version of the format that is read.
+        oldest: u32,
+    },
+    /// A file of another format, or none of ours.
+    #[error("{file:?} is no file of the format \"{expected}\": its format is {found:?}")]
+    OtherFormat {
+        /// The file.
+        file: PathBuf,
+        /// The name of the format that is expected.
+        expected: &'static str,
+        /// The name of the format that the file has; empty if it names none.
+        found: String,
+    },
+    /// What a file says of its origin is not complete, or not in the form of its format.
+    #[error("the provenance in {file:?} cannot be read")]
+    Provenance {
+        /// The file.
+        file: PathBuf,
+        /// Where and why.
+        source: serde_json::Error,
+    },
+    /// A journal of another computation.
+    #[error(
+        "{path:?} is the journal of another computation: its {field} is {found}, where {expected} is asked for"
+    )]
+    OtherKey {
+        /// The file.
+        path: PathBuf,
+        /// The first field that differs: `provenance.parameters.settings.duration`.
+        field: String,
+        /// What the file has there, as JSON.
+        found: String,
+        /// What is asked for, as JSON.
+        expected: String,
+    },
+    /// A line was changed after it had been written.
+    #[error(
+        "line {line} of {path:?} was changed after it had been written; without this line the others can be read"
+    )]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+    },
+    /// A line holds no result of the kind that is asked for.
+    #[error("line {line} of {path:?} holds no such result")]
+    Result {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: u64,
+        /// Where and why.
+        source: serde_json::Error,
+    },
+    /// A value that JSON cannot hold so that it can be read again; a number that is not finite is one.
+    #[error("{what} cannot be stored")]
+    NotStorable {
+        /// What it is: `the parameter "system"`, `the result of item 17`.
+        what: String,
+        /// Why.
+        source: serde_json::Error,
+    },
+    /// An item that the computation does not have.
+    #[error("item {index} does not exist: there are {items}")]
+    NoSuchItem {
+        /// The index of the item.
+        index: usize,
+        /// How many items there are.
+        items: usize,
+    },
+    /// An error of the model, or of the core: also that the observer has stopped the call.
+    #[error(transparent)]
+    Model(#[from] Error),
+}
+
+impl From<bouncing_disk_core::Error> for StorageError {
+    fn from(error: bouncing_disk_core::Error) -> Self {
+        Self::Model(error.into())
+    }
+}

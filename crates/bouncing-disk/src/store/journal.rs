@@ -1,0 +1,446 @@
+//! The journal of a long computation.
+
+use std::collections::BTreeSet;
+use std::fs::{File, TryLockError};
+use std::io::{self, BufRead, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
+use std::marker::PhantomData;
+use std::path::{Path, PathBuf};
+
+use bouncing_disk_core::numerics::digest::Digest;
+use bouncing_disk_core::sweep::PartialResults;
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+
+use crate::store::error::StorageError;
+use crate::store::provenance::{Format, Provenance};
+
+/// The format of a [`Journal`]. The first line of every later version, too, will be an object whose
+/// `provenance` names format, version and program.
+pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, oldest: 1 };
+
+/// The file of a long computation of many items: what is finished is appended, nothing is ever changed.
+///
+/// The file is text. The first line is the key: the [`Provenance`] of the computation and the number of its
+/// items. Each further line is the result of one item. Every line is an object of JSON with a digest of the
+/// rest of the line, so that other programs can read it, and a changed line is seen.
+///
+/// A process that is killed leaves half a line at most: it is cut off when the journal is opened again, and
+/// nothing that was finished is lost. (After a power cut, what was appended since the last [`Self::sync`] may
+/// be.) A journal of another computation is refused, and so are results of another version of the program: one
+/// computation is of one program. One journal at a time writes in a file; a second one is refused as long as
+/// the first exists, whatever process it is in. The lock is the system's: it ends with the process.
+///
+/// ```
+/// use bouncing_disk::store::{JOURNAL, Journal, Provenance, StorageError};
+///
+/// # let path = std::env::temp_dir().join(format!("journal-example-{}", std::process::id()));
+/// # let _ = std::fs::remove_file(&path);
+/// // What is computed: nothing that the results depend on may be missing.
+/// let roots = Provenance::new(JOURNAL).with("quantity", "square roots")?.with("first", &2.0)?;
+/// let square_root = |index: usize| (2.0 + index as f64).sqrt();
+/// {
+///     let (mut journal, _) = Journal::<f64>::open(&path, &roots, 1_000)?;
+///     for index in 0..400 {
+///         journal.append(index, &square_root(index))?;
+///     }
+///     // Here the process is killed.
+/// }
+///
+/// // The next one goes on where it was.
+/// let (mut journal, mut finished) = Journal::open(&path, &roots, 1_000)?;
+/// assert_eq!(finished.done(), 400);
+/// for index in finished.open(1_000)? {
+///     journal.append(index, &square_root(index))?;
+///     finished.extend([(index, square_root(index))]);
+/// }
+/// let expected: Vec<f64> = (0..1_000).map(square_root).collect();
+/// assert_eq!(finished.into_results()?, expected);
+/// # drop(journal);
+///
+/// // Other parameters are another computation.
+/// let others = Provenance::new(JOURNAL).with("quantity", "square roots")?.with("first", &3.0)?;
+/// let error = Journal::<f64>::open(&path, &others, 1_000).expect_err("of another key");
+/// assert!(error.to_string().ends_with("its provenance.parameters.first is 2.0, where 3.0 is asked for"));
+/// # std::fs::remove_file(&path).expect("removable");
+/// # Ok::<(), StorageError>(())
+/// ```
+#[derive(Debug)]
+pub struct Journal<T> {
+    path: PathBuf,
+    file: Locked,
+    /// Whether a write that failed may have left bytes behind the whole lines.
+    torn: bool,
+    /// Bytes of the whole lines.
+    length: u64,
+    items: usize,
+    finished: BTreeSet<usize>,
+    results: PhantomData<fn(T) -> T>,
+}
+
+/// A file that is locked as long as it is open.
+///
+/// The lock is given back and not left to the end of the file: a process that is just being started holds a copy of
+/// every open file for a moment, and the lock would live as long.
+#[derive(Debug)]
+struct Locked(File);
+
+impl Drop for Locked {
+    fn drop(&mut self) {
+        // Where the system refuses, it ends the lock with the process.
+        let _ = self.0.unlock();
+    }
+}
+
+/// A line with the result of an item, after its digest.
+#[derive(Serialize)]
+struct Body<'a, T> {
+    index: usize,
+    result: &'a T,
+}
+
+/// A line with the result of an item.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+#[serde(bound(deserialize = "T: DeserializeOwned"))]
+struct Line<T> {
+    #[serde(rename = "digest")]
+    _digest: String,
+    index: usize,
+    result: T,
+}
+
+/// What a journal holds.
+struct Contents<T> {
+    /// Bytes of the whole lines.
+    length: u64,
+    results: Vec<(usize, T)>,
+}
+
+impl<T: Serialize + DeserializeOwned> Journal<T> {
+    /// Opens the journal of a computation of so many items, or begins it, and gives what is finished.
+    ///
+    /// `key` is a provenance of the format [`JOURNAL`] and names all that the results depend on. A file that is
+    /// no journal is not touched.
+    ///
+    /// # Errors
+    /// [`StorageError::Busy`] if somebody else has it open; [`StorageError::OtherKey`] for that of another
+    /// computation; [`StorageError::NewerFormat`] and the others of [`Provenance::read`];
+    /// [`StorageError::Damaged`] and [`StorageError::Result`] for a line that cannot be read;
+    /// [`StorageError::Io`] if the system refuses, as it does where a file system has no locks.
+    pub fn open(
+        path: impl AsRef<Path>,
+        key: &Provenance,
+        items: usize,
+    ) -> Result<(Self, PartialResults<T>), StorageError> {
+        let path = path.as_ref();
+        let header = header(key, items, path)?;
+        let failed = |action| move |source| StorageError::Io { action, path: path.to_owned(), source };
+        let mut options = File::options();
+        let file = options.read(true).write(true).create(true).truncate(false).open(path);
+        let file = file.map_err(failed("open"))?;
+        match file.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(StorageError::Busy { path: path.to_owned() }),
+            Err(TryLockError::Error(source)) => return Err(failed("lock")(source)),
+        }
+        let file = Locked(file);
+        let Contents { length, results } = read(&file.0, path, &header, items)?;
+        let finished = results.iter().map(|(index, _)| *index).collect();
+        let (path, torn) = (path.to_owned(), false);
+        let mut journal = Self { path, file, torn, length, items, finished, results: PhantomData };
+        journal.file.0.set_len(length).map_err(failed("write"))?;
+        if length == 0 {
+            journal.write(&header)?;
+            journal.sync()?;
+        }
+        Ok((journal, partial(items, results)))
+    }
+
+    /// What a journal holds, without writing in it; another process may do so meanwhile, unless the system's locks
+    /// forbid it, as on Windows. For those who look how far it is, and to put together the journals of several
+    /// machines.
+    ///
+    /// # Errors
+    /// Those of [`Self::open`], but for [`StorageError::Busy`].
+    pub fn read(
+        path: impl AsRef<Path>,
+        key: &Provenance,
+        items: usize,
+    ) -> Result<PartialResults<T>, StorageError> {
+        let path = path.as_ref();
+        let failed = |source| StorageError::Io { action: "open", path: path.to_owned(), source };
+        // A pipe would be waited for.
+        check_regular(&std::fs::metadata(path).map_err(failed)?, path)?;
+        let file = File::open(path).map_err(failed)?;
+        Ok(partial(items, read(&file, path, &header(key, items, path)?, items)?.results))
+    }
+
+    /// Appends the result of an item. That of one that is there already stays.
+    ///
+    /// A number that is not finite is refused, unless it is in an `Option`, where JSON makes it an absent one.
+    ///
+    /// # Errors
+    /// [`StorageError::NoSuchItem`], [`StorageError::NotStorable`] for a result that could not be read again;
+    /// [`StorageError::Io`] if the system refuses, as on a full disk: the journal is as before then.
+    pub fn append(&mut self, index: usize, result: &T) -> Result<(), StorageError> {
+        self.append_all([(index, result)])
+    }
+
+    /// Appends the results of a run that are not there yet, all with one call of the system, and makes sure that
+    /// they are on the disk.
+    ///
+    /// # Errors
+    /// Those of [`Self::append`].
+    pub fn record(&mut self, results: &PartialResults<T>) -> Result<(), StorageError> {
+        self.append_all(results.iter())?;
+        self.sync()
+    }
+
+    fn append_all<'r>(
+        &mut self,
+        results: impl IntoIterator<Item = (usize, &'r T)>,
+    ) -> Result<(), StorageError>
+    where
+        T: 'r,
+    {
+        let (mut lines, mut indices) = (Vec::new(), Vec::new());
+        for (index, result) in results {
+            if index >= self.items {
+                return Err(StorageError::NoSuchItem { index, items: self.items });
+            }
+            if self.finished.contains(&index) {
+                continue;
+            }
+            let failed =
+                |source| StorageError::NotStorable { what: format!("the result of item {index}"), source };
+            let line = line(&serde_json::to_vec(&Body { index, result }).map_err(failed)?);
+            serde_json::from_slice::<Line<T>>(&line).map_err(failed)?;
+            lines.extend(line);
+            indices.push(index);
+        }
+        self.write(&lines)?;
+        self.finished.extend(indices);
+        Ok(())
+    }
+
+    fn write(&mut self, lines: &[u8]) -> Result<(), StorageError> {
+        let file = &mut self.file.0;
+        let cut = if self.torn { file.set_len(self.length) } else { Ok(()) };
+        let placed = cut.and_then(|()| file.seek(SeekFrom::Start(self.length)));
+        match placed.and_then(|_| file.write_all(lines)) {
+            Ok(()) => {
+                self.torn = false;
+                self.length += lines.len() as u64;
+                Ok(())
+            }
+            Err(source) => {
+                // Half a line is cut off now, or else before the next one is written or the journal is opened again.
+                self.torn = file.set_len(self.length).is_err();
+                Err(StorageError::Io { action: "write", path: self.path.clone(), source })
+            }
+        }
+    }
+
+    /// Waits until all that was appended is on the disk, where a power cut cannot harm it. That a process is
+    /// killed harms nothing, also without this.
+    ///
+    /// # Errors
+    /// [`StorageError::Io`] if the system refuses.
+    pub fn sync(&self) -> Result<(), StorageError> {
+        let failed = |source| StorageError::Io { action: "write", path: self.path.clone(), source };
+        self.file.0.sync_data().map_err(failed)
+    }
+
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Number of items whose results are in it.
+    #[must_use]
+    pub fn done(&self) -> usize {
+        self.finished.len()
+    }
+
+    /// Number of items of the computation.
+    #[must_use]
+    pub const fn items(&self) -> usize {
+        self.items
+    }
+}
+
+fn partial<T>(items: usize, results: Vec<(usize, T)>) -> PartialResults<T> {
+    let mut partial = PartialResults::new(items);
+    partial.extend(results);
+    partial
+}
+
+/// The first line.
+fn header(key: &Provenance, items: usize, path: &Path) -> Result<Vec<u8>, StorageError> {
+    if key.format() != JOURNAL.name || key.format_version() != JOURNAL.version {
+        let found = key.format().to_owned();
+        return Err(StorageError::OtherFormat { file: path.to_owned(), expected: JOURNAL.name, found });
+    }
+    let failed = |source| StorageError::NotStorable { what: "the key of a journal".to_owned(), source };
+    let body = serde_json::to_vec(&json!({ "items": items, "provenance": key })).map_err(failed)?;
+    Ok(line(&body))
+}
+
+/// Most bytes of the first line.
+const LONGEST_KEY: u64 = 1 << 26;
+
+/// What precedes the digest of a line, and what follows it.
+const BEFORE_DIGEST: &[u8] = b"{\"digest\":\"";
+const AFTER_DIGEST: &[u8] = b"\",";
+
+/// The line of an object: with a digest of all that follows it, and a line end.
+fn line(object: &[u8]) -> Vec<u8> {
+    let rest = object.get(1..).unwrap_or_default();
+    let digest = Digest::of(rest).to_string();
+    [BEFORE_DIGEST, digest.as_bytes(), AFTER_DIGEST, rest, b"\n"].concat()
+}
+
+/// Whether a line, without its end, is as it was written.
+fn is_intact(line: &[u8]) -> bool {
+    let rest = line.strip_prefix(BEFORE_DIGEST).and_then(|line| line.split_at_checked(16));
+    let split = rest.and_then(|(digest, rest)| Some((digest, rest.strip_prefix(AFTER_DIGEST)?)));
+    split.is_some_and(|(digest, rest)| Digest::of(rest).to_string().as_bytes() == digest)
+}
+
+/// Reads a journal up to its last whole line.
+fn read<T: DeserializeOwned>(
+    file: &File,
+    path: &Path,
+    expected: &[u8],
+    items: usize,
+) -> Result<Contents<T>, StorageError> {
+    let failed = |source| StorageError::Io { action: "read", path: path.to_owned(), source };
+    check_regular(&file.metadata().map_err(failed)?, path)?;
+    let mut reader = BufReader::new(file);
+    let mut contents = Contents { length: 0, results: Vec::new() };
+    let mut bytes = Vec::new();
+    for number in 1_u64.. {
+        bytes.clear();
+        // A file of gigabytes without a line end is no journal, and is not read to its end to see that.
+        let longest = if number == 1 { LONGEST_KEY } else { u64::MAX };
+        let length = reader.by_ref().take(longest).read_until(b'\n', &mut bytes).map_err(failed)?;
+        let Some((b'\n', text)) = bytes.split_last() else {
+            // Half a key is that of this journal, or none.
+            if number == 1 && !expected.starts_with(&bytes) {
+                return Err(no_journal(path));
+            }
+            break;
+        };
+        if number == 1 {
+            check_header(text, expected, path)?;
+        } else {
+            if !is_intact(text) {
+                return Err(StorageError::Damaged { path: path.to_owned(), line: number });
+            }
+            let unfit = |source| StorageError::Result { path: path.to_owned(), line: number, source };
+            let Line { index, result, .. } = serde_json::from_slice(text).map_err(unfit)?;
+            if index >= items {
+                return Err(StorageError::NoSuchItem { index, items });
+            }
+            contents.results.push((index, result));
+        }
+        contents.length += length as u64;
+    }
+    Ok(contents)
+}
+
+fn check_regular(file: &std::fs::Metadata, path: &Path) -> Result<(), StorageError> {
+    if file.is_file() {
+        return Ok(());
+    }
+    let source = io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file");
+    Err(StorageError::Io { action: "read", path: path.to_owned(), source })
+}
+
+fn no_journal(path: &Path) -> StorageError {
+    StorageError::OtherFormat { file: path.to_owned(), expected: JOURNAL.name, found: String::new() }
+}
+
+/// Checks the format first, as that of a later version may have any other form.
+fn check_header(found: &[u8], expected: &[u8], path: &Path) -> Result<(), StorageError> {
+    let key = |line: &[u8]| serde_json::from_slice::<Value>(line).map_err(|_| no_journal(path));
+    let (stored, wanted) = (key(found)?, key(expected)?);
+    Provenance::read(JOURNAL, &stored["provenance"], path)?;
+    if !is_intact(found) {
+        return Err(StorageError::Damaged { path: path.to_owned(), line: 1 });
+    }
+    let parts = |key: &Value| json!({ "items": key["items"], "provenance": key["provenance"] });
+    match first_difference(&parts(&stored), &parts(&wanted), &mut String::new()) {
+        None => Ok(()),
+        Some(Difference { field, found, expected }) => {
+            Err(StorageError::OtherKey { path: path.to_owned(), field, found, expected })
+        }
+    }
+}
+
+struct Difference {
+    field: String,
+    found: String,
+    expected: String,
+}
+
+/// The first place at which two values differ; `field` leads to the values.
+fn first_difference(found: &Value, expected: &Value, field: &mut String) -> Option<Difference> {
+    let length = field.len();
+    match (found, expected) {
+        (Value::Object(left), Value::Object(right)) => {
+            let names: BTreeSet<_> = left.keys().chain(right.keys()).collect();
+            for name in names {
+                if !field.is_empty() {
+                    field.push('.');
+                }
+                field.push_str(name);
+                let inside = match (left.get(name), right.get(name)) {
+                    (Some(left), Some(right)) => first_difference(left, right, field),
+                    (left, right) => Some(difference(left, right, field)),
+                };
+                if inside.is_some() {
+                    return inside;
+                }
+                field.truncate(length);
+            }
+            None
+        }
+        (Value::Array(left), Value::Array(right)) if left.len() == right.len() => {
+            for (index, (left, right)) in left.iter().zip(right).enumerate() {
+                field.push_str(&format!("[{index}]"));
+                let inside = first_difference(left, right, field);
+                if inside.is_some() {
+                    return inside;
+                }
+                field.truncate(length);
+            }
+            None
+        }
+        // As text: 0 and -0 are equal numbers, and other parameters.
+        (found, expected) => {
+            let [left, right] = [found, expected].map(Value::to_string);
+            (left != right).then(|| difference(Some(found), Some(expected), field))
+        }
+    }
+}
+
+fn difference(found: Option<&Value>, expected: Option<&Value>, field: &str) -> Difference {
+    let short = |value: Option<&Value>| value.map_or_else(|| "absent".to_owned(), short);
+    Difference { field: field.escape_debug().to_string(), found: short(found), expected: short(expected) }
+}
+
+/// A value as JSON, no longer than a message may be.
+fn short(value: &Value) -> String {
+    const LONGEST: usize = 200;
+    let text = value.to_string();
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &text[..end]),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests;
