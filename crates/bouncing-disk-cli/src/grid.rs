@@ -299,6 +299,13 @@ impl Part {
             .map_err(|error| refuse(&format!("it cannot be read: {error}")))?;
         let stored: Value = serde_json::from_slice(&bytes).map_err(broken)?;
         let provenance = Provenance::read(CHUNK, &stored["provenance"], path)?;
+        // Its rows would pass for results of this version.
+        if provenance.version() != VERSION {
+            let theirs = provenance.version();
+            return Err(refuse(&format!(
+                "it is of version {theirs} of the program, which this version, {VERSION}, does not continue; merge it with {theirs}"
+            )));
+        }
         let file: ChunkFile = serde_json::from_value(stored).map_err(broken)?;
         let (chunk, range) = (file.chunk, file.first_row..file.end_row);
         let job = provenance.parameters().get("job").unwrap_or(&Value::Null);
@@ -334,7 +341,6 @@ impl Part {
             "command": self.command(),
             "job": self.provenance.parameters().get("job"),
             "number of chunks": self.chunk.count,
-            "version of the program": self.provenance.version(),
         })
     }
 }

@@ -139,15 +139,15 @@ fn words_of_the_line_that_are_not_legal() {
             ("diagram -G 0.3:0.30000000000000004:1000", "nearer than numbers can be"),
             (
                 "verdicts -G 0:3:1000000 -r 0:0.9:1000000",
-                "no room for 1000000000000 cells of a map of verdicts: at most 2147483648",
+                "not enough memory for 1000000000000 cells of a map of verdicts: at most 2147483648",
             ),
             (
                 "verdicts -G 0:3:10000 -r 0:0.9:10000 --details --chunk 1/100 --out a.json",
-                "no room for 100000000 verdicts with their evidence: at most 16777216",
+                "not enough memory for 100000000 verdicts with their evidence: at most 16777216",
             ),
             (
                 "diagram -G 0:3:1000000 --recorded 1000000",
-                "no room for 2000000000000 impacts of a diagram: at most 2147483648",
+                "not enough memory for 2000000000000 impacts of a diagram: at most 2147483648",
             ),
             ("verdicts --impacts 1", "impacts"),
             ("basins --cells 0", "cells"),

@@ -76,7 +76,7 @@ fn foreign_parts_are_refused_by_name() {
                 &format!("{one} verdicts.json {three}"),
                 &format!("verdicts.json {foreign} command is verdicts, where part-1-of-3.json has diagram"),
             ),
-            ("merge whole.json", "is no file of the format \"bouncing-disk chunk\""),
+            ("merge whole.json", "is not a file of the format \"bouncing-disk chunk\""),
         ],
     );
 }

@@ -55,7 +55,7 @@ pub enum Error {
     },
     /// A mean speed is not known as well as was asked for when all impacts that were allowed had been spent.
     #[error(
-        "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, is not known as well as asked for: allow more impacts, or a larger error"
+        "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, has not reached the requested error: allow more impacts, or a larger error"
     )]
     NotSettled {
         /// Mean speed (rad/s).
@@ -64,14 +64,14 @@ pub enum Error {
         standard_error: f64,
     },
     /// The load accelerates a motor for ever, whatever is changed.
-    #[error("the load of {load:?} m g a_e overpowers the motor: friction cannot give as much on average")]
+    #[error("the load of {load:?} m g a_e exceeds what friction can give on average")]
     Overpowered {
         /// Load torque in units of m g a_e.
         load: f64,
     },
     /// What was given as a periodic orbit is none of this system.
     #[error(
-        "impact {impact} is not followed by the next one of the orbit, but {distance:?} (rad, or relative speed) from it"
+        "impact {impact} does not lead to the next impact of the orbit: it misses it by {distance:?} (rad, or relative speed)"
     )]
     NotAnOrbit {
         /// The impact, from 0 on.
@@ -82,7 +82,7 @@ pub enum Error {
     },
     /// Low-period traps leave too few motors of a range for a straight line.
     #[error(
-        "{traps} motors of the range are in low-period traps, which leaves {left}, and {needed} are needed"
+        "{traps} motors of the range are in low-period traps; {left} are left, but {needed} are needed"
     )]
     TooFewMotors {
         /// Motors that are left.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// What is there is no regular file. To open a named pipe waits for a writer, and a device may never end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("it is {found}; legal is a regular file")]
+#[error("it is {found}, not a regular file")]
 pub struct NotRegular {
     /// What it is.
     pub found: &'static str,
@@ -14,7 +14,7 @@ pub struct NotRegular {
 
 /// A file is larger than is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("it has {bytes} bytes; legal are {largest} or fewer")]
+#[error("it has {bytes} bytes; at most {largest} are read")]
 pub struct TooLarge {
     /// Its length, as far as it is known.
     pub bytes: u64,

@@ -161,7 +161,7 @@ impl Crisis {
 pub enum NoTangency {
     /// The orbits that came to rest passed no saddle of few impacts before.
     #[error(
-        "orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
+        "the orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
     )]
     NoSaddle {
         /// The orbits that were looked at.
@@ -172,7 +172,7 @@ pub enum NoTangency {
     #[error("no fold of the unstable manifold lies next to the saddle")]
     NoFold,
     /// The tangency was not found to the rounding.
-    #[error("the tangency did not settle: Gamma = {forcing} changed by {change:e} last")]
+    #[error("the tangency did not converge: Gamma = {forcing} changed by {change:e} last")]
     NotSettled {
         /// The last Gamma.
         forcing: f64,
@@ -193,7 +193,7 @@ pub enum NoTangency {
 #[non_exhaustive]
 pub enum NoCrisis {
     /// There is no periodic orbit yet that the attractor could come from.
-    #[error("up to Gamma = {forcing} no orbit of one impact in each period: it is born at {birth}")]
+    #[error("there is no orbit of one impact per period up to Gamma = {forcing}: it appears at {birth}")]
     NotBorn {
         /// The upper end.
         forcing: f64,
@@ -201,7 +201,7 @@ pub enum NoCrisis {
         birth: f64,
     },
     /// A saddle that was given could not be followed to where it is needed.
-    #[error("the saddle could be followed to Gamma = {reached} only, not to {forcing}")]
+    #[error("the saddle was continued to Gamma = {reached}, but not to {forcing}")]
     NotFollowed {
         /// Where it is needed.
         forcing: f64,
@@ -210,7 +210,7 @@ pub enum NoCrisis {
     },
     /// No orbit comes to rest at the upper end of the range: the attractor is still there, perhaps larger
     /// (after an interior crisis), or has been lost to one that does not come to rest.
-    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts together")]
+    #[error("none of {samples} orbits comes to rest at Gamma = {forcing} within {impacts} impacts in all")]
     NoneRests {
         /// The upper end.
         forcing: f64,
@@ -220,7 +220,7 @@ pub enum NoCrisis {
         impacts: u64,
     },
     /// Some come to rest where the search begins.
-    #[error("an orbit comes to rest at Gamma = {forcing} already, after {life} impacts")]
+    #[error("an orbit already comes to rest at Gamma = {forcing}, after {life} impacts")]
     RestsBefore {
         /// The lower end.
         forcing: f64,
@@ -229,7 +229,7 @@ pub enum NoCrisis {
     },
     /// What is lost is not chaotic: a periodic orbit that ends.
     #[error(
-        "what is lost at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
+        "the attractor that disappears at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
     )]
     NotChaotic {
         /// The last Gamma at which it lives.
@@ -239,7 +239,7 @@ pub enum NoCrisis {
     },
     /// Orbits do not live shorter farther away: it is not a crisis.
     #[error(
-        "beyond Gamma = {forcing} lives do not shrink: {near:.3e} impacts next to it, {far:.3e} farther away"
+        "lifetimes do not shorten beyond Gamma = {forcing}: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
     LivesDoNotShrink {
         /// The last Gamma at which orbits live on.

@@ -50,7 +50,7 @@ pub enum Error {
         gap: f64,
     },
     /// An iteration (an orbit search, a refinement) did not settle.
-    #[error("{what} did not settle after {iterations} iterations; last residual {residual:?}")]
+    #[error("{what} did not converge after {iterations} iterations; last residual {residual:?}")]
     NotSettled {
         /// What was sought.
         what: &'static str,
@@ -70,14 +70,14 @@ pub enum Error {
         trace_error: f64,
     },
     /// No region about an attracting orbit is proven to be attracted: an impact or a graze is too near.
-    #[error("nothing about the orbit is proven to be attracted, down to {region:?} rad")]
+    #[error("no neighbourhood of the orbit is proven to be attracted, down to a radius of {region:?} rad")]
     NothingProven {
         /// The smallest region that was tried (rad).
         region: f64,
     },
     /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
     #[error(
-        "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is no periodic orbit"
+        "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is not a periodic orbit"
     )]
     ImpactWithoutSpeed {
         /// Which impact of the solution.
@@ -110,7 +110,7 @@ pub enum Error {
     },
     /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one, as at a
     /// fold.
-    #[error("no branch begins at {parameter:?}: {what} is no isolated orbit there")]
+    #[error("no branch begins at {parameter:?}: {what} is not an isolated orbit there")]
     NoBranch {
         /// The orbit.
         what: &'static str,
@@ -130,7 +130,7 @@ pub enum Error {
         expected: &'static str,
     },
     /// A text is no decimal number.
-    #[error("byte {at} is no part of a decimal number")]
+    #[error("byte {at} is not part of a decimal number")]
     NoDecimal {
         /// Where in the text, counted from 0.
         at: usize,
@@ -157,7 +157,7 @@ pub enum Error {
         total: u64,
     },
     /// A stored run does not fit together, or not to what it is to go on with.
-    #[error("{what}: {found} where {expected} would be legal")]
+    #[error("{what}: {found}; legal is {expected}")]
     Unfitting {
         /// What does not fit.
         what: &'static str,
@@ -167,7 +167,7 @@ pub enum Error {
         expected: u64,
     },
     /// More was asked for than the limit allows or, where `count` is within it, than there is memory for.
-    #[error("no room for {count} {what}: at most {limit}, as far as the memory goes")]
+    #[error("not enough memory for {count} {what}: at most {limit}")]
     TooLarge {
         /// What was asked for.
         what: &'static str,

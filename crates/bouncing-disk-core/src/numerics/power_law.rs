@@ -85,7 +85,7 @@ impl PowerLaw {
 #[non_exhaustive]
 pub enum NoPowerLaw {
     /// There are too few points to tell a power law from something else.
-    #[error("{found} points where a power law takes {needed}")]
+    #[error("{found} points, but a power law needs {needed}")]
     TooFewPoints {
         /// How many there are.
         found: usize,
@@ -93,7 +93,7 @@ pub enum NoPowerLaw {
         needed: usize,
     },
     /// The points cover too little.
-    #[error("the points cover a factor of {factor:e} where a power law takes {needed}")]
+    #[error("the points cover a factor of {factor:e}, but a power law needs {needed}")]
     TooNarrow {
         /// The largest x over the smallest.
         factor: f64,

@@ -33,7 +33,7 @@ pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
 #[non_exhaustive]
 pub enum FitRefusal {
     /// The curve has too few points.
-    #[error("it has {points} points where {least} are needed: sample it more often")]
+    #[error("it has {points} points, but {least} are needed: sample it more often")]
     TooFewPoints {
         /// Points of the curve, or of its part that counts.
         points: usize,
@@ -42,7 +42,7 @@ pub enum FitRefusal {
     },
     /// There are too few members for their scatter to say what the error is.
     #[error(
-        "it has {members} members where {least} are needed: compute more, or fit a single curve as a measured one"
+        "it has {members} members, but {least} are needed: compute more, or fit a single curve as a measured one"
     )]
     TooFewMembers {
         /// Members that were given.
@@ -52,7 +52,7 @@ pub enum FitRefusal {
     },
     /// The speed does not change, and a time constant has no meaning.
     #[error(
-        "the speed does not change, so that there is no time constant: take a smaller load or a stronger stator"
+        "the speed does not change, so the time constant is undefined: take a smaller load or a stronger stator"
     )]
     NoRise,
     /// The motor does not rise from rest at time zero, as the settings say.
@@ -97,7 +97,7 @@ pub enum FitRefusal {
     },
     /// The curve has too few points while its speed rises.
     #[error(
-        "only {points} of its points lie within the time constant {time_constant:?} s where {least} are needed: take \
+        "only {points} of its points lie within the time constant {time_constant:?} s, but {least} are needed: take \
          shorter intervals, or a shorter duration"
     )]
     TooCoarse {
@@ -110,7 +110,7 @@ pub enum FitRefusal {
     },
     /// The members hardly fly within the time constant: what looks like a plateau is a flight, during which no speed changes.
     #[error(
-        "{flights:?} flights within the time constant {time_constant:?} s are too few where {least:?} are needed: what \
+        "{flights:?} flights within the time constant {time_constant:?} s are too few, {least:?} are needed: what \
          looks like a plateau is a flight, so take a longer duration"
     )]
     TooFewFlights {
@@ -136,7 +136,7 @@ pub enum FitRefusal {
     },
     /// The residuals remember each other for so long that the curve holds too few independent ones.
     #[error(
-        "its residuals are correlated over {correlated_points:?} of its {points} points, too many to tell the error: \
+        "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the error: \
          another form, such as that of a motor whose drive or load changes, or slow noise; leave out the rows in which the \
          form is another, or repeat a curve whose noise is slow"
     )]
@@ -159,7 +159,7 @@ pub enum FitRefusal {
     },
     /// The speed does not fall, or its fall is not told apart from none.
     #[error(
-        "the deceleration {deceleration:?} rad/s^2 is not above zero by its interval, which begins at {low:?} rad/s^2"
+        "the deceleration {deceleration:?} rad/s^2 is not significantly above zero: its interval begins at {low:?} rad/s^2"
     )]
     NotBraking {
         /// Fitted angular deceleration (rad/s^2).
@@ -169,8 +169,8 @@ pub enum FitRefusal {
     },
     /// The speed does not fall along a straight line.
     #[error(
-        "the deceleration changes from {first_half:?} to {last_half:?} rad/s^2 while the disk slides: give the part \
-         of the curve in which nothing but friction brakes"
+        "the deceleration changes from {first_half:?} to {last_half:?} rad/s^2 while the disk slides: use the part \
+         of the curve in which only friction brakes"
     )]
     NotStraight {
         /// Angular deceleration in the first half of the sliding part (rad/s^2).
@@ -181,8 +181,8 @@ pub enum FitRefusal {
     /// The times of a transient do not count from the switch-on.
     #[cfg(feature = "fit")]
     #[error(
-        "transient {transient} (counted from 0) rises as if it was switched on about {early:?} s before time zero, where the \
-         standard error of a right clock is {standard_error:?} s: let its times count from the switch-on"
+        "transient {transient} (counted from 0) rises as if it had been switched on about {early:?} s before time zero, where the \
+         standard error of a correct clock is {standard_error:?} s: count its times from the switch-on"
     )]
     ShiftedClock {
         /// Its place in the list.

@@ -22,7 +22,7 @@ pub enum StorageError {
         source: io::Error,
     },
     /// Another process, or another journal of this one, writes in the file.
-    #[error("{path:?} is locked: somebody else writes in it")]
+    #[error("{path:?} is locked: another process writes to it")]
     Busy {
         /// The file.
         path: PathBuf,
@@ -64,7 +64,7 @@ pub enum StorageError {
         oldest: u32,
     },
     /// A file of another format, or none of ours.
-    #[error("{file:?} is no file of the format \"{expected}\": its format is {found:?}")]
+    #[error("{file:?} is not a file of the format \"{expected}\": its format is {found:?}")]
     OtherFormat {
         /// The file.
         file: PathBuf,
@@ -83,7 +83,7 @@ pub enum StorageError {
     },
     /// A journal of another computation.
     #[error(
-        "{path:?} is the journal of another computation: its {field} is {found}, where {expected} is asked for"
+        "{path:?} is the journal of another computation: its {field} is {found}, but {expected} is requested"
     )]
     OtherKey {
         /// The file.
@@ -97,7 +97,7 @@ pub enum StorageError {
     },
     /// A line was changed after it had been written.
     #[error(
-        "line {line} of {path:?} was changed after it had been written; without this line the others can be read"
+        "line {line} of {path:?} was changed after it was written; without this line the others can be read"
     )]
     Damaged {
         /// The file.
@@ -106,7 +106,7 @@ pub enum StorageError {
         line: u64,
     },
     /// A line holds no result of the kind that is asked for.
-    #[error("line {line} of {path:?} holds no such result")]
+    #[error("line {line} of {path:?} is not a result of this computation")]
     Result {
         /// The file.
         path: PathBuf,
@@ -124,7 +124,7 @@ pub enum StorageError {
         source: serde_json::Error,
     },
     /// An item that the computation does not have.
-    #[error("item {index} does not exist: there are {items}")]
+    #[error("item {index} does not exist: there are {items} items")]
     NoSuchItem {
         /// The index of the item.
         index: usize,

@@ -61,7 +61,7 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 /// // Other parameters are another computation.
 /// let others = Provenance::new(JOURNAL).with("quantity", "square roots")?.with("first", &3.0)?;
 /// let error = Journal::<f64>::open(&path, &others, 1_000).expect_err("of another key");
-/// assert!(error.to_string().ends_with("its provenance.parameters.first is 2.0, where 3.0 is asked for"));
+/// assert!(error.to_string().ends_with("its provenance.parameters.first is 2.0, but 3.0 is requested"));
 /// # std::fs::remove_file(&path).expect("removable");
 /// # Ok::<(), StorageError>(())
 /// ```

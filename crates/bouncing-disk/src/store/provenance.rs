@@ -283,7 +283,7 @@ mod tests {
         assert!(newer.contains(concat!("bouncing-disk ", env!("CARGO_PKG_VERSION"))), "{newer}");
         assert!(text(with("test", 1)).contains("the oldest that is still read is version 2"));
         assert!(
-            text(with("other", 3)).contains("is no file of the format \"test\": its format is \"other\"")
+            text(with("other", 3)).contains("is not a file of the format \"test\": its format is \"other\"")
         );
         assert!(text(json!({})).ends_with("its format is \"\""));
         assert!(matches!(

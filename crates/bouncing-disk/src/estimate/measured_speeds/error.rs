@@ -56,8 +56,8 @@ pub enum CsvFault {
     Empty,
     /// A column has no unit that is known, or another one than the caller or the row below the header says.
     #[error(
-        "the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in the row below it, or by the caller \
-         (--{name}-unit), and nowhere two that differ"
+        "the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in the row below it, or as an option \
+         (--{name}-unit), and the same in all places"
     )]
     Unit {
         /// `time` or `speed`.
@@ -69,7 +69,7 @@ pub enum CsvFault {
     },
     /// The decimal mark of the file is not clear, for this reason.
     #[error(
-        "the decimal mark of the file is not clear: {0}; write one decimal mark and no separators of thousands"
+        "the decimal mark of the file is ambiguous: {0}; write one decimal mark and no separators of thousands"
     )]
     DecimalMarks(&'static str),
     /// A quotation mark begins a field and nothing ends it on the line.
@@ -77,19 +77,19 @@ pub enum CsvFault {
     OpenQuote,
     /// The header has a name that is not known.
     #[error(
-        "there is no column {0:?}; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
-         columns that count (--time-column, --speed-column)"
+        "the column {0:?} is unknown; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
+         columns to read (--time-column, --speed-column)"
     )]
     UnknownColumn(String),
     /// The header has a name twice.
-    #[error("the column {0:?} is there again; remove one of the two")]
+    #[error("the column {0:?} occurs twice; remove one of the two")]
     RepeatedColumn(&'static str),
     /// The header lacks a name.
     #[error("the column {0:?} is missing; the header must have times and speeds")]
     MissingColumn(String),
     /// A line has more or fewer fields than the header.
     #[error(
-        "it has {fields} fields where the header has {columns}; write numbers with a decimal point, or separate the \
+        "it has {fields} fields, but the header has {columns}; write numbers with a decimal point, or separate the \
          columns by semicolons"
     )]
     Fields {
@@ -131,7 +131,7 @@ pub enum CsvFault {
     },
     /// A run has too few lines.
     #[error(
-        "the run of member {member} has {points} lines of numbers where {least} are needed; add lines, or remove the run"
+        "the run of member {member} has {points} lines of numbers, but {least} are needed; add lines, or remove the run"
     )]
     TooFewPoints {
         /// The number of the run; 0 where there is only one.

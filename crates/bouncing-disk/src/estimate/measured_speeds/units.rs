@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 /// Why a text names no unit.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{unit:?} is no unit that is known here; legal are {legal}")]
+#[error("{unit:?} is not a known unit; legal are {legal}")]
 pub struct UnknownUnit {
     /// The text.
     pub unit: String,

@@ -134,19 +134,19 @@ fn the_journal_of_another_computation_is_refused_by_name() {
     assert!(text.contains(&format!("{:?}", scratch.0)), "{text}");
     assert!(
         text.ends_with(
-            "another computation: its provenance.parameters.motor.friction is 0.1, where 0.2 is asked for"
+            "another computation: its provenance.parameters.motor.friction is 0.1, but 0.2 is requested"
         ),
         "{text}"
     );
-    assert!(fault(&key(0.1), 101).ends_with("its items is 100, where 101 is asked for"));
-    assert!(fault(&key(0.1).with_seed(8), 100).ends_with("its provenance.seed is 7, where 8 is asked for"));
+    assert!(fault(&key(0.1), 101).ends_with("its items is 100, but 101 is requested"));
+    assert!(fault(&key(0.1).with_seed(8), 100).ends_with("its provenance.seed is 7, but 8 is requested"));
     let cut = fault(&key(0.1).with_chatter_policy(crate::motion::PAPER_CHATTER), 100);
-    assert!(cut.contains("provenance.chatter_policy is null, where {\"Cut\":"), "{cut}");
+    assert!(cut.contains("provenance.chatter_policy is null, but {\"Cut\":"), "{cut}");
     let more = fault(&key(0.1).with("load", &1.0).expect("storable"), 100);
-    assert!(more.contains("provenance.parameters.load is absent, where 1.0"), "{more}");
+    assert!(more.contains("provenance.parameters.load is absent, but 1.0"), "{more}");
     // Results of two versions of a program are not mixed.
     let other = fault(&key(0.1).written_by("bouncing-disk", "0.0.1"), 100);
-    assert!(other.contains("its provenance.version is \"") && other.contains("where \"0.0.1\""), "{other}");
+    assert!(other.contains("its provenance.version is \"") && other.contains("but \"0.0.1\""), "{other}");
     let long = fault(&key(0.1).with("motor", &"x".repeat(10_000)).expect("storable"), 100);
     assert!(long.len() < 1_000, "{long}");
 }
@@ -228,7 +228,7 @@ fn what_could_not_be_read_again_is_not_written() {
     let error = journal.append(1, &vec![f64::NAN]).expect_err("no JSON");
     assert!(error.to_string().starts_with("the result of item 1 cannot be stored"), "{error}");
     let error = journal.append(100, &vec![1.0]).expect_err("no such item");
-    assert_eq!(error.to_string(), "item 100 does not exist: there are 100");
+    assert_eq!(error.to_string(), "item 100 does not exist: there are 100 items");
     assert_eq!((scratch.bytes(), journal.done()), (before, 1));
 }
 
@@ -319,7 +319,7 @@ fn parameters_that_look_alike_are_others() {
     let scratch = Scratch::new("absent");
     drop(Journal::<f64>::open(&scratch.0, &of(None), 3).expect("opens"));
     let error = Journal::<f64>::open(&scratch.0, &Provenance::new(JOURNAL), 3).expect_err("another key");
-    assert!(error.to_string().ends_with("is null, where absent is asked for"), "{error}");
+    assert!(error.to_string().ends_with("is null, but absent is requested"), "{error}");
 }
 
 /// While a process is being started it holds a copy of every open file: the lock of a journal that is closed must not

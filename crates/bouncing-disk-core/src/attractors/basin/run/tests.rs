@@ -173,12 +173,12 @@ fn a_stored_run_that_does_not_fit_is_refused() {
     let labels = text.split("\"labels\":").nth(1).expect("has labels").trim_end_matches('}').to_owned();
     assert!(text.contains("\"finished_rows\":[0,2]"), "{text}");
     for (good, bad, complaint) in [
-        ("[0,2]", "[0,3]", "finished row of a basin run: 3 where 2 would be legal"),
+        ("[0,2]", "[0,3]", "finished row of a basin run: 3; legal is 2"),
         ("[0,2]", "[2,0]", "out of order"),
         ("[0,2]", "[2,2]", "out of order"),
-        ("[0,2]", "[0]", "labels of a basin run: 4 where 2 would be legal"),
-        (&*labels, "[1,1,1,3]", "label of a basin run: 3 where 2 would be legal"),
-        (&*labels, "[1,1,1]", "labels of a basin run: 3 where 4 would be legal"),
+        ("[0,2]", "[0]", "labels of a basin run: 4; legal is 2"),
+        (&*labels, "[1,1,1,3]", "label of a basin run: 3; legal is 2"),
+        (&*labels, "[1,1,1]", "labels of a basin run: 3; legal is 4"),
         (&*labels, "[1,1,1,256]", "256"),
         ("\"finished_rows\"", "\"finished\"", "finished"),
         ("\"radius\":0.01", "\"radius\":-0.01", "attraction radius"),

@@ -123,7 +123,7 @@ export function describeRunUp({ json }: Transient, own: Operation | null, report
   const steady =
     own === null ? "The steady speed is being computed." : `Steady speed: ${steadySpeed(own, report.largest_torque)}.`;
   const { rise, refusal } = json;
-  if (rise === null) return `${steady} There is no time constant: ${refusal ?? "it is not known"}.`;
+  if (rise === null) return `${steady} The time constant is undefined: ${refusal ?? "it is not known"}.`;
   const missed = `${plain(rise.residual, 2)} rad/s, root mean square`;
   return rise.form === "exponential"
     ? `${steady} An exponential with a time constant of ${time(rise.constant)} is nearest to the run-up, and misses it by ${missed}.`

@@ -74,7 +74,7 @@ fn values_are_read_as_instruments_write_them() {
     let units = CsvColumns { time_unit: ms, speed_unit: rpm, ..CsvColumns::default() };
     assert_eq!(of(&PLAIN.replace("_s,", ","), &units).expect_err("rad_s is not rpm").to_string(), {
         "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal are rad/s, rpm, rev/s, deg/s, in the \
-         name, in the row below it, or by the caller (--speed-unit), and nowhere two that differ"
+         name, in the row below it, or by the caller (--speed-unit), and the same in all places"
     });
     assert!(fault("t,n\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"\" here"));
     assert!(fault("t (h),n (rpm)\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"h\" here"));
@@ -84,7 +84,7 @@ fn values_are_read_as_instruments_write_them() {
     );
     // One decimal mark in a file, and no thousands.
     let marks = |rows: &str| fault(format!("time_s;speed_rad_s\n{rows}"));
-    assert!(marks("0,5;1.5\n1;2\n").contains("line 2, field 2: the decimal mark of the file is not clear"));
+    assert!(marks("0,5;1.5\n1;2\n").contains("line 2, field 2: the decimal mark of the file is ambiguous"));
     assert!(marks("0;1.234,5\n").contains("line 2, field 2"));
     assert!(marks("0;1,234\n1;2,345\n2;3,456\n").contains("line 2, field 2: the decimal mark"));
     assert!(read("time_s;speed_rad_s\n0,000;1,234\n0,001;2,345\n0,002;3,456\n").is_ok());
@@ -101,8 +101,8 @@ fn a_wrong_header_is_named() {
     assert_eq!(
         fault("time_s,speeed\n0,0\n"),
         format!(
-            "\"demo.csv\", line 1, field 2: there is no column \"speeed\"; legal are {legal}. Remove the column, put \
-             a # before a line of remarks, or name the columns that count (--time-column, --speed-column)"
+            "\"demo.csv\", line 1, field 2: the column \"speeed\" is unknown; legal are {legal}. Remove the column, put \
+             a # before a line of remarks, or name the columns to read (--time-column, --speed-column)"
         )
     );
     assert_eq!(
@@ -110,9 +110,9 @@ fn a_wrong_header_is_named() {
         "\"demo.csv\", line 2: the column \"speed_rad_s\" is missing; the header must have times and speeds"
     );
     assert!(fault("speed_rad_s\n0\n").contains("the column \"time_s\" is missing"));
-    assert!(fault("time_s,speed_rad_s,time_s\n").contains("field 3: the column \"time_s\" is there again"));
+    assert!(fault("time_s,speed_rad_s,time_s\n").contains("field 3: the column \"time_s\" occurs twice"));
     // Numbers without a header.
-    assert!(fault("0,1\n1,2\n").contains("line 1, field 1: there is no column \"0\""));
+    assert!(fault("0,1\n1,2\n").contains("line 1, field 1: the column \"0\" is unknown"));
     // The text of a file is shown without doing anything.
     assert!(fault("time_s,\u{1b}[2J\n").contains("\"\\u{1b}[2J\""));
     assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 500);
@@ -166,7 +166,7 @@ fn times_that_do_not_rise_are_named() {
 fn too_little_and_other_encodings_are_refused() {
     assert!(
         fault("time_s,speed_rad_s\n")
-            .contains("the run of member 0 has 0 lines of numbers where 3 are needed")
+            .contains("the run of member 0 has 0 lines of numbers, but 3 are needed")
     );
     assert!(fault("time_s,speed_rad_s\n0,0\n1,1\n").contains("has 2 lines"));
     assert!(

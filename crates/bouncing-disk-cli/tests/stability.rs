@@ -1,0 +1,47 @@
+//! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See docs/stability.md.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::Folder;
+
+/// A folder with the files that version 0.1 wrote.
+fn of_0_1() -> Folder {
+    let folder = Folder::new();
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/0.1");
+    for entry in fs::read_dir(data).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), folder.join(&entry.file_name().to_string_lossy())).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn data_sheets_and_parameters_are_read() {
+    let folder = of_0_1();
+    assert_eq!(folder.done("toss toss.toml"), folder.done("toss"));
+    let sweep = |sheet: &str| {
+        folder.done(&format!(
+            "motor sweep {sheet} --over load_torque=0:30e-6:2 --relative-error 0.5 --members 4"
+        ))
+    };
+    assert_eq!(sweep("motor.toml"), sweep(""));
+    assert_eq!(sweep("motor.json"), sweep(""));
+}
+
+#[test]
+fn parts_and_journals_are_refused_with_their_version() {
+    let folder = of_0_1();
+    let journal = folder.read("diagram.journal");
+    for line in [
+        "merge chunk.json",
+        "diagram -G 0.3:0.62:4 --transient 200000 --recorded 4 --journal diagram.journal",
+    ] {
+        let message = folder.refused(line, 2);
+        assert!(message.contains("0.1.0") && message.contains(env!("CARGO_PKG_VERSION")), "{message}");
+    }
+    assert!(folder.read("diagram.journal") == journal);
+}
