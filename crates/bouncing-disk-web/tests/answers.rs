@@ -1,6 +1,8 @@
 //! Answers to requests: what a page relies on, and every seam of what it may ask.
 
 use bouncing_disk::core::numerics::elementary::ln;
+use bouncing_disk::parameters::Stroke;
+use bouncing_disk::{Motor, System};
 use bouncing_disk_web::{Explorer, Reply};
 use serde_json::{Value, json};
 
@@ -78,6 +80,31 @@ fn basins(rows: [usize; 2]) -> Value {
         "call": "basins", "axial_forcing": 0.486, "restitution": 0.5, "phase_periods": [0.0, 1.0], "phases": 30,
         "normalised_speed": [0.0, 3.0], "speeds": 20, "rows": rows
     })
+}
+
+/// Tables I and III as the page imports them: the library is the one place in which they are typed.
+#[test]
+fn the_tables_of_the_page_are_those_of_the_library() {
+    let (hand, dough, motor) = (Stroke::pizza_toss(), System::pizza_toss(), Motor::paper_70_khz());
+    let tables = json!({
+        "table_one": {
+            "stroke": hand.stroke,
+            "amplitude_angle": hand.amplitude_angle,
+            "angular_frequency": hand.angular_frequency,
+            "contact_radius": hand.contact_radius,
+            "gyration_radius": dough.disk().gyration_radius(),
+            "friction": dough.disk().friction(),
+            "restitution": dough.disk().restitution(),
+            "preload_acceleration": dough.disk().preload_acceleration(),
+        },
+        "table_three": motor,
+    });
+    let text = serde_json::to_string_pretty(&tables).expect("storable") + "\n";
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/page/src/tables.json");
+    if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
+        std::fs::write(file, &text).expect("writable");
+    }
+    assert_eq!(std::fs::read_to_string(file).expect("there"), text, "UPDATE_DOCUMENTATION=1 writes it");
 }
 
 #[test]

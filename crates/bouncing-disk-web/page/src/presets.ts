@@ -3,6 +3,7 @@
 import type { Change, State } from "./contract";
 import type { SystemParameters } from "./protocol";
 import { amplitudeOf, changed, DEFAULT_STATE, DEFAULT_SYSTEM } from "./state";
+import tables from "./tables.json";
 
 export interface Panel {
   /** "(a)", or what the panel varies. */
@@ -33,7 +34,9 @@ interface Hand {
 }
 
 /** The hand of Table I with other numbers; A and a_e Phi are the sides of the stroke, Eq. (13). */
-function tossOf({ stroke = 0.25, angle = 0.55, contact = 0.135, lag = 0 }: Hand): Partial<SystemParameters> {
+function tossOf(hand: Hand): Partial<SystemParameters> {
+  const { table_one: table } = tables;
+  const { stroke = table.stroke, angle = table.amplitude_angle, contact = table.contact_radius, lag = 0 } = hand;
   return {
     amplitude: stroke * Math.cos(angle),
     twist_amplitude: (stroke * Math.sin(angle)) / contact,
@@ -74,22 +77,28 @@ interface Drive {
   preload?: number;
 }
 
-function motorOf({ frequency = 70e3, speed = 30, preload = 9.8 }: Drive): Partial<SystemParameters> {
+function motorOf(drive: Drive): Partial<SystemParameters> {
+  const { table_three: table } = tables;
+  const { frequency = table.drive_frequency, speed = table.peak_angular_speed } = drive;
+  const preload = drive.preload ?? table.preload_acceleration;
   const angular_frequency = 2 * PI * frequency;
   return { angular_frequency, twist_amplitude: speed / angular_frequency, preload_acceleration: preload };
 }
 
+/** Its rotor's mass (kg), as the paper prints such numbers: to three digits. */
+const MASS = Number(tables.table_three.mass.toPrecision(3));
+
 /** The motor of Table III, its "70" read as the drive frequency in kHz. */
 const MOTOR: Readonly<SystemParameters> = {
-  amplitude: 1e-8,
+  amplitude: tables.table_three.amplitude,
   twist_amplitude: 0,
   angular_frequency: 0,
-  phase_lag: 0,
-  contact_radius: 1.25e-3,
-  gyration_radius: 6.3e-3,
-  friction: 0.1,
-  restitution: 0.5,
-  preload_acceleration: 9.8,
+  phase_lag: tables.table_three.phase_lag,
+  contact_radius: tables.table_three.contact_radius,
+  gyration_radius: tables.table_three.gyration_radius,
+  friction: tables.table_three.friction,
+  restitution: tables.table_three.restitution,
+  preload_acceleration: tables.table_three.preload_acceleration,
   load_acceleration: 0,
   ...motorOf({}),
 };
@@ -121,7 +130,7 @@ const basins = (label: string, forcing: number): Panel => ({
 
 const motor = (label: string, change: Change["system"]): Panel => ({
   label,
-  change: { view: "motor", system: { ...MOTOR, ...change }, mass: 0.0329, start: { angular_speed: 0 } },
+  change: { view: "motor", system: { ...MOTOR, ...change }, mass: MASS, start: { angular_speed: 0 } },
 });
 
 /** Fig. 9 in slow motion: a platform that all but stands still. */
@@ -136,7 +145,7 @@ const braking = (label: string, preload: number): Panel => ({
       angular_frequency: 20 * PI,
       preload_acceleration: preload,
     },
-    mass: 0.0329,
+    mass: MASS,
     start: { impact_phase: 0, normalised_speed: 0.02, angular_speed: 30 },
   },
 });
@@ -458,7 +467,7 @@ export const STEPS: readonly Step[] = [
       "The same equations, 30,000 times faster: the rotor of an ultrasonic motor on a stator that moves by 10 " +
       "nm at 70 kHz. Thousands of impacts drag it to its steady speed; that speed is an average over motors " +
       "that differ by less than anybody can set, and carries an error.",
-    change: { view: "motor", system: MOTOR, mass: 0.0329, start: { angular_speed: 0 } },
+    change: { view: "motor", system: MOTOR, mass: MASS, start: { angular_speed: 0 } },
   },
   {
     title: "Which lag is best?",

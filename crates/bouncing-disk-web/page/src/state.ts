@@ -2,6 +2,7 @@
 
 import type { Change, Quantity, State, ViewName } from "./contract";
 import type { FlightStart, Range, SystemParameters } from "./protocol";
+import tables from "./tables.json";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
@@ -17,13 +18,13 @@ const MOST_RISE_TIMES = 1000;
 export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
   amplitude: 0.0616,
   twist_amplitude: 0.9,
-  angular_frequency: 15,
+  angular_frequency: tables.table_one.angular_frequency,
   phase_lag: -0.8168,
-  contact_radius: 0.135,
-  gyration_radius: 0.11,
-  friction: 0.6,
-  restitution: 0.5,
-  preload_acceleration: 9.8,
+  contact_radius: tables.table_one.contact_radius,
+  gyration_radius: tables.table_one.gyration_radius,
+  friction: tables.table_one.friction,
+  restitution: tables.table_one.restitution,
+  preload_acceleration: tables.table_one.preload_acceleration,
   load_acceleration: 0,
 };
 
