@@ -81,9 +81,7 @@ pub enum Error {
         distance: f64,
     },
     /// Low-period traps leave too few motors of a range for a straight line.
-    #[error(
-        "{traps} motors of the range are in low-period traps; {left} are left, but {needed} are needed"
-    )]
+    #[error("{traps} motors of the range are in low-period traps; {left} are left, but {needed} are needed")]
     TooFewMotors {
         /// Motors that are left.
         left: usize,
