@@ -31,6 +31,20 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Arguments<'py> {
     }
 }
 
+/// An argument of some type; an error of the type names the argument.
+pub(crate) fn extracted<'py, T: for<'a> FromPyObject<'a, 'py>>(
+    value: &Bound<'py, PyAny>,
+    name: &str,
+) -> PyResult<T> {
+    let extracted: Result<T, PyErr> = value.extract::<T>().map_err(Into::into);
+    extracted.map_err(|error| {
+        if !error.is_instance_of::<PyTypeError>(value.py()) {
+            return error;
+        }
+        PyTypeError::new_err(format!("argument '{name}': {}", error.value(value.py())))
+    })
+}
+
 impl<'py> Arguments<'py> {
     pub(crate) fn py(&self) -> Python<'py> {
         self.0.py()
@@ -46,16 +60,9 @@ impl<'py> Arguments<'py> {
         Ok(Some(self.get(name)?).filter(|value| !value.is_none()))
     }
 
-    /// An argument of some type; an error of the type names the argument.
+    /// An argument of some type.
     pub(crate) fn of<T: for<'a> FromPyObject<'a, 'py>>(&self, name: &str) -> PyResult<T> {
-        let value = self.get(name)?;
-        let extracted: Result<T, PyErr> = value.extract::<T>().map_err(Into::into);
-        extracted.map_err(|error| {
-            if !error.is_instance_of::<PyTypeError>(self.py()) {
-                return error;
-            }
-            PyTypeError::new_err(format!("argument '{name}': {}", error.value(self.py())))
-        })
+        extracted(&self.get(name)?, name)
     }
 
     pub(crate) fn real(&self, name: &str) -> PyResult<f64> {

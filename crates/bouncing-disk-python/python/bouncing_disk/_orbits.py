@@ -58,7 +58,7 @@ class ImpactMap(Parameters):
         peak_acceleration: Float | None = None,
         restitution: Float,
     ) -> None:
-        self.__dict__["_native"] = native.impact_map(locals())
+        self.__dict__["_native"] = native.impact_map(axial_forcing, peak_acceleration, restitution)
 
     def _key(self) -> object:
         # Two maps are equal that compute the same, whichever forcing was given.
