@@ -54,8 +54,6 @@ pub mod numerics;
 pub mod orbits;
 pub mod run;
 pub mod sweep;
-#[cfg(test)]
-mod testing;
 
 pub use chatter::policy::{ChatterCut, ChatterPolicy};
 

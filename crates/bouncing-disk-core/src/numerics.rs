@@ -16,3 +16,5 @@ pub mod real;
 pub mod roots;
 pub mod statistics;
 pub mod stored;
+#[cfg(test)]
+pub(crate) mod testing;

@@ -245,9 +245,53 @@ impl<'w> WorkCount<'w> {
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 
 #[cfg(test)]
+pub(crate) mod testing {
+    use core::ops::ControlFlow;
+    use core::sync::atomic::{AtomicU64, Ordering};
+    use std::sync::Mutex;
+
+    use super::{Observer, Progress};
+
+    /// An observer that breaks when it is asked for the nth time and from then on.
+    #[derive(Debug)]
+    pub(crate) struct StopAfter {
+        calls: u64,
+        asked: AtomicU64,
+        last: Mutex<Progress>,
+    }
+
+    impl StopAfter {
+        pub(crate) fn calls(calls: u64) -> Self {
+            Self { calls, asked: AtomicU64::new(0), last: Mutex::default() }
+        }
+
+        /// How often it was asked.
+        pub(crate) fn asked(&self) -> u64 {
+            self.asked.load(Ordering::Relaxed)
+        }
+
+        /// The last progress that it saw.
+        pub(crate) fn last(&self) -> Progress {
+            *self.last.lock().expect("no panic")
+        }
+    }
+
+    impl Observer for StopAfter {
+        fn observe(&self, progress: Progress) -> ControlFlow<()> {
+            *self.last.lock().expect("no panic") = progress;
+            if self.asked.fetch_add(1, Ordering::Relaxed) + 1 < self.calls {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        }
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::StopAfter;
+    use crate::run::testing::StopAfter;
 
     #[test]
     fn an_observer_is_asked_first_and_then_after_so_many_flights() {

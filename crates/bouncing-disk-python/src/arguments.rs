@@ -14,8 +14,7 @@ use pyo3::pyclass::boolean_struct::True;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBool, PyDict, PyFloat};
 
-use crate::parameters::{ChatterCut, Map, Motor, System};
-use crate::{errors, long_call};
+use crate::errors;
 
 /// What a call returns.
 pub(crate) type Made<'py> = PyResult<Bound<'py, PyAny>>;
@@ -116,55 +115,9 @@ impl<'py> Arguments<'py> {
         held(&self.get(name)?, name)
     }
 
-    /// The name of an argument; of a method that has none of it, the object itself.
-    fn or_self(&self, name: &'static str) -> PyResult<&'static str> {
-        Ok(if self.0.contains(name)? { name } else { "self" })
-    }
-
-    pub(crate) fn system(&self) -> PyResult<SystemModel> {
-        Ok(self.held::<System>(self.or_self("system")?)?.get().0)
-    }
-
-    pub(crate) fn motor(&self) -> PyResult<MotorModel> {
-        Ok(self.held::<Motor>("motor")?.get().0)
-    }
-
-    pub(crate) fn map(&self) -> PyResult<ImpactMap> {
-        Ok(self.held::<Map>(self.or_self("impact_map")?)?.get().0)
-    }
-
-    /// The policy of the argument `chatter`.
-    pub(crate) fn policy(&self) -> PyResult<ChatterPolicy> {
-        Ok(match self.given("chatter")? {
-            None => ChatterPolicy::Complete,
-            Some(cut) => ChatterPolicy::Cut(held::<ChatterCut>(&cut, "chatter")?.get().0),
-        })
-    }
-
     /// The exception of an error of the library, in the words of this call.
     pub(crate) fn refused(&self, error: impl Into<FitError>) -> PyErr {
         errors::of_call(self.py(), error, &self.0)
-    }
-
-    /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
-    pub(crate) fn run<T: Send>(
-        &self,
-        work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
-    ) -> PyResult<T> {
-        self.run_fit(work)
-    }
-
-    /// The same for a fit, which may be refused.
-    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
-        &self,
-        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
-    ) -> PyResult<T> {
-        let progress =
-            self.0.get_item(intern!(self.py(), "progress"))?.filter(|callable| !callable.is_none());
-        if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
-            return Err(PyTypeError::new_err("progress must be a callable or None"));
-        }
-        long_call::run(self, progress.map(Bound::unbind), work)
     }
 }
 

@@ -18,6 +18,29 @@ use pyo3::prelude::*;
 use crate::arguments::Arguments;
 use crate::{errors, threads};
 
+impl Arguments<'_> {
+    /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
+    pub(crate) fn run<T: Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        self.run_fit(work)
+    }
+
+    /// The same for a fit, which may be refused.
+    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
+    ) -> PyResult<T> {
+        let progress =
+            self.0.get_item(intern!(self.py(), "progress"))?.filter(|callable| !callable.is_none());
+        if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
+            return Err(PyTypeError::new_err("progress must be a callable or None"));
+        }
+        run(self, progress.map(Bound::unbind), work)
+    }
+}
+
 /// How often signals are looked at, and the callable is called.
 const INTERVAL: Duration = Duration::from_millis(40);
 

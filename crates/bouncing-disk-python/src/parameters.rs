@@ -451,3 +451,31 @@ pub(crate) fn chatter_cut(a: Arguments<'_>) -> PyResult<ChatterCut> {
 pub(crate) fn paper_cut() -> (f64, f64, u32) {
     (PAPER_CUT.smallest_speed(), PAPER_CUT.short_flight(), PAPER_CUT.short_flights())
 }
+
+/// The objects of this module among the arguments of a call.
+impl<'py> Arguments<'py> {
+    /// The name of an argument; of a method that has none of it, the object itself.
+    fn or_self(&self, name: &'static str) -> PyResult<&'static str> {
+        Ok(if self.0.contains(name)? { name } else { "self" })
+    }
+
+    pub(crate) fn system(&self) -> PyResult<SystemModel> {
+        Ok(self.held::<System>(self.or_self("system")?)?.get().0)
+    }
+
+    pub(crate) fn motor(&self) -> PyResult<MotorModel> {
+        Ok(self.held::<Motor>("motor")?.get().0)
+    }
+
+    pub(crate) fn map(&self) -> PyResult<ImpactMap> {
+        Ok(self.held::<Map>(self.or_self("impact_map")?)?.get().0)
+    }
+
+    /// The policy of the argument `chatter`.
+    pub(crate) fn policy(&self) -> PyResult<ChatterPolicy> {
+        Ok(match self.given("chatter")? {
+            None => ChatterPolicy::Complete,
+            Some(cut) => ChatterPolicy::Cut(held::<ChatterCut>(&cut, "chatter")?.get().0),
+        })
+    }
+}

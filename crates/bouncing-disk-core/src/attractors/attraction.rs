@@ -446,9 +446,10 @@ impl<'w> Search<'w> {
 mod tests {
     use super::*;
     use crate::attractors::basin::{Axis, BasinSettings, Grid, KnownOrbit};
+    use crate::map::impact_map::map;
     use crate::numerics::random::SplitMix64;
     use crate::run::Unobserved;
-    use crate::testing::{StopAfter, map};
+    use crate::run::testing::StopAfter;
 
     /// The orbit of one impact every k periods that attracts from its birth to its doubling.
     fn node(map: &ImpactMap, k: u64) -> PeriodicOrbit {

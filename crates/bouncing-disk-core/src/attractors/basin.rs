@@ -13,8 +13,8 @@ use crate::chatter::policy::ChatterPolicy;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
+use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
-use crate::read_checked;
 use crate::run::Observer;
 
 pub use run::BasinRun;
@@ -499,7 +499,7 @@ mod tests {
         refused(Grid::new(ordinary, axis(-1.0, 1.0, 3)), "lowest normalised speed");
         // Too fast for a flight that can be followed, but an error, not a defect.
         let fast = Grid::new(ordinary, axis(0.0, Grid::MAX_SPEED, 3)).expect("legal");
-        for policy in [ChatterPolicy::Complete, crate::testing::PAPER_POLICY] {
+        for policy in [ChatterPolicy::Complete, crate::chatter::policy::PAPER_POLICY] {
             let settings = BasinSettings { max_impacts: 3, policy };
             let error = map().basins(fast, &[], settings, &Unobserved).expect_err("too fast");
             assert!(matches!(error, Error::FlightTooLong { .. }), "{error}");

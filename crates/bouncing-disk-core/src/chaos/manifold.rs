@@ -3,8 +3,8 @@
 
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, not_negative, within};
+use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit};
-use crate::read_checked;
 use crate::run::{Observer, Watch};
 
 pub(crate) mod grower;

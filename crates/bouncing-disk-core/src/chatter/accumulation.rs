@@ -18,7 +18,7 @@ use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{CREST, sin_cos_bounded};
 use crate::numerics::error::{Error, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
 /// doubles in [pi/2, pi].
@@ -290,7 +290,7 @@ fn wrapped(angle: f64) -> (f64, u64) {
 mod tests {
     use super::*;
     use crate::chatter::expansion::LARGEST_COUNTED_RESTITUTION;
-    use crate::testing::spread;
+    use crate::numerics::testing::spread;
 
     /// Launches about the longest expansion parameter with which the bound may be small enough.
     #[test]

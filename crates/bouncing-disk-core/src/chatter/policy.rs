@@ -3,7 +3,7 @@
 use core::f64::consts::{PI, TAU};
 
 use crate::numerics::error::Error;
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// How the infinite sequence of impacts of a chattering disk is treated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -110,10 +110,20 @@ impl ShortFlightCount {
     }
 }
 
+/// The paper's cut (Sec. IV A).
+#[cfg(test)]
+pub(crate) const PAPER_CUT: ChatterCut = match ChatterCut::new(1.0e-6, 1.0e-4, 20) {
+    Ok(cut) => cut,
+    Err(_) => panic!("legal"),
+};
+
+/// [`PAPER_CUT`] as a policy.
+#[cfg(test)]
+pub(crate) const PAPER_POLICY: ChatterPolicy = ChatterPolicy::Cut(PAPER_CUT);
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::PAPER_CUT;
 
     /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
     #[test]

@@ -106,7 +106,7 @@ mod tests {
     use crate::chatter::policy::ChatterPolicy;
     use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
     use crate::numerics::roots::bisected_bracket;
-    use crate::testing::spread;
+    use crate::numerics::testing::spread;
 
     /// What became of a launch: how long it took to come to rest, if it did before the separation.
     fn duration_of_chatter(map: &ImpactMap, state: ImpactState) -> Option<f64> {

@@ -65,7 +65,7 @@ mod tests {
     use crate::flight::platform::phase::Phase;
     use crate::flight::platform::vibration::Vibration;
     use crate::numerics::elementary::{CREST, sin_cos};
-    use crate::testing::spread;
+    use crate::numerics::testing::spread;
 
     fn vibration(k: u32) -> Vibration {
         Vibration::new(libm::exp10(4.0 * spread(k, 0.754_877_666) - 1.0)).expect("legal")

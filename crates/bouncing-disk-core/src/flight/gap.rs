@@ -548,7 +548,7 @@ impl ShortForm {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::spread;
+    use crate::numerics::testing::spread;
 
     /// Jets of gaps of every size, above platforms of every strength.
     fn taylors() -> impl Iterator<Item = (f64, GapTaylor)> {

@@ -2,7 +2,7 @@
 
 use crate::flight::platform::phase::Phase;
 use crate::numerics::error::{Error, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use core::f64::consts::TAU;
 
 /// A launch of the disk from the platform.
@@ -102,4 +102,16 @@ impl Impact {
         let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
         Self { periods, remainder, turns, phase: phase.in_parts(), velocity, evaluations }
     }
+}
+
+/// Phase and relative speed of a disk about as fast as a platform with P = 2 at its fastest: launched so, it may dip below it
+/// between separation and crest. Where the speed is negative there is no such launch.
+#[cfg(test)]
+pub(crate) fn launch_that_may_dip(
+    vibration: &crate::flight::platform::vibration::Vibration,
+    k: u64,
+) -> (Phase, f64) {
+    let phase = Phase::new(vibration.separation_angle - 2.0 * crate::numerics::testing::golden_spread(k))
+        .expect("finite");
+    (phase, 1.9 + 0.8 * crate::numerics::testing::golden_spread(7 * k) - vibration.velocity(phase))
 }

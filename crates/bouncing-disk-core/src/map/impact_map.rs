@@ -10,7 +10,7 @@ use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::restitution_law::{Constant, Internal, RestitutionLaw, launch_slope, restitution_of};
 use crate::numerics::error::{Error, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use crate::run::{FLIGHTS_BETWEEN_CALLS, Observer, Watch};
 
 /// The state of the disk just before an impact: the paper's tau_imp and w_A.
@@ -593,4 +593,10 @@ impl<L: RestitutionLaw> Iterator for Orbit<L> {
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()
     }
+}
+
+/// The map of a legal forcing and restitution.
+#[cfg(test)]
+pub(crate) fn map(axial_forcing: f64, restitution: f64) -> ImpactMap {
+    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing).expect("legal"), restitution).expect("legal")
 }

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use crate::numerics::elementary::{atan2, cos, hypot, sin_cos};
 use crate::numerics::error::{Error, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// The length of the shortest arc that holds all of the `phases`, in periods: one minus the largest gap
 /// between neighbours. Zero for one phase, `None` for none.

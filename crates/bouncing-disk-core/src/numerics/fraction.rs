@@ -2,7 +2,7 @@
 
 use crate::numerics::error::{Error, within};
 use crate::numerics::statistics::NORMAL_975;
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// How many of a sample have a property; by default none of nothing.
 ///
@@ -86,7 +86,7 @@ impl Fraction {
 mod tests {
     use super::*;
     use crate::numerics::random::SplitMix64;
-    use crate::testing::stored;
+    use crate::numerics::testing::stored;
 
     fn fraction(count: u64, of: u64) -> Fraction {
         Fraction::new(count, of).expect("legal")

@@ -2,7 +2,7 @@
 
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// A point of a supposed power law.
 #[derive(Debug, Clone, Copy, PartialEq)]

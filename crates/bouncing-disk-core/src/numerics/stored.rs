@@ -72,6 +72,7 @@ macro_rules! read_checked {
         }
     };
 }
+pub(crate) use read_checked;
 
 /// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats that
 /// people read (RON, TOML) have no `null`: only JSON and binary formats such as CBOR are promised both ways.

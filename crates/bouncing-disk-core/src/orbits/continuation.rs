@@ -4,9 +4,9 @@
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::{Error, finite, within};
+use crate::numerics::stored::read_checked;
 use crate::orbits::closing::{Closing, ContinuationParameter};
 use crate::orbits::periodic::{Multipliers, PeriodicOrbit, Stability};
-use crate::read_checked;
 use crate::run::{Observer, Watch};
 
 mod walker;

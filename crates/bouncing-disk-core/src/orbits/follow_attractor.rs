@@ -111,7 +111,7 @@ impl ImpactMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::StopAfter;
+    use crate::run::testing::StopAfter;
 
     #[test]
     fn the_period_one_orbit_is_followed_until_it_is_lost() {
@@ -134,7 +134,7 @@ mod tests {
     fn a_transient_can_be_stopped() {
         let map = ImpactMap::new(Vibration::from_axial_forcing(0.55).expect("legal"), 0.5).expect("legal");
         let start = ImpactState::from_normalised(0.8, 1.3).expect("legal");
-        for policy in [ChatterPolicy::Complete, crate::testing::PAPER_POLICY] {
+        for policy in [ChatterPolicy::Complete, crate::chatter::policy::PAPER_POLICY] {
             let stopped = map.state_after(start, usize::MAX, policy, &StopAfter::calls(3));
             assert_eq!(stopped, Err(Error::Stopped { done: 2 * 8_192, total: u64::MAX }));
         }

@@ -10,7 +10,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
 use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Tick, Watch};
 
 mod margin;
@@ -558,7 +558,7 @@ mod tests {
     use super::*;
     use crate::flight::platform::vibration::Vibration;
     use crate::run::Unobserved;
-    use crate::testing::StopAfter;
+    use crate::run::testing::StopAfter;
 
     #[test]
     fn a_settling_orbit_can_be_stopped() {

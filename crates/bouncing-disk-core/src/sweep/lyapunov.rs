@@ -11,7 +11,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use crate::run::Observer;
 use crate::sweep::{SweepEvent, SweepImpact, SweepRun};
 

@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use crate::flight::platform::phase::Phase;
     use crate::flight::platform::vibration::Vibration;
-    use crate::testing::golden_spread;
+    use crate::numerics::testing::golden_spread;
     use core::f64::consts::TAU;
 
     fn bits(state: ImpactState) -> [u64; 4] {

@@ -6,7 +6,7 @@ use super::events::SweepEvent;
 use super::runner;
 use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use crate::run::{Observer, Watch};
 use crate::sweep::lockstep::lanes::InstructionSet;
 

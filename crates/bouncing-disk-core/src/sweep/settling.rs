@@ -67,7 +67,7 @@ pub fn repeats_every(values: &[f64], longest_period: usize, tolerance: f64) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ChatterPolicy;
+    use crate::chatter::policy::ChatterPolicy;
     use crate::flight::platform::vibration::Vibration;
     use crate::map::impact_map::{ImpactMap, ImpactState};
     use crate::run::Unobserved;

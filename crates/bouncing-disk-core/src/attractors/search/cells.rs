@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::{Error, not_negative, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// Cells of impacts that an orbit has visited: of a grid with the same number of cells along the phase, from 0
 /// to 2 pi, and along the impact speed, from 0 to `top`.
@@ -124,7 +124,7 @@ impl CellMarks {
 mod tests {
     use super::*;
     use crate::flight::platform::phase::Phase;
-    use crate::testing::stored;
+    use crate::numerics::testing::stored;
 
     fn state(angle: f64, speed: f64) -> ImpactState {
         ImpactState::of_impact(Phase::of_angle(angle), -speed)

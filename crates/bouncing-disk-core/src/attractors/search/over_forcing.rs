@@ -5,8 +5,8 @@ use super::{Attractor, AttractorKind, Attractors};
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::{Error, within};
+use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::{PeriodicOrbit, phase_difference};
-use crate::read_checked;
 use crate::run::{Observer, Progress, Watch};
 
 /// Most forcings of one call.

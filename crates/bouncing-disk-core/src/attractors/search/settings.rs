@@ -3,9 +3,9 @@
 use super::cells::VisitedCells;
 use crate::attractors::verdict::VerdictSettings;
 use crate::numerics::error::{Error, within};
+use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::orbits::periodic::search::OrbitSearch;
-use crate::read_checked;
 
 /// How attractors are looked for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
 ///

@@ -39,7 +39,7 @@ pub(super) fn starts(map: &ImpactMap, count: u32) -> Vec<ImpactState> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::map;
+    use crate::map::impact_map::map;
 
     #[test]
     fn the_steps_are_those_of_the_sequence() {

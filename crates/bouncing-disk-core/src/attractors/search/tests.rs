@@ -3,8 +3,11 @@ use core::f64::consts::PI;
 
 use super::*;
 use crate::attractors::basin::{ATTACHED, Axis, BasinSettings, Basins, FIRST_ORBIT, Grid, UNDECIDED};
+use crate::chatter::policy::PAPER_POLICY;
+use crate::map::impact_map::map;
+use crate::numerics::testing::stored;
 use crate::orbits::periodic::search::OrbitSearch;
-use crate::testing::{PAPER_POLICY, StopAfter, map, stored};
+use crate::run::testing::StopAfter;
 
 /// A search that is quick.
 fn quick(starts: u32) -> AttractorSearch {
@@ -207,8 +210,10 @@ fn labels_of_starts_are_those_of_known_orbits() {
         for max_impacts in [0, 1, 2, 7, 3_000] {
             let settings = BasinSettings { max_impacts, policy };
             for k in 0..400 {
-                let (turn, speed) =
-                    (crate::testing::golden_spread(k), 3.0 * crate::testing::golden_spread(7 * k));
+                let (turn, speed) = (
+                    crate::numerics::testing::golden_spread(k),
+                    3.0 * crate::numerics::testing::golden_spread(7 * k),
+                );
                 let start = ImpactState::from_normalised(2.0 * PI * turn, speed).expect("legal");
                 let expected = own.map().basin_label(start, &known, settings);
                 assert_eq!(own.basin_label(start, settings), expected, "{start}, {settings:?}");

@@ -3,9 +3,11 @@ use core::f64::consts::{PI, TAU};
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings};
 use crate::map::impact_map::OrbitEvent;
+use crate::map::impact_map::map;
 use crate::numerics::random::SplitMix64;
+use crate::numerics::testing::stored;
+use crate::run::testing::StopAfter;
 use crate::sweep::lyapunov::spectrum::lyapunov_spectra;
-use crate::testing::{StopAfter, map, stored};
 
 fn state(angle: f64, normalised_speed: f64) -> ImpactState {
     ImpactState::from_normalised(angle, normalised_speed).expect("legal")

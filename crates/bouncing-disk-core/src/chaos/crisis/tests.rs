@@ -3,14 +3,15 @@ use std::sync::LazyLock;
 use super::*;
 use crate::ChatterPolicy;
 use crate::numerics::power_law::NoPowerLaw;
+use crate::numerics::testing::stored;
 use crate::run::Unobserved;
-use crate::testing::{StopAfter, stored};
+use crate::run::testing::StopAfter;
 
 /// Gamma of the tangency of Fig. 6 at restitution 0.5.
 const CRISIS: f64 = 0.560_750_705_529_919;
 
 fn map(axial_forcing: f64) -> ImpactMap {
-    crate::testing::map(axial_forcing, 0.5)
+    crate::map::impact_map::map(axial_forcing, 0.5)
 }
 
 fn search_of(restitution: f64, range: (f64, f64)) -> CrisisSearch {
@@ -29,7 +30,7 @@ fn found() -> Crisis {
 
 /// The period-1 orbit in the midst of the attractor.
 fn node(axial_forcing: f64, restitution: f64) -> PeriodicOrbit {
-    let map = crate::testing::map(axial_forcing, restitution);
+    let map = crate::map::impact_map::map(axial_forcing, restitution);
     map.refine(&[map.period_one(1).expect("exists")]).expect("an orbit")
 }
 

@@ -6,8 +6,10 @@ use glam::DVec2;
 use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings, KnownOrbit, UNDECIDED};
 use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::map;
+use crate::numerics::testing::stored;
 use crate::orbits::periodic::phase_difference;
-use crate::testing::{StopAfter, map, stored};
+use crate::run::testing::StopAfter;
 
 fn saddle(map: &ImpactMap) -> PeriodicOrbit {
     map.period_one_pair(1).expect("exists").saddle.orbit(map).expect("flies").expect("admissible")

@@ -6,7 +6,7 @@ use dashu_float::round::mode::HalfEven;
 use super::*;
 use crate::flight::launch::Launch;
 use crate::numerics::roots::bisected_bracket;
-use crate::testing::spread;
+use crate::numerics::testing::spread;
 
 type High = FBig<HalfEven, 2>;
 

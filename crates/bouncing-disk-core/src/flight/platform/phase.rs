@@ -4,7 +4,7 @@ use core::f64::consts::TAU;
 
 use crate::numerics::elementary::{sin_cos, wrapped_angle};
 use crate::numerics::error::Error;
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// A phase of the platform's cycle: the angle tau in [0, 2 pi) with its sine and cosine.
 ///

@@ -3,7 +3,7 @@
 use crate::flight::platform::phase::Phase;
 use crate::numerics::elementary::{CREST, asin};
 use crate::numerics::error::{Error, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 use core::f64::consts::{PI, TAU};
 
 /// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.

@@ -5,7 +5,7 @@ use core::fmt;
 use super::RestitutionLaw;
 use crate::numerics::elementary::pow;
 use crate::numerics::error::{Error, within};
-use crate::read_checked;
+use crate::numerics::stored::read_checked;
 
 /// Newton steps to the fifth root of the restitution. From the right of the root of a convex function they
 /// never pass it; most seen: 7.

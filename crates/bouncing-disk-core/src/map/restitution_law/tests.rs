@@ -3,7 +3,7 @@ use num_dual::{Dual64, DualNum};
 use super::*;
 use crate::map::restitution_law::kuwabara_kono::KuwabaraKono;
 use crate::numerics::elementary::pow;
-use crate::testing::stored;
+use crate::numerics::testing::stored;
 
 /// Restitutions and speeds up to the limits of a double.
 const RESTITUTIONS: [f64; 6] = [5.0e-324, 1.0e-300, 1.0e-3, 0.5, 0.999, 1.0 - f64::EPSILON / 2.0];

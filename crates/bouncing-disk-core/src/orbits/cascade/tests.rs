@@ -6,7 +6,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
-use crate::testing::StopAfter;
+use crate::run::testing::StopAfter;
 
 /// The impacts that were found are an orbit of the impact map, and its multiplier is that of the map's own
 /// derivative.

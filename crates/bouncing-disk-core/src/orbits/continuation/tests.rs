@@ -1,11 +1,13 @@
 use super::*;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
+use crate::map::impact_map::map;
 use crate::numerics::random::SplitMix64;
+use crate::numerics::testing::stored;
 use crate::orbits::cascade::doubling_cascade;
 use crate::orbits::periodic::search::OrbitSearch;
 use crate::run::Unobserved;
-use crate::testing::{StopAfter, map, stored};
+use crate::run::testing::StopAfter;
 
 fn forcing(low: f64, high: f64, rising: bool) -> Continuation {
     Continuation::new(ContinuationParameter::Forcing, (low, high), rising).expect("legal")

@@ -277,8 +277,8 @@ mod tests {
     use super::super::search::OrbitSearch;
     use super::super::{Multipliers, Stability};
     use super::*;
+    use crate::map::impact_map::map;
     use crate::run::Unobserved;
-    use crate::testing::map;
 
     fn found(map: &ImpactMap, impacts: usize, starts: u32) -> Vec<PeriodicOrbit> {
         let search =

@@ -119,7 +119,7 @@ impl ImpactMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testing::map;
+    use crate::map::impact_map::map;
 
     /// The closed form against the derivative of the exact map, for both orbits, stable and unstable.
     #[test]

@@ -4,9 +4,9 @@
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::{Error, within};
+use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::orbits::periodic::newton::{Attempt, MAX_STEPS, same_orbit};
-use crate::read_checked;
 use crate::run::{Observer, Watch, WorkCount};
 use core::f64::consts::TAU;
 

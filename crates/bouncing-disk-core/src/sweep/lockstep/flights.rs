@@ -252,8 +252,9 @@ impl WithSimd for Rebound<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::flight::launch::launch_that_may_dip;
     use crate::flight::platform::phase::Phase;
-    use crate::testing::{golden_spread, launch_that_may_dip};
+    use crate::numerics::testing::golden_spread;
 
     fn launch(k: u64) -> (Vibration, Launch) {
         let peak = match k % 5 {

@@ -4,9 +4,11 @@ use super::*;
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::{ImpactMap, ImpactState};
+use crate::numerics::testing::Storable;
+use crate::numerics::testing::stored;
+use crate::run::testing::StopAfter;
 use crate::run::{Progress, Unobserved};
 use crate::sweep::{orbit_diagram, survival_times, sweep};
-use crate::testing::{StopAfter, Storable, stored};
 
 /// Orbits from rest to chaos.
 fn starts(count: u32) -> Vec<(ImpactMap, ImpactState)> {

@@ -2,4 +2,5 @@
 
 from bouncing_disk._sweep.api import *
 from bouncing_disk._sweep.errors import *
+from bouncing_disk._sweep.result import SweepFailedError as SweepFailedError
 from bouncing_disk._sweep.result import SweepResult as SweepResult

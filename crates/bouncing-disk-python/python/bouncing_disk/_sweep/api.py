@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bouncing_disk._errors import OutOfRangeError
-from bouncing_disk._sweep.errors import SweepFailedError, SweepFolderError
+from bouncing_disk._sweep.errors import SweepFolderError
 from bouncing_disk._sweep.folder import (
     Damaged,
     Identity,
@@ -29,7 +29,7 @@ from bouncing_disk._sweep.folder import (
 )
 from bouncing_disk._sweep.grid import Array, Assembly, Chunks, Grid
 from bouncing_disk._sweep.job import Failure, Job, Outcome
-from bouncing_disk._sweep.result import SweepResult
+from bouncing_disk._sweep.result import SweepFailedError, SweepResult
 from bouncing_disk._sweep.runners import (
     Task,
     check_client,

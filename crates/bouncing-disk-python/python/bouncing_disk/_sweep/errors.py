@@ -3,26 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from bouncing_disk._errors import BouncingDiskError
-
-if TYPE_CHECKING:
-    from bouncing_disk._sweep.result import SweepResult
 
 __all__ = [
     "FailedPoint",
     "MissingDependencyError",
     "SweepClusterError",
-    "SweepFailedError",
     "SweepFolderError",
     "SweepFolderWarning",
     "SweepFunctionError",
 ]
-
-#: How many failed points a message names.
-_NAMED = 3
-
 
 class FailedPoint(NamedTuple):
     """A point of the grid at which the function raised an exception."""
@@ -42,33 +34,6 @@ class FailedPoint(NamedTuple):
         """The point and the exception in one line."""
         point = ", ".join(f"{name} = {value!r}" for name, value in self.values.items())
         return f"{point}: {self.error}: {self.message}"
-
-
-class SweepFailedError(BouncingDiskError, RuntimeError):
-    """The function raised exceptions at points of the grid; the results of all other points are kept.
-
-    Attributes:
-        failures: the points, in the order of the grid.
-        result: what was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up
-            because more points failed than ``max_failures``.
-    """
-
-    def __init__(
-        self, message: str, failures: tuple[FailedPoint, ...], result: SweepResult | None = None
-    ) -> None:
-        super().__init__(message, failures, result)
-        self.failures = failures
-        self.result = result
-
-    @classmethod
-    def of(cls, failures: tuple[FailedPoint, ...], result: SweepResult | None) -> SweepFailedError:
-        """The error that names the first of these points."""
-        more = len(failures) - _NAMED
-        named = "; ".join(str(failure) for failure in failures[:_NAMED])
-        tail = f"; and {more} more" if more > 0 else ""
-        given_up = "the sweep was given up: " if result is None else ""
-        points = "1 point" if len(failures) == 1 else f"{len(failures)} points"
-        return cls(f"{given_up}the function failed at {points}: {named}{tail}", failures, result)
 
 
 class SweepFolderError(BouncingDiskError, RuntimeError):

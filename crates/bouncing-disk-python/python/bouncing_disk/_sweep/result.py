@@ -12,13 +12,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from bouncing_disk._errors import InvalidError
-from bouncing_disk._sweep.errors import MissingDependencyError
+from bouncing_disk._errors import BouncingDiskError, InvalidError
+from bouncing_disk._sweep.errors import FailedPoint, MissingDependencyError
 from bouncing_disk._sweep.grid import Array
 
 if TYPE_CHECKING:
     import xarray
 
+#: How many failed points a message names.
+_NAMED = 3
 #: What writes NetCDF files, by the name that xarray knows it by, and the packages that it needs.
 _ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
 
@@ -196,3 +198,30 @@ class SweepResult:
                 one.
         """
         write_netcdf(self.to_xarray(name), path)
+
+
+class SweepFailedError(BouncingDiskError, RuntimeError):
+    """The function raised exceptions at points of the grid; the results of all other points are kept.
+
+    Attributes:
+        failures: the points, in the order of the grid.
+        result: what was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up
+            because more points failed than ``max_failures``.
+    """
+
+    def __init__(
+        self, message: str, failures: tuple[FailedPoint, ...], result: SweepResult | None = None
+    ) -> None:
+        super().__init__(message, failures, result)
+        self.failures = failures
+        self.result = result
+
+    @classmethod
+    def of(cls, failures: tuple[FailedPoint, ...], result: SweepResult | None) -> SweepFailedError:
+        """The error that names the first of these points."""
+        more = len(failures) - _NAMED
+        named = "; ".join(str(failure) for failure in failures[:_NAMED])
+        tail = f"; and {more} more" if more > 0 else ""
+        given_up = "the sweep was given up: " if result is None else ""
+        points = "1 point" if len(failures) == 1 else f"{len(failures)} points"
+        return cls(f"{given_up}the function failed at {points}: {named}{tail}", failures, result)

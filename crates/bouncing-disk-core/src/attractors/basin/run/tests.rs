@@ -6,11 +6,13 @@ use core::sync::atomic::{AtomicU64, Ordering};
 use super::*;
 use crate::attractors::basin::{ATTACHED, Axis, FIRST_ORBIT};
 use crate::chatter::policy::ChatterPolicy;
+use crate::chatter::policy::PAPER_POLICY;
 use crate::flight::platform::vibration::Vibration;
 use crate::map::impact_map::ImpactState;
+use crate::numerics::testing::stored;
 use crate::orbits::periodic::PeriodicOrbit;
+use crate::run::testing::StopAfter;
 use crate::run::{Progress, Unobserved};
-use crate::testing::{PAPER_POLICY, StopAfter, stored};
 
 fn map() -> ImpactMap {
     ImpactMap::new(Vibration::from_axial_forcing(0.5).expect("legal"), 0.5).expect("legal")

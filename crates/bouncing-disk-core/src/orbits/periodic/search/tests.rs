@@ -5,9 +5,11 @@ use super::super::newton::same_orbit;
 use super::super::phase_difference;
 use super::*;
 use crate::flight::platform::vibration::Vibration;
+use crate::map::impact_map::map;
 use crate::numerics::elementary::{cos, sin};
 use crate::numerics::random::SplitMix64;
-use crate::testing::{StopAfter, map, stored};
+use crate::numerics::testing::stored;
+use crate::run::testing::StopAfter;
 
 fn found(map: &ImpactMap, impacts: usize, periods: u64, starts: u32) -> OrbitsFound {
     let search =

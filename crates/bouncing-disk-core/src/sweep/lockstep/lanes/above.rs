@@ -306,7 +306,7 @@ mod tests {
     use core::f64::consts::PI;
 
     use super::*;
-    use crate::testing::spread;
+    use crate::numerics::testing::spread;
 
     #[test]
     fn crests_on_the_way_are_seen() {

@@ -242,9 +242,9 @@ impl Low {
 mod tests {
     use super::*;
     use crate::flight::launch::Launch;
+    use crate::flight::launch::launch_that_may_dip;
     use crate::flight::platform::vibration::Vibration;
     use crate::sweep::lockstep::lanes::{Dispatch, InstructionSet};
-    use crate::testing::launch_that_may_dip;
 
     /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one flight decides.
     #[test]

@@ -1,8 +1,10 @@
 use super::*;
+use crate::map::impact_map::map;
+use crate::numerics::testing::golden_spread;
 use crate::orbits::periodic::Multipliers;
 use crate::run::Unobserved;
+use crate::run::testing::StopAfter;
 use crate::sweep::lyapunov::lyapunov_exponents;
-use crate::testing::{StopAfter, golden_spread, map};
 
 fn start() -> ImpactState {
     ImpactState::from_normalised(0.8, 1.3).expect("legal")
