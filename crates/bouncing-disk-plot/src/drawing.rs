@@ -93,9 +93,7 @@ impl Drawing {
         self.shape(path, Fill::new(colour, opacity))
     }
 
-    /// Adds an outline with a line, a filled area, or both.
-    #[must_use]
-    pub fn shape(self, path: Path, style: impl Into<Style>) -> Self {
+    fn shape(self, path: Path, style: impl Into<Style>) -> Self {
         let outline = self.to_page() * path.outline();
         self.with(Item::Shape(outline, style.into()))
     }

@@ -34,7 +34,6 @@ pub struct Panel {
     letter: Option<(String, Corner)>,
     title: Option<Label>,
     legend: Option<Legend>,
-    background: Option<Colour>,
     markers_on_top: bool,
 }
 
@@ -92,7 +91,6 @@ impl Panel {
             letter: None,
             title: None,
             legend: None,
-            background: None,
             markers_on_top: false,
         }
     }
@@ -173,13 +171,6 @@ impl Panel {
         self
     }
 
-    /// Fills the frame, needed for insets.
-    #[must_use]
-    pub fn background(mut self, colour: Colour) -> Self {
-        self.background = Some(colour);
-        self
-    }
-
     /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
     /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
     #[must_use]
@@ -194,9 +185,6 @@ impl Panel {
             return Err(DrawError::Size { what: "a panel", width: area.width, height: area.height });
         }
         let sides = self.sides(svg.text_size())?;
-        if let Some(colour) = self.background {
-            svg.rectangle(area, &colour.into());
-        }
         self.render_layers(svg)?;
         let stroke = Style::from(Stroke::new(Colour::BLACK, FRAME_WIDTH));
         svg.path(&sides.iter().flat_map(|side| side.marks(area)).collect(), &stroke);

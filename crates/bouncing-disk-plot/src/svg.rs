@@ -190,7 +190,6 @@ impl Svg {
             match span.style {
                 FontStyle::Roman => {}
                 FontStyle::Italic => self.text.push_str(" font-style=\"italic\""),
-                FontStyle::Bold => self.text.push_str(" font-weight=\"bold\""),
             }
             let _ = write!(self.text, ">{}</tspan>", escaped(&span.text));
         }
