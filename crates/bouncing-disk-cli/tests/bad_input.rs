@@ -63,9 +63,9 @@ fn files_of_parameters_that_cannot_be_read() {
             ),
             ("motor report motor.toml --set friction=-1", "motor.toml with --set: friction = -1 is outside"),
             // A file of the other kind.
-            ("toss motor.toml", "the key \"drive_frequency\" is unknown; the known ones are platform, disk"),
+            ("toss motor.toml", "the key \"amplitude\" is unknown; the known ones are platform, disk"),
             ("toss motor.json", "the key \"mass\" is unknown; the known ones are platform, disk"),
-            ("motor report toss.toml", "the key \"platform\" is unknown"),
+            ("motor report toss.toml", "the key \"disk\" is unknown"),
         ],
     );
 }
