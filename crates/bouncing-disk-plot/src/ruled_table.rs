@@ -7,10 +7,10 @@ use crate::frame::Rect;
 use crate::label::Label;
 use crate::path::Path;
 use crate::style::Stroke;
+use crate::svg::TEXT_SIZE;
 use crate::text_style::Anchor;
 
 /// Lengths in points.
-const TEXT_SIZE: f64 = 9.0;
 const ROW: f64 = 14.0;
 const GAP: f64 = 18.0;
 const MARGIN: f64 = 10.0;
@@ -43,7 +43,7 @@ pub fn ruled_table(header: &[Label], rows: &[Vec<Label>]) -> Figure {
             x += width + GAP;
         }
     }
-    Figure::new(width, height).text_size(TEXT_SIZE).drawing(drawing)
+    Figure::new(width, height).drawing(drawing)
 }
 
 #[cfg(test)]
