@@ -629,7 +629,7 @@ mod tests {
         fs::remove_file(path.join("demo.csv")).expect("removable");
         fs::create_dir(path.join("demo.csv")).expect("writable");
         let digest = read().digest(&layout);
-        unreadable("it is a folder; legal is a regular file").expect("removable");
+        unreadable("it is a folder, not a regular file").expect("removable");
         let file = fs::File::create(path.join("demo.csv")).expect("writable");
         file.set_len(LARGEST_FILE + 1).expect("writable");
         // The figure shows the message.

@@ -201,7 +201,7 @@ mod unix {
         let made = output(run(&out.join("out"), &out.join("measured")).args(["fig09", "fig14"]));
         assert_eq!(made.status.code(), Some(1), "{}", text(&made));
         for words in [
-            "fig14: measurements not shown: fig14.csv cannot be read: it is a named pipe; legal is a regular file",
+            "fig14: measurements not shown: fig14.csv cannot be read: it is a named pipe, not a regular file",
             "fig09: measurements not shown: fig09_deceleration.csv cannot be read: it is a folder",
             "fig09: measurements not shown: fig09_friction.csv cannot be read: No such file",
             "no figure reads a file called other.csv",

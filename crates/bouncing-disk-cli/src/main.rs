@@ -2,8 +2,7 @@
 //!
 //! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a
 //! report: a table on the terminal, or files (`output`). It has no physics and no numerics of its own. Grids
-//! go through `grid`, which divides them into chunks and keeps journals; pictures are drawn by `pictures`
-//! with `bouncing-disk-plot`.
+//! go through `grid`, which divides them into chunks and keeps journals; `bouncing-disk-plot` draws the pictures.
 //!
 //! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
 
@@ -14,7 +13,6 @@ mod grid;
 mod interrupt;
 mod output;
 mod parameters;
-mod pictures;
 mod range;
 
 use std::process::ExitCode;

@@ -3,7 +3,6 @@
 pub(crate) mod files;
 pub(crate) mod json;
 pub(crate) mod lines;
-pub(crate) mod numbers;
 pub(crate) mod report;
 pub(crate) mod table;
 

@@ -57,28 +57,53 @@ fn foreign_parts_are_refused_by_name() {
     let folder = Folder::new();
     let line = "diagram -G 0.3:0.6:7 --transient 50 --recorded 5";
     parts(&folder, line, 3);
-    // Of another restitution, of another number of parts, of another command, and no part at all.
+    // Of another restitution, of another command, and no part at all.
     folder.done("diagram -G 0.3:0.6:7 --transient 50 --recorded 5 -r 0.4 --chunk 2/3 --out other.json");
-    folder.done(&format!("{line} --chunk 2/4 --out four.json"));
     folder.done("verdicts -G 0.3:0.6:7 --impacts 100 --chunk 2/3 --out verdicts.json");
     folder.done(&format!("{line} --out whole.json"));
-    let foreign = "is of another computation: its";
     let (one, two, three) = ("merge part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
+    let foreign = "is the journal of another computation: its provenance.parameters";
     folder.all_refused(
         2,
         &[
-            (&format!("{one} {three}"), "chunks are missing: 2/3"),
-            (one, "chunks are missing: 2/3, 3/3"),
-            (&format!("{one} {two} {three} {two}"), "chunk 2 is there twice"),
-            (&format!("{one} other.json {three}"), &format!("other.json {foreign} job.restitution is 0.4")),
-            (&format!("{one} four.json {three}"), &format!("four.json {foreign} number of chunks is 4")),
+            (&format!("{one} {three}"), "2 of 7 rows are missing, first 3 to 4"),
+            (one, "5 of 7 rows are missing, first 3 to 7"),
+            (&format!("merge {two}"), "5 of 7 rows are missing, first 1 to 2"),
+            (
+                &format!("{one} other.json {three}"),
+                &format!("\"other.json\" {foreign}.job.restitution is 0.4, but 0.5 is requested"),
+            ),
             (
                 &format!("{one} verdicts.json {three}"),
-                &format!("verdicts.json {foreign} command is verdicts, where part-1-of-3.json has diagram"),
+                &format!("\"verdicts.json\" {foreign}.command is \"verdicts\", but \"diagram\" is requested"),
             ),
-            ("merge whole.json", "is not a file of the format \"bouncing-disk chunk\""),
+            (
+                "merge whole.json",
+                "whole.json: it is not a part of a computation, as --chunk of this version writes it",
+            ),
+            (
+                &format!("{one} whole.json"),
+                "whole.json: it is not a part of a computation, as --chunk of this version writes it",
+            ),
         ],
     );
+}
+
+/// However the rows are divided, a part is a journal of the same computation.
+#[test]
+fn parts_of_any_division_and_journals_are_put_together() {
+    let folder = Folder::new();
+    let line = "verdicts -G 0:2:6 -r 0:0.9:5 --impacts 200";
+    let whole = folder.done(line);
+    parts(&folder, line, 3);
+    parts(&folder, line, 2);
+    folder.done(&format!("{line} --chunk 1/2 --journal rows --out part.json"));
+    for names in
+        ["rows part-2-of-2.json", "part-1-of-2.json part-2-of-3.json part-3-of-3.json part-3-of-3.json"]
+    {
+        assert_eq!(folder.done(&format!("merge {names}")), whole, "{names}");
+    }
+    assert!(folder.read("part.json") == folder.read("part-1-of-2.json"));
 }
 
 #[test]
@@ -94,29 +119,27 @@ fn a_part_that_is_damaged_is_refused() {
         &whole[digit + 1..]
     );
     for (text, told) in [
-        (changed, "it is damaged: its rows_digest"),
-        (whole[..whole.len() / 2].to_owned(), "it is no whole chunk"),
-        (whole.replace("\"start\":\"rise\"", "\"start\":\"rest\""), "it is damaged: its job_digest"),
+        (changed, "line 3"),
+        (whole.replace("\"start\":\"rise\"", "\"start\":\"rest\""), "line 1"),
+        (whole.replace("\"index\":1", "\"index\":0"), "line 3"),
         (
-            whole.replace("\"index\":1", "\"index\":0").replace("\"index\": 1", "\"index\": 0"),
-            "it is damaged: its rows_digest",
+            whole[..whole.len() / 8].to_owned(),
+            "it is not a part of a computation, as --chunk of this version writes it",
         ),
-        (whole.replace("\"first_row\": 0", "\"first_row\": 1"), "it is damaged: its rows_digest"),
-        // One of very many parts, which nobody lists.
-        (whole.replace("\"count\": 2", "\"count\": 2000000000000"), "it is damaged: its rows_digest"),
+        (whole[..whole.len() - 9].to_owned(), "1 of 4 rows are missing, first 2 to 2"),
         ("{}".to_owned(), "its format is \"\""),
         ("[]".to_owned(), "its format is \"\""),
     ] {
         assert_ne!(text, whole);
         folder.write("part.json", &text);
         let refusal = folder.refused("merge part.json part-2-of-2.json", 2);
-        assert!(refusal.contains("part.json") && refusal.contains(told), "{told}: {refusal}");
+        assert!(refusal.contains(told), "{told}: {refusal}");
     }
 }
 
-/// A part goes on from its journal, which is that of no other part.
+/// A part goes on from its journal, and is that of no other computation.
 #[test]
-fn a_part_has_a_journal_of_its_own() {
+fn a_part_goes_on_from_its_journal() {
     let folder = Folder::new();
     let line = "verdicts -G 0:2:6 -r 0:0.9:5 --impacts 200";
     folder.done(&format!("{line} --chunk 2/2 --out plain.json"));
@@ -124,18 +147,21 @@ fn a_part_has_a_journal_of_its_own() {
         folder.done(&format!("{line} --chunk 2/2 --journal rows --out {name}"));
         assert!(folder.read(name) == folder.read("plain.json"), "{name}");
     }
-    for other in ["--chunk 1/2 --out other.json", "--chunk 3/4 --out other.json", "--out other.csv"] {
-        let text = folder.refused(&format!("{line} {other} --journal rows"), 2);
-        assert!(text.contains("journal of another computation"), "{other}: {text}");
-    }
+    // The rows of another part go into the same journal, and are not lost.
+    folder.done(&format!("{line} --chunk 1/2 --journal rows --out one.json"));
+    folder.done(&format!("{line} --journal rows --out whole.json"));
+    folder.done(&format!("{line} --out plain.json --force"));
+    assert!(folder.read("whole.json") == folder.read("plain.json"));
+    let text = folder.refused("verdicts -G 0:2:6 -r 0:0.9:5 --impacts 201 --journal rows", 2);
+    assert!(text.contains("journal of another computation"), "{text}");
     // Half a line, as a power cut may leave it, is cut off; a changed line is seen.
     let whole = folder.read("rows");
     std::fs::write(folder.join("rows"), &whole[..whole.len() - 7]).unwrap();
-    folder.done(&format!("{line} --chunk 2/2 --journal rows --out torn.json"));
-    assert!(folder.read("torn.json") == folder.read("plain.json") && folder.read("rows") == whole);
-    let place = whole.iter().rposition(|byte| *byte == b'1').unwrap();
+    folder.done(&format!("{line} --journal rows --out torn.json"));
+    assert!(folder.read("torn.json") == folder.read("plain.json"));
     let mut changed = whole;
+    let place = changed.iter().rposition(|byte| *byte == b'1').unwrap();
     changed[place] = b'2';
     std::fs::write(folder.join("rows"), changed).unwrap();
-    folder.refused(&format!("{line} --chunk 2/2 --journal rows --out changed.json"), 2);
+    folder.refused(&format!("{line} --journal rows --out changed.json"), 2);
 }

@@ -90,27 +90,15 @@ impl Text {
 /// A straight arrow in a panel; its head is at the second point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
-    from: Place,
-    to: Place,
-    style: Style,
+    from: (f64, f64),
+    to: (f64, f64),
     head: f64,
 }
-
-builders!(Arrow: colour, width);
 
 impl Arrow {
     /// An arrow between two points in data coordinates.
     pub fn at_data(from: (f64, f64), to: (f64, f64)) -> Self {
-        Self::between(Place::Data(from.0, from.1), Place::Data(to.0, to.1))
-    }
-
-    /// An arrow between two points in fractions of the frame from its lower left corner.
-    pub fn at_axes(from: (f64, f64), to: (f64, f64)) -> Self {
-        Self::between(Place::Axes(from.0, from.1), Place::Axes(to.0, to.1))
-    }
-
-    fn between(from: Place, to: Place) -> Self {
-        Self { from, to, style: Stroke::default().into(), head: 5.0 }
+        Self { from, to, head: 5.0 }
     }
 
     /// Sets the length of the head in points.
@@ -121,8 +109,9 @@ impl Arrow {
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
-        let ends = [self.from.on_page(frame), self.to.on_page(frame)];
-        for (path, style) in arrow(&ends, self.style.stroke.unwrap_or_default(), self.head) {
+        for (path, style) in
+            arrow(&[self.from, self.to].map(|end| frame.point(end)), Stroke::default(), self.head)
+        {
             svg.path(&path, &style);
         }
     }

@@ -4,22 +4,13 @@ use crate::error::DrawError;
 use crate::label::Label;
 use crate::ticks::{self, PlacedTicks, Ticks};
 
-/// Linear or logarithmic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Scale {
-    /// Equal distances are equal differences.
-    Linear,
-    /// Equal distances are equal ratios.
-    Logarithmic,
-}
-
 /// Range, scale, label and ticks of one axis. The first end of the range is at the left or below; an axis may
 /// run backwards.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     first: f64,
     last: f64,
-    scale: Scale,
+    logarithmic: bool,
     label: Label,
     ticks: Ticks,
     labelled: bool,
@@ -38,7 +29,7 @@ impl Axis {
         Self {
             first,
             last,
-            scale: Scale::Linear,
+            logarithmic: false,
             label: Label::plain(""),
             ticks: Ticks::default(),
             labelled: true,
@@ -48,22 +39,34 @@ impl Axis {
 
     /// A logarithmic axis; both ends are positive.
     pub fn log(first: f64, last: f64) -> Self {
-        Self { scale: Scale::Logarithmic, ..Self::linear(first, last) }
+        Self { logarithmic: true, ..Self::linear(first, last) }
     }
 
-    /// A linear axis that holds all finite values with a little room on both sides.
-    pub fn around(values: impl IntoIterator<Item = f64>) -> Self {
-        let mut low = f64::INFINITY;
-        let mut high = f64::NEG_INFINITY;
-        for value in values.into_iter().filter(|value| value.is_finite()) {
-            low = if value < low { value } else { low };
-            high = if value > high { value } else { high };
-        }
-        if low > high {
-            return Self::linear(0.0, 1.0);
-        }
-        let room = if high > low { 0.05 * (high - low) } else { 0.5 + 0.05 * low.abs() };
-        Self::linear(low - room, high + room)
+    /// A linear axis that holds all finite values with a little room on both sides, with three to five labels.
+    pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Self {
+        let (low, high) = Self::ends_around(values);
+        Self::spanned(low, high)
+    }
+
+    /// The ends of such an axis.
+    pub(crate) fn ends_around(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+        let finite = values.into_iter().filter(|value| value.is_finite());
+        let (low, high) = finite
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
+        let size = low.abs().max(high.abs());
+        let room = match high - low {
+            span if span > 1e-9 * size => 0.06 * span,
+            // All alike.
+            _ if size > 0.0 => 0.1 * size,
+            _ => 1.0,
+        };
+        (low - room, high + room)
+    }
+
+    /// A linear axis with three to five labels: some panels are too narrow for more.
+    pub(crate) fn spanned(low: f64, high: f64) -> Self {
+        Self::linear(low, high).ticks(Ticks::few(high - low))
     }
 
     /// What the axis shows, with its unit.
@@ -108,42 +111,34 @@ impl Axis {
 
     /// 0 at the first end, 1 at the last; NaN for what a logarithmic axis cannot show.
     pub(crate) fn fraction(&self, value: f64) -> f64 {
-        match self.scale {
-            Scale::Linear => (value - self.first) / (self.last - self.first),
-            Scale::Logarithmic if value > 0.0 => {
-                libm::log(value / self.first) / libm::log(self.last / self.first)
-            }
-            Scale::Logarithmic => f64::NAN,
+        match self.logarithmic {
+            false => (value - self.first) / (self.last - self.first),
+            true if value > 0.0 => libm::log(value / self.first) / libm::log(self.last / self.first),
+            true => f64::NAN,
         }
     }
 
     pub(crate) fn check(&self) -> Result<(), DrawError> {
         let (axis, low, high) = (self.label.source().to_owned(), self.first, self.last);
         let extent = (high - low).abs();
-        if !(low.is_finite() && high.is_finite() && extent.is_finite() && extent > 0.0) {
-            return Err(DrawError::AxisRange { axis, low, high });
-        }
-        if self.scale == Scale::Logarithmic && !(low > 0.0 && high > 0.0) {
-            return Err(DrawError::LogarithmicRange { axis, low, high });
-        }
-        Ok(())
+        let finite = low.is_finite() && high.is_finite() && extent.is_finite() && extent > 0.0;
+        let shown = !self.logarithmic || (low > 0.0 && high > 0.0);
+        if finite && shown { Ok(()) } else { Err(DrawError::AxisRange { axis, low, high }) }
     }
 
     /// The ticks, for an axis of `length` points with about `spacing` points between labels.
     pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<PlacedTicks, DrawError> {
         self.check()?;
-        match self.scale {
-            Scale::Logarithmic => Ok(ticks::logarithmic(&self.ticks, self.first, self.last).into()),
-            Scale::Linear => {
-                let room = (length / spacing).clamp(2.0, 8.0) as usize;
-                ticks::linear(&self.ticks, self.first, self.last, room).map_err(|step| DrawError::TickStep {
-                    axis: self.label.source().to_owned(),
-                    step,
-                    low: self.first,
-                    high: self.last,
-                })
-            }
+        if self.logarithmic {
+            return Ok(ticks::logarithmic(&self.ticks, self.first, self.last).into());
         }
+        let room = (length / spacing).clamp(2.0, 8.0) as usize;
+        ticks::linear(&self.ticks, self.first, self.last, room).map_err(|step| DrawError::TickStep {
+            axis: self.label.source().to_owned(),
+            step,
+            low: self.first,
+            high: self.last,
+        })
     }
 }
 
@@ -160,10 +155,11 @@ mod tests {
 
     #[test]
     fn impossible_ranges_are_refused() {
-        assert!(matches!(Axis::linear(1.0, 1.0).check(), Err(DrawError::AxisRange { .. })));
-        assert!(matches!(Axis::linear(0.0, f64::NAN).check(), Err(DrawError::AxisRange { .. })));
-        assert!(matches!(Axis::log(0.0, 1.0).check(), Err(DrawError::LogarithmicRange { .. })));
-        assert!(Axis::around([f64::NAN, 3.0]).check().is_ok());
-        assert!(Axis::around([]).check().is_ok());
+        for axis in [Axis::linear(1.0, 1.0), Axis::linear(0.0, f64::NAN), Axis::log(0.0, 1.0)] {
+            assert!(matches!(axis.check(), Err(DrawError::AxisRange { .. })), "{axis:?}");
+        }
+        for values in [&[][..], &[0.0], &[1.0, 1.0], &[f64::NAN, 3.0], &[-1e-300, 1e-300], &[1e300, -1e300]] {
+            assert!(Axis::around(values.iter().copied()).choose_ticks(100.0, 25.0).is_ok(), "{values:?}");
+        }
     }
 }

@@ -10,7 +10,7 @@ use crate::frame::Rect;
 use crate::label::Label;
 use crate::path::Path;
 use crate::style::{Fill, Stroke, Style};
-use crate::svg::{Svg, TOLERANCE};
+use crate::svg::{Svg, TEXT_SIZE, TOLERANCE};
 use crate::text_style::{Anchor, TextStyle};
 
 /// What is drawn, in points of the page.
@@ -93,9 +93,7 @@ impl Drawing {
         self.shape(path, Fill::new(colour, opacity))
     }
 
-    /// Adds an outline with a line, a filled area, or both.
-    #[must_use]
-    pub fn shape(self, path: Path, style: impl Into<Style>) -> Self {
+    fn shape(self, path: Path, style: impl Into<Style>) -> Self {
         let outline = self.to_page() * path.outline();
         self.with(Item::Shape(outline, style.into()))
     }
@@ -189,7 +187,7 @@ impl Drawing {
                 Item::Shape(path, style) => svg.path(path, style),
                 Item::Text(at, label, style) => svg.label(label, *at, *style)?,
                 Item::Lines(middle, lines) => {
-                    let pitch = Vec2::new(0.0, 1.25 * svg.text_size());
+                    let pitch = Vec2::new(0.0, 1.25 * TEXT_SIZE);
                     let first = *middle - 0.5 * (lines.len() as f64 - 1.0) * pitch;
                     for (index, line) in lines.iter().enumerate() {
                         svg.label(line, first + index as f64 * pitch, TextStyle::new(Anchor::Centre))?;

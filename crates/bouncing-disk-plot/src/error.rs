@@ -28,19 +28,11 @@ pub enum DrawError {
         /// The source of the label.
         label: String,
     },
-    /// The ends of an axis coincide or are not finite.
-    #[error("axis \"{axis}\": the range {low} to {high} is empty or not finite")]
+    /// The ends of an axis coincide or are not finite, or a logarithmic one reaches zero or below.
+    #[error(
+        "axis \"{axis}\": the range {low} to {high} is empty, not finite, or below zero on a logarithmic scale"
+    )]
     AxisRange {
-        /// The label of the axis.
-        axis: String,
-        /// One end.
-        low: f64,
-        /// The other end.
-        high: f64,
-    },
-    /// A logarithmic axis reaches zero or below.
-    #[error("logarithmic axis \"{axis}\": the range {low} to {high} is not positive")]
-    LogarithmicRange {
         /// The label of the axis.
         axis: String,
         /// One end.
@@ -66,16 +58,6 @@ pub enum DrawError {
         /// The letter of the panel.
         panel: String,
     },
-    /// The cells of a raster are not width times height.
-    #[error("a raster of {width} by {height} cells was given {cells} cells")]
-    RasterSize {
-        /// Cells per row.
-        width: usize,
-        /// Rows.
-        height: usize,
-        /// Cells given.
-        cells: usize,
-    },
     /// A cell of a raster refers to no colour of its palette.
     #[error("a raster cell has colour {index} of a palette of {colours}")]
     RasterColour {
@@ -84,15 +66,15 @@ pub enum DrawError {
         /// The size of the palette.
         colours: usize,
     },
-    /// A list of errors or edges does not match the points it belongs to.
-    #[error("{what}: {given} values for {points} points")]
+    /// A list does not have a value for each point or cell, or there is none.
+    #[error("{what}: {given} values for {needed}")]
     Length {
         /// Which list.
         what: &'static str,
         /// Its length.
         given: usize,
-        /// The number of points.
-        points: usize,
+        /// The number of points or cells.
+        needed: usize,
     },
     /// The figure or a panel has no area, or is too large for a picture.
     #[error("{what} is {width} by {height} points")]
@@ -104,13 +86,7 @@ pub enum DrawError {
         /// Its height in points.
         height: f64,
     },
-    /// The PNG encoder failed.
-    #[error("PNG encoding failed: {message}")]
-    Png {
-        /// What it reported.
-        message: String,
-    },
-    /// The renderer could not read the vector picture.
+    /// The renderer could not read the vector picture, or the PNG encoder failed.
     #[error("rendering failed: {message}")]
     Render {
         /// What it reported.

@@ -19,7 +19,6 @@ const LARGEST_SIDE: f64 = 4000.0;
 pub struct Figure {
     width: f64,
     height: f64,
-    text_size: f64,
     parts: Vec<Part>,
 }
 
@@ -32,14 +31,7 @@ enum Part {
 impl Figure {
     /// An empty page.
     pub fn new(width: f64, height: f64) -> Self {
-        Self { width, height, text_size: 9.0, parts: Vec::new() }
-    }
-
-    /// Sets the size of axis labels in points, 9 unless set; numbers and legends are a little smaller.
-    #[must_use]
-    pub fn text_size(mut self, points: f64) -> Self {
-        self.text_size = points;
-        self
+        Self { width, height, parts: Vec::new() }
     }
 
     /// Adds a panel; later parts cover earlier ones, so an inset follows its panel.
@@ -62,27 +54,17 @@ impl Figure {
         self
     }
 
-    /// The width in points.
-    pub fn width(&self) -> f64 {
-        self.width
-    }
-
-    /// The height in points.
-    pub fn height(&self) -> f64 {
-        self.height
-    }
-
     /// The figure as SVG: the same text whenever the figure is the same.
     ///
     /// # Errors
     ///
     /// When a label, an axis, a size or a layer is malformed.
     pub fn to_svg(&self) -> Result<String, DrawError> {
-        let sizes = [self.width, self.height, self.text_size];
+        let sizes = [self.width, self.height];
         if !sizes.iter().all(|size| (1.0..=LARGEST_SIDE).contains(size)) {
             return Err(DrawError::Size { what: "the figure", width: self.width, height: self.height });
         }
-        let mut svg = Svg::new(self.width, self.height, self.text_size);
+        let mut svg = Svg::new(self.width, self.height);
         for part in &self.parts {
             match part {
                 Part::Panel(panel) => panel.render(&mut svg)?,

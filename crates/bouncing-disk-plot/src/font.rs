@@ -9,7 +9,6 @@ use skrifa::{FontRef, MetadataProvider};
 
 const REGULAR: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Regular.ttf");
 const ITALIC: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Italic.ttf");
-const BOLD: &[u8] = include_bytes!("../assets/fonts/STIXTwoText-Bold.ttf");
 /// Relations and arrows, which the text fonts lack.
 const MATH: &[u8] = include_bytes!("../assets/fonts/STIXTwoMath-Regular.ttf");
 
@@ -26,8 +25,6 @@ pub(crate) enum FontStyle {
     Roman,
     /// Italic, for variables.
     Italic,
-    /// Bold, upright.
-    Bold,
 }
 
 /// The fonts for the renderer.
@@ -35,7 +32,7 @@ pub(crate) fn database() -> Arc<fontdb::Database> {
     static DATABASE: OnceLock<Arc<fontdb::Database>> = OnceLock::new();
     let database = DATABASE.get_or_init(|| {
         let mut database = fontdb::Database::new();
-        for font in [REGULAR, ITALIC, BOLD, MATH] {
+        for font in [REGULAR, ITALIC, MATH] {
             database.load_font_data(font.to_vec());
         }
         database.set_serif_family(FAMILY);
@@ -49,7 +46,6 @@ pub(crate) fn advance(character: char, style: FontStyle) -> Option<f64> {
     let font = match style {
         FontStyle::Roman => REGULAR,
         FontStyle::Italic => ITALIC,
-        FontStyle::Bold => BOLD,
     };
     let advance = advance_in(font, character).or_else(|| advance_in(MATH, character))?;
     // Combining marks sit on the letter before them.
@@ -68,15 +64,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn all_four_fonts_are_loaded() {
-        assert_eq!(database().len(), 4);
+    fn all_three_fonts_are_loaded() {
+        assert_eq!(database().len(), 3);
     }
 
     #[test]
     fn the_fonts_have_every_character_that_labels_use() {
         let used = "0123456789 αβγδεζηθικλμνξπρστυφϕχψωΓΔΘΛΞΠΣΦΨΩ×±−°≤≥≈≠∞·→←↔⟨⟩∂√∝∼≪≫′–—…()[]{}|/=+<>%\u{307}\u{308}\u{2009}";
         for character in used.chars() {
-            for style in [FontStyle::Roman, FontStyle::Italic, FontStyle::Bold] {
+            for style in [FontStyle::Roman, FontStyle::Italic] {
                 assert!(advance(character, style).is_some(), "{character:?} {style:?}");
             }
         }

@@ -33,18 +33,6 @@ impl Rect {
         self.top + self.height
     }
 
-    /// A part of this rectangle, for insets: fractions of its width and height, measured from the *lower*
-    /// left corner.
-    #[must_use]
-    pub fn part(&self, left: f64, bottom: f64, width: f64, height: f64) -> Self {
-        Self::new(
-            self.left + left * self.width,
-            self.top + (1.0 - bottom - height) * self.height,
-            width * self.width,
-            height * self.height,
-        )
-    }
-
     pub(crate) fn outline(&self) -> kurbo::Rect {
         kurbo::Rect::new(self.left, self.top, self.right(), self.bottom())
     }
@@ -138,30 +126,22 @@ impl Grid {
     /// The frame in a row and column, counted from 0 at the upper left; a cell outside the grid is the last
     /// one.
     pub fn cell(&self, row: usize, column: usize) -> Rect {
-        self.span(row, column, 1, 1)
-    }
-
-    /// A frame over several rows and columns.
-    pub fn span(&self, row: usize, column: usize, rows: usize, columns: usize) -> Rect {
         let across = self.width - self.margins.left - self.margins.right;
         let down = self.height - self.margins.top - self.margins.bottom;
-        let (left, width) = place(&self.columns, across, self.gap_across, column, columns);
-        let (top, height) = place(&self.rows, down, self.gap_down, row, rows);
+        let (left, width) = place(&self.columns, across, self.gap_across, column);
+        let (top, height) = place(&self.rows, down, self.gap_down, row);
         Rect::new(self.margins.left + left, self.margins.top + top, width, height)
     }
 }
 
-/// Start and length of `count` cells from `index`, in a total length with gaps between the cells.
-fn place(weights: &[f64], total: f64, gap: f64, index: usize, count: usize) -> (f64, f64) {
+/// Start and length of a cell, in a total length with gaps between the cells.
+fn place(weights: &[f64], total: f64, gap: f64, index: usize) -> (f64, f64) {
     let last = weights.len() - 1;
     let index = index.min(last);
-    let end = (index + count.max(1) - 1).min(last);
     let sum: f64 = weights.iter().sum();
     let room = total - gap * last as f64;
     let before: f64 = weights[..index].iter().sum();
-    let here: f64 = weights[index..=end].iter().sum();
-    let start = before / sum * room + gap * index as f64;
-    (start, here / sum * room + gap * (end - index) as f64)
+    (before / sum * room + gap * index as f64, weights[index] / sum * room)
 }
 
 /// The frame of a panel with the two axes that a layer uses.
@@ -200,14 +180,6 @@ mod tests {
         assert!((first.left - 30.0).abs() < 1e-12 && (first.top - 5.0).abs() < 1e-12);
         assert!((last.right() - 290.0).abs() < 1e-9 && (last.bottom() - 175.0).abs() < 1e-9);
         assert!((3.0 * first.height - last.height).abs() < 1e-9);
-        let all = grid.span(0, 0, 2, 3);
-        assert!((all.width - 260.0).abs() < 1e-9 && (all.height - 170.0).abs() < 1e-9);
         assert_eq!(grid.cell(9, 9), last);
-    }
-
-    #[test]
-    fn parts_are_measured_from_the_lower_left() {
-        let part = Rect::new(10.0, 20.0, 100.0, 50.0).part(0.5, 0.0, 0.5, 0.5);
-        assert_eq!(part, Rect::new(60.0, 45.0, 50.0, 25.0));
     }
 }

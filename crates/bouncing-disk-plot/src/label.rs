@@ -50,15 +50,6 @@ impl Label {
         Self { source: text.to_owned(), spans: vec![span], fault: None }
     }
 
-    /// The same label in bold.
-    #[must_use]
-    pub fn bold(mut self) -> Self {
-        for span in &mut self.spans {
-            span.style = FontStyle::Bold;
-        }
-        self
-    }
-
     pub(crate) fn source(&self) -> &str {
         &self.source
     }
@@ -241,12 +232,8 @@ impl Parser<'_> {
             return Ok(());
         }
         match name {
-            "mathrm" | "text" | "mathit" | "mathbf" => {
-                let style = match name {
-                    "mathit" => FontStyle::Italic,
-                    "mathbf" => FontStyle::Bold,
-                    _ => FontStyle::Roman,
-                };
+            "mathrm" | "text" | "mathit" => {
+                let style = if name == "mathit" { FontStyle::Italic } else { FontStyle::Roman };
                 let text = self.verbatim()?;
                 push(spans, &text, style, level);
             }

@@ -10,7 +10,7 @@ use crate::layer::Layer;
 use crate::line::{Band, Line, Rule};
 use crate::path::polyline;
 use crate::style::{Stroke, Style};
-use crate::svg::Svg;
+use crate::svg::{NUMBER_SIZE, Svg};
 use crate::text_style::{Anchor, TextStyle};
 
 /// The diameter in points of the dot that stands for points too small to be seen alone.
@@ -84,7 +84,7 @@ impl Legend {
         if entries.is_empty() {
             return Ok(());
         }
-        let size = svg.number_size();
+        let size = NUMBER_SIZE;
         let (row, key, padding, space) = (1.3 * size, 18.0, 4.0, 5.0);
         let widest = entries.iter().map(|(name, _)| name.width(size)).fold(0.0, f64::max);
         let width = 2.0 * padding + key + space + widest;

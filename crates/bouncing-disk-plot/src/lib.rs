@@ -26,7 +26,7 @@
 //! | --- | --- |
 //! | the page: its size, its parts, SVG and PNG | [`Figure`], [`SINGLE_COLUMN`], [`DOUBLE_COLUMN`] |
 //! | rectangles on the page | [`Grid`], [`Margins`], [`Rect`] |
-//! | a frame with axes | [`Panel`], [`Axis`], [`Scale`], [`Ticks`], [`Legend`], [`Corner`] |
+//! | a frame with axes | [`Panel`], [`Axis`], [`Ticks`], [`Legend`], [`Corner`] |
 //! | layers of a panel: curves and areas | [`Line`], [`Band`], [`Rule`] |
 //! | layers of points and cells | [`Scatter`] with its [`Marker`], [`DensePoints`], [`Raster`] |
 //! | layers of words | [`Text`], [`Arrow`]; any of these is a [`Layer`] |
@@ -34,6 +34,8 @@
 //! | words with symbols and scripts | [`Label`], placed by an [`Anchor`], set in a [`TextStyle`] |
 //! | sketches, flow charts, perspective | [`Drawing`] with its [`TextBox`], [`Path`], [`Camera`] |
 //! | a table between rules | [`ruled_table`] |
+//! | whole pictures of results, from plain numbers | [`pictures`] |
+//! | numbers in words | [`rounded`], [`in_math`] |
 //! | what can go wrong | [`DrawError`] |
 //!
 //! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. Outlines, clipping and maps to
@@ -54,9 +56,11 @@ mod label;
 mod layer;
 mod legend;
 mod line;
+mod numbers;
 mod panel;
 mod path;
 mod picture;
+pub mod pictures;
 mod png_image;
 mod raster;
 mod ruled_table;
@@ -67,7 +71,7 @@ mod text_style;
 mod ticks;
 
 pub use annotation::{Arrow, Text};
-pub use axis::{Axis, Scale};
+pub use axis::Axis;
 pub use camera::Camera;
 pub use colour::Colour;
 pub use dense::DensePoints;
@@ -79,6 +83,7 @@ pub use label::Label;
 pub use layer::Layer;
 pub use legend::{Corner, Legend};
 pub use line::{Band, Line, Rule};
+pub use numbers::{in_math, rounded};
 pub use panel::Panel;
 pub use path::Path;
 pub use raster::Raster;

@@ -31,20 +31,6 @@ impl Line {
         Self { points: points.into_iter().collect(), style: Style::default().width(1.0), name: None }
     }
 
-    /// Fills the area that the points enclose.
-    #[must_use]
-    pub fn fill(mut self, colour: Colour, opacity: f64) -> Self {
-        self.style = self.style.fill((colour, opacity));
-        self
-    }
-
-    /// Leaves out the line, for filled areas.
-    #[must_use]
-    pub fn without_stroke(mut self) -> Self {
-        self.style = self.style.without_stroke();
-        self
-    }
-
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {
         let points = self.points.iter().map(|point| frame.point(*point));
         if let Some(fill) = self.style.fill {

@@ -11,7 +11,7 @@ use crate::layer::Layer;
 use crate::legend::{Corner, Legend};
 use crate::path::polyline;
 use crate::style::{Stroke, Style};
-use crate::svg::Svg;
+use crate::svg::{NUMBER_SIZE, Svg, TEXT_SIZE};
 use crate::text_style::{Anchor, TextStyle};
 use crate::ticks::PlacedTicks;
 
@@ -34,7 +34,6 @@ pub struct Panel {
     letter: Option<(String, Corner)>,
     title: Option<Label>,
     legend: Option<Legend>,
-    background: Option<Colour>,
     markers_on_top: bool,
 }
 
@@ -92,7 +91,6 @@ impl Panel {
             letter: None,
             title: None,
             legend: None,
-            background: None,
             markers_on_top: false,
         }
     }
@@ -173,13 +171,6 @@ impl Panel {
         self
     }
 
-    /// Fills the frame, needed for insets.
-    #[must_use]
-    pub fn background(mut self, colour: Colour) -> Self {
-        self.background = Some(colour);
-        self
-    }
-
     /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
     /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
     #[must_use]
@@ -193,10 +184,7 @@ impl Panel {
         if !area.has_area() {
             return Err(DrawError::Size { what: "a panel", width: area.width, height: area.height });
         }
-        let sides = self.sides(svg.text_size())?;
-        if let Some(colour) = self.background {
-            svg.rectangle(area, &colour.into());
-        }
+        let sides = self.sides()?;
         self.render_layers(svg)?;
         let stroke = Style::from(Stroke::new(Colour::BLACK, FRAME_WIDTH));
         svg.path(&sides.iter().flat_map(|side| side.marks(area)).collect(), &stroke);
@@ -224,8 +212,8 @@ impl Panel {
     }
 
     /// The edges of the frame in the order in which they are labelled.
-    fn sides(&self, text_size: f64) -> Result<[Side<'_>; 4], DrawError> {
-        let side = |edge, axis, labelled| Side::new(edge, axis, labelled, self.area, text_size);
+    fn sides(&self) -> Result<[Side<'_>; 4], DrawError> {
+        let side = |edge, axis, labelled| Side::new(edge, axis, labelled, self.area);
         Ok([
             side(Edge::Bottom, &self.x, true)?,
             side(Edge::Left, &self.y, true)?,
@@ -281,7 +269,7 @@ impl Panel {
     fn render_letter(&self, svg: &mut Svg) -> Result<(), DrawError> {
         let Some((letter, corner)) = &self.letter else { return Ok(()) };
         let label = Label::plain(&format!("({letter})"));
-        let size = svg.text_size();
+        let size = TEXT_SIZE;
         let (left, top) = corner.place(self.area, (label.width(size), size), 6.0);
         let style = TextStyle::new(Anchor::LeftCentre).halo(Colour::WHITE);
         svg.label(&label, Point::new(left, top + 0.5 * size), style)
@@ -289,16 +277,10 @@ impl Panel {
 }
 
 impl<'a> Side<'a> {
-    fn new(
-        edge: Edge,
-        axis: &'a Axis,
-        labelled: bool,
-        area: Rect,
-        text_size: f64,
-    ) -> Result<Self, DrawError> {
+    fn new(edge: Edge, axis: &'a Axis, labelled: bool, area: Rect) -> Result<Self, DrawError> {
         let (length, spacing) = match edge {
-            Edge::Bottom | Edge::Top => (area.width, 5.0 * text_size),
-            Edge::Left | Edge::Right => (area.height, 3.0 * text_size),
+            Edge::Bottom | Edge::Top => (area.width, 5.0 * TEXT_SIZE),
+            Edge::Left | Edge::Right => (area.height, 3.0 * TEXT_SIZE),
         };
         Ok(Self { edge, axis, placed: axis.choose_ticks(length, spacing)?, labelled })
     }
@@ -315,7 +297,7 @@ impl<'a> Side<'a> {
 
     /// The numbers at the ticks, the power of ten that they leave out, and the label of the axis.
     fn render(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
-        let size = svg.number_size();
+        let size = NUMBER_SIZE;
         let mut widest: f64 = 0.0;
         if self.axis.shows_numbers() {
             let (below, anchor) = match self.edge {
@@ -338,7 +320,7 @@ impl<'a> Side<'a> {
 
     fn render_power(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
         let Some(power) = self.placed.power else { return Ok(()) };
-        let size = svg.number_size();
+        let size = NUMBER_SIZE;
         let label = Label::new(&format!("$\\times 10^{{{power}}}$"));
         let (x, y, anchor) = match self.edge {
             Edge::Bottom => (area.right(), area.bottom() + NUMBER_DISTANCE + 1.85 * size, Anchor::Right),
@@ -351,9 +333,8 @@ impl<'a> Side<'a> {
 
     /// The label of the axis beyond its numbers, of which the widest is given.
     fn render_label(&self, area: Rect, widest: f64, svg: &mut Svg) -> Result<(), DrawError> {
-        let text_size = svg.text_size();
         let level = matches!(self.edge, Edge::Bottom | Edge::Top);
-        let extent = if level { 0.7 * svg.number_size() } else { widest };
+        let extent = if level { 0.7 * NUMBER_SIZE } else { widest };
         let numbers = if self.axis.shows_numbers() { NUMBER_DISTANCE + extent } else { 0.0 };
         let room = match self.edge {
             Edge::Bottom => 1.45,
@@ -361,14 +342,14 @@ impl<'a> Side<'a> {
             Edge::Right => 1.3,
             Edge::Top => 0.45,
         };
-        let distance = self.axis.distance().unwrap_or(numbers + room * text_size);
+        let distance = self.axis.distance().unwrap_or(numbers + room * TEXT_SIZE);
         let mut place = self.edge.place(area, 0.5) + distance * self.edge.outward();
         // However wide the numbers are, the label stays on the page.
         match self.edge {
-            Edge::Bottom => place.y = place.y.min(svg.height() - 0.3 * text_size),
-            Edge::Left => place.x = place.x.max(0.85 * text_size),
-            Edge::Right => place.x = place.x.min(svg.width() - 0.35 * text_size),
-            Edge::Top => place.y = place.y.max(text_size),
+            Edge::Bottom => place.y = place.y.min(svg.height() - 0.3 * TEXT_SIZE),
+            Edge::Left => place.x = place.x.max(0.85 * TEXT_SIZE),
+            Edge::Right => place.x = place.x.min(svg.width() - 0.35 * TEXT_SIZE),
+            Edge::Top => place.y = place.y.max(TEXT_SIZE),
         }
         let rotation = if level { 0.0 } else { 90.0 };
         svg.label(self.axis.label_text(), place, TextStyle::new(Anchor::Middle).rotated(rotation))

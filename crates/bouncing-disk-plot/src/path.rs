@@ -2,19 +2,14 @@
 
 use kurbo::{BezPath, PathEl, Point};
 
-/// An outline of straight lines and cubic Bézier curves, in the local coordinates of a
+/// An outline of straight lines, in the local coordinates of a
 /// [`Drawing`](crate::Drawing). One with a point that is not finite is not drawn.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Path {
     outline: BezPath,
 }
 
 impl Path {
-    /// An empty outline.
-    pub fn new() -> Self {
-        Self::default()
-    }
-
     /// Straight lines through points; broken at NaN.
     pub fn through(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         let mut outline = BezPath::new();
@@ -29,37 +24,12 @@ impl Path {
         Self { outline }
     }
 
-    /// Lifts the pen and goes to a point.
+    /// Back to the start of the last part.
     #[must_use]
-    pub fn move_to(self, x: f64, y: f64) -> Self {
-        self.then(PathEl::MoveTo(Point::new(x, y)))
-    }
-
-    /// A straight line; at the beginning of an outline it only sets the first point.
-    #[must_use]
-    pub fn line_to(self, x: f64, y: f64) -> Self {
-        self.then(PathEl::LineTo(Point::new(x, y)))
-    }
-
-    /// A cubic Bézier curve with two control points; at the beginning of an outline it only sets the first
-    /// point.
-    #[must_use]
-    pub fn curve_to(self, first: (f64, f64), second: (f64, f64), end: (f64, f64)) -> Self {
-        self.then(PathEl::CurveTo(first.into(), second.into(), end.into()))
-    }
-
-    /// Back to the start of this part.
-    #[must_use]
-    pub fn close(self) -> Self {
-        self.then(PathEl::ClosePath)
-    }
-
-    /// A path begins with a point: nothing can be drawn to or closed before.
-    fn then(mut self, element: PathEl) -> Self {
+    pub fn close(mut self) -> Self {
+        // There is nothing to close before the first point.
         if !self.outline.elements().is_empty() {
-            self.outline.push(element);
-        } else if let Some(start) = element.end_point() {
-            self.outline.move_to(start);
+            self.outline.close_path();
         }
         self
     }
@@ -97,8 +67,8 @@ mod tests {
 
     #[test]
     fn an_outline_always_begins_with_a_point() {
-        let path = Path::new().close().line_to(1.0, 2.0).line_to(3.0, 4.0).close();
-        assert_eq!(path.outline().to_svg(), "M1,2 L3,4 Z");
+        assert_eq!(Path::through([(1.0, 2.0), (3.0, 4.0)]).close().outline().to_svg(), "M1,2 L3,4 Z");
+        assert_eq!(Path::through([]).close().outline().to_svg(), "");
         assert_eq!(polygon([]).to_svg(), "");
     }
 }

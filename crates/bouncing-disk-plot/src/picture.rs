@@ -29,5 +29,5 @@ pub(crate) fn png(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
         height: f64::from(height),
     })?;
     resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
-    pixels.encode_png().map_err(|error| DrawError::Png { message: error.to_string() })
+    pixels.encode_png().map_err(|error| DrawError::Render { message: error.to_string() })
 }

@@ -10,7 +10,7 @@ pub(crate) fn indexed(
     pixels: &[u8],
     palette: &[(Colour, u8)],
 ) -> Result<Vec<u8>, DrawError> {
-    let failed = |error: png::EncodingError| DrawError::Png { message: error.to_string() };
+    let failed = |error: png::EncodingError| DrawError::Render { message: error.to_string() };
     let size = |length: usize| {
         u32::try_from(length).map_err(|_| DrawError::Size {
             what: "an embedded image",

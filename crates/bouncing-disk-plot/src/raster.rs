@@ -12,7 +12,7 @@ pub struct Raster {
     width: usize,
     height: usize,
     cells: Vec<u8>,
-    palette: Vec<(Colour, u8)>,
+    palette: Vec<Colour>,
     x: (f64, f64),
     y: (f64, f64),
 }
@@ -30,23 +30,14 @@ impl Raster {
         x: (f64, f64),
         y: (f64, f64),
     ) -> Self {
-        let palette = palette.iter().map(|colour| (*colour, 255)).collect();
-        Self { width, height, cells, palette, x, y }
-    }
-
-    /// Makes one colour of the palette transparent.
-    #[must_use]
-    pub fn transparent(mut self, index: u8) -> Self {
-        if let Some(colour) = self.palette.get_mut(usize::from(index)) {
-            colour.1 = 0;
-        }
-        self
+        Self { width, height, cells, palette: palette.to_vec(), x, y }
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
         let (width, height) = (self.width, self.height);
         if width.checked_mul(height) != Some(self.cells.len()) || self.cells.is_empty() {
-            return Err(DrawError::RasterSize { width, height, cells: self.cells.len() });
+            let needed = width.saturating_mul(height);
+            return Err(DrawError::Length { what: "the cells of a raster", given: self.cells.len(), needed });
         }
         let colours = self.palette.len();
         if let Some(index) = self.cells.iter().copied().find(|index| usize::from(*index) >= colours) {
@@ -66,7 +57,8 @@ impl Raster {
         if !(area.is_finite() && area.area() > 0.0) {
             return Err(DrawError::Size { what: "a raster", width: area.width(), height: area.height() });
         }
-        let png = png_image::indexed(width, height, &pixels, &self.palette)?;
+        let palette: Vec<_> = self.palette.iter().map(|colour| (*colour, 255)).collect();
+        let png = png_image::indexed(width, height, &pixels, &palette)?;
         svg.image(area, &png, true);
         Ok(())
     }

@@ -7,10 +7,10 @@ use crate::frame::Rect;
 use crate::label::Label;
 use crate::path::Path;
 use crate::style::Stroke;
+use crate::svg::TEXT_SIZE;
 use crate::text_style::Anchor;
 
 /// Lengths in points.
-const TEXT_SIZE: f64 = 9.0;
 const ROW: f64 = 14.0;
 const GAP: f64 = 18.0;
 const MARGIN: f64 = 10.0;
@@ -29,7 +29,7 @@ pub fn ruled_table(header: &[Label], rows: &[Vec<Label>]) -> Figure {
     let inner = widths.iter().sum::<f64>() + GAP * widths.len() as f64;
     let (width, height) = (inner + 2.0 * MARGIN, ROW * (rows.len() as f64 + 1.4) + 2.0 * MARGIN);
     let mut drawing = Drawing::new(Rect::new(0.0, 0.0, width, height), (0.0, width), (height, 0.0));
-    let rule = |y: f64| Path::new().move_to(MARGIN, y).line_to(width - MARGIN, y);
+    let rule = |y: f64| Path::through([(MARGIN, y), (width - MARGIN, y)]);
     let below_header = MARGIN + 1.2 * ROW;
     for y in [MARGIN, MARGIN + 2.0, below_header, height - MARGIN - 2.0, height - MARGIN] {
         drawing = drawing.stroke(rule(y), Stroke::new(Colour::BLACK, 0.5));
@@ -43,7 +43,7 @@ pub fn ruled_table(header: &[Label], rows: &[Vec<Label>]) -> Figure {
             x += width + GAP;
         }
     }
-    Figure::new(width, height).text_size(TEXT_SIZE).drawing(drawing)
+    Figure::new(width, height).drawing(drawing)
 }
 
 #[cfg(test)]

@@ -24,12 +24,8 @@ pub enum Marker {
     Circle,
     /// An oblique cross.
     Cross,
-    /// An upright cross.
-    Plus,
     /// An open square.
     Square,
-    /// An open triangle.
-    Triangle,
     /// An open diamond.
     Diamond,
 }
@@ -118,7 +114,7 @@ impl Scatter {
         for (what, errors, along, cap) in sides {
             let Some(errors) = errors else { continue };
             if errors.len() != self.points.len() {
-                return Err(DrawError::Length { what, given: errors.len(), points: self.points.len() });
+                return Err(DrawError::Length { what, given: errors.len(), needed: self.points.len() });
             }
             for (&point, &error) in self.points.iter().zip(errors) {
                 let ends = [-error, error]
@@ -147,17 +143,15 @@ impl Marker {
     /// The outline about the origin; a dot has none.
     fn outline(self, radius: f64) -> Option<BezPath> {
         let corners = |corners: &[(f64, f64)]| polygon(corners.iter().copied().map(Point::from));
-        let cross = |reach: Vec2| -> BezPath {
-            let bars = [reach, reach.turn_90()].map(|end| polyline([-end, end].map(Vec2::to_point)));
-            bars.into_iter().flatten().collect()
-        };
         let unit = match self {
             Self::Dot => return None,
             Self::Circle => return Some(Circle::new(Point::ZERO, radius).to_path(TOLERANCE)),
-            Self::Cross => cross(Vec2::new(0.85, 0.85)),
-            Self::Plus => cross(Vec2::new(1.0, 0.0)),
+            Self::Cross => {
+                let reach = Vec2::new(0.85, 0.85);
+                let bars = [reach, reach.turn_90()].map(|end| polyline([-end, end].map(Vec2::to_point)));
+                bars.into_iter().flatten().collect()
+            }
             Self::Square => corners(&[(-0.85, -0.85), (0.85, -0.85), (0.85, 0.85), (-0.85, 0.85)]),
-            Self::Triangle => corners(&[(0.0, -1.1), (0.95, 0.6), (-0.95, 0.6)]),
             Self::Diamond => corners(&[(0.0, -1.15), (1.0, 0.0), (0.0, 1.15), (-1.0, 0.0)]),
         };
         Some(Affine::scale(radius) * unit)

@@ -88,12 +88,6 @@ impl From<Colour> for Fill {
     }
 }
 
-impl From<(Colour, f64)> for Fill {
-    fn from((colour, opacity): (Colour, f64)) -> Self {
-        Self::new(colour, opacity)
-    }
-}
-
 /// How a shape is drawn: its outline and its area, each of which may be left out.
 ///
 /// ```
@@ -154,13 +148,6 @@ impl Style {
         self
     }
 
-    /// Leaves out the line.
-    #[must_use]
-    pub fn without_stroke(mut self) -> Self {
-        self.stroke = None;
-        self
-    }
-
     /// Fills the area.
     #[must_use]
     pub fn fill(mut self, fill: impl Into<Fill>) -> Self {
@@ -204,7 +191,7 @@ mod tests {
         let both = Style::from(Stroke::default()).fill(Colour::GREY).colour(Colour::BLUE).opacity(0.5);
         assert_eq!(both.stroke.map(|stroke| (stroke.colour, stroke.opacity)), Some((Colour::BLUE, 0.5)));
         assert_eq!(both.fill, Some(Fill::new(Colour::GREY, 1.0)));
-        let area = both.without_stroke().colour(Colour::SKY).opacity(0.25);
+        let area = Style { stroke: None, ..both }.colour(Colour::SKY).opacity(0.25);
         assert_eq!(area, Style::from(Fill::new(Colour::SKY, 0.25)));
         assert_eq!(Style::default().colour(Colour::SKY), Style::from(Stroke::new(Colour::SKY, 0.8)));
     }

@@ -16,6 +16,12 @@ use crate::text_style::{Anchor, TextStyle};
 /// How far a curve may lie beside the circle that it stands for, in points.
 pub(crate) const TOLERANCE: f64 = 0.01;
 
+/// The size in points of axis labels and of text that has no other.
+pub(crate) const TEXT_SIZE: f64 = 9.0;
+
+/// The size in points of the numbers at ticks and of legends.
+pub(crate) const NUMBER_SIZE: f64 = 0.92 * TEXT_SIZE;
+
 /// An SVG document being written. Lengths are points.
 #[derive(Debug)]
 pub(crate) struct Svg {
@@ -23,7 +29,6 @@ pub(crate) struct Svg {
     clips: usize,
     width: f64,
     height: f64,
-    text_size: f64,
 }
 
 /// Heights in units of the font size: of capitals, for centring; of subscripts and superscripts.
@@ -32,15 +37,15 @@ const SUBSCRIPT_DROP: f64 = 0.20;
 const SUPERSCRIPT_RISE: f64 = 0.36;
 
 impl Svg {
-    /// An empty white page, with the size of the text that has no other.
-    pub(crate) fn new(width: f64, height: f64, text_size: f64) -> Self {
+    /// An empty white page.
+    pub(crate) fn new(width: f64, height: f64) -> Self {
         let (wide, high) = (short(width), short(height));
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide}pt\" height=\"{high}pt\" \
              viewBox=\"0 0 {wide} {high}\" font-family=\"{FAMILIES}\" fill=\"none\">\n\
              <rect width=\"{wide}\" height=\"{high}\" fill=\"#ffffff\"/>\n"
         );
-        Self { text, clips: 0, width, height, text_size }
+        Self { text, clips: 0, width, height }
     }
 
     /// The width of the page.
@@ -51,16 +56,6 @@ impl Svg {
     /// The height of the page.
     pub(crate) fn height(&self) -> f64 {
         self.height
-    }
-
-    /// The size of axis labels.
-    pub(crate) fn text_size(&self) -> f64 {
-        self.text_size
-    }
-
-    /// The size of the numbers at ticks and of legends.
-    pub(crate) fn number_size(&self) -> f64 {
-        0.92 * self.text_size
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -151,7 +146,7 @@ impl Svg {
             Anchor::Centre => ("middle", true),
             Anchor::RightCentre => ("end", true),
         };
-        let size = style.size.unwrap_or(self.text_size);
+        let size = style.size.unwrap_or(TEXT_SIZE);
         let shift = if centred { 0.5 * CAPITAL_HEIGHT * size } else { 0.0 };
         self.text.push_str("<text");
         if style.rotation == 0.0 {
@@ -190,7 +185,6 @@ impl Svg {
             match span.style {
                 FontStyle::Roman => {}
                 FontStyle::Italic => self.text.push_str(" font-style=\"italic\""),
-                FontStyle::Bold => self.text.push_str(" font-weight=\"bold\""),
             }
             let _ = write!(self.text, ">{}</tspan>", escaped(&span.text));
         }
@@ -247,7 +241,7 @@ mod tests {
 
     #[test]
     fn paths_are_rounded_and_those_that_are_not_finite_left_out() {
-        let mut svg = Svg::new(10.0, 10.0, 10.0);
+        let mut svg = Svg::new(10.0, 10.0);
         let style = Stroke::default().into();
         svg.path(&polyline([Point::new(-0.0001, 1.0), Point::new(2.000_04, 0.123_46)]), &style);
         svg.path(&polyline([Point::ZERO, Point::new(f64::NAN, 1.0)]), &style);
@@ -259,8 +253,8 @@ mod tests {
 
     #[test]
     fn labels_return_to_the_baseline() {
-        let mut svg = Svg::new(10.0, 10.0, 10.0);
-        let style = TextStyle::new(Anchor::Left);
+        let mut svg = Svg::new(10.0, 10.0);
+        let style = TextStyle::new(Anchor::Left).size(10.0);
         svg.label(&Label::new("$w_A < 1$"), Point::ZERO, style).expect("a good label");
         let text = svg.finish();
         assert!(text.contains("dy=\"2\"") && text.contains("dy=\"-2\""), "{text}");

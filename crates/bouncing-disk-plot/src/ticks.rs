@@ -40,6 +40,12 @@ impl Ticks {
         Choice::None.into()
     }
 
+    /// Round steps that divide a span at most five times.
+    pub(crate) fn few(span: f64) -> Self {
+        let (step, parts) = round_step(span / 5.0);
+        Self::every(step).minor(parts)
+    }
+
     /// A label at every multiple of `step`.
     pub fn every(step: f64) -> Self {
         Choice::Every(step).into()
@@ -301,6 +307,14 @@ mod tests {
     fn no_automatic_scale_has_a_single_label() {
         let ticks = linear(&Ticks::automatic(), -1.575, 1.575, 3).expect("ticks");
         assert_eq!(labels(ticks), ["−1", "0", "1"]);
+    }
+
+    #[test]
+    fn a_few_labels_are_a_few_whatever_the_span() {
+        for span in [1e-12, 3e-7, 0.1, 0.83, 1.0, 2.0, 4.99, 5.0, 7.0, 99.0, 1e9] {
+            let Choice::Every(step) = Ticks::few(span).choice else { panic!("{span}") };
+            assert!((2.0..=5.000_01).contains(&(span / step)), "{span}: {step}");
+        }
     }
 
     #[test]

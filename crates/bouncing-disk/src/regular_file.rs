@@ -103,7 +103,7 @@ mod tests {
         let error = read(&file, 3).expect_err("too large");
         assert_eq!(error.to_string(), "it has 4 bytes; legal are 3 or fewer");
         let error = read(&path, 4).expect_err("a folder");
-        assert_eq!(error.to_string(), "it is a folder; legal is a regular file");
+        assert_eq!(error.to_string(), "it is a folder, not a regular file");
         assert_eq!(read(&path.join("none"), 4).expect_err("absent").kind(), ErrorKind::NotFound);
         fs::remove_dir_all(path).expect("removable");
     }
@@ -131,11 +131,11 @@ mod tests {
         assert_eq!(read(&path.join("dangling"), 9).expect_err("dangles").kind(), ErrorKind::NotFound);
         symlink("/dev/zero", path.join("endless")).expect("writable");
         let error = read(&path.join("endless"), 9).expect_err("never ends");
-        assert_eq!(error.to_string(), "it is a device; legal is a regular file");
+        assert_eq!(error.to_string(), "it is a device, not a regular file");
         // Made by the socket itself; a pipe needs a program of the system (xtask/tests/files.rs).
         let _socket = std::os::unix::net::UnixListener::bind(path.join("socket")).expect("writable");
         let error = read(&path.join("socket"), 9).expect_err("a socket");
-        assert_eq!(error.to_string(), "it is a socket; legal is a regular file");
+        assert_eq!(error.to_string(), "it is a socket, not a regular file");
         fs::remove_dir_all(path).expect("removable");
     }
 }

@@ -6,6 +6,7 @@ use bouncing_disk::core::attractors::{
     Attractor, AttractorKind, AttractorSearch, BasinSettings, basin_fractions_over,
 };
 use bouncing_disk::core::{self, ChatterPolicy, ImpactMap, Unobserved, Vibration};
+use bouncing_disk_plot::pictures::{IMPACT_PHASE, IMPACT_SPEED, key};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Figure, Legend, Marker, Panel, Raster, Rect, Scatter, Ticks,
 };
@@ -139,11 +140,12 @@ impl Experiment for ExtraAttractors {
 
     fn draw(data: &ExtraAttractorsData) -> Result<Figure, ExperimentError> {
         let areas = [Rect::new(46.0, 12.0, 196.0, 150.0), Rect::new(296.0, 12.0, 196.0, 150.0)];
+        let names = (1..LABELS.len() as u8).zip(data.names.iter().map(String::as_str));
         let sweeps = data.sweeps.iter().zip(areas).zip(["a", "b"]);
         Ok(Figure::new(DOUBLE_COLUMN, 400.0)
             .panels(sweeps.map(|((sweep, area), letter)| shares(sweep, area, letter)))
             .panel(basins(data, Rect::new(46.0, 206.0, 380.0, 158.0)))
-            .panel(key(&data.names, Rect::new(436.0, 220.0, 10.0, 130.0))))
+            .panel(key(Rect::new(436.0, 220.0, 10.0, 130.0), &LABELS, names)))
     }
 }
 
@@ -207,20 +209,8 @@ fn basins(data: &ExtraAttractorsData, area: Rect) -> Panel {
     let cells = data.rows.iter().flat_map(|row| row.bytes().map(|own| own.saturating_sub(b'a').min(last)));
     let side = data.rows.len();
     Panel::new(area)
-        .x(Axis::linear(0.0, 1.0).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(0.2).minor(2)))
-        .y(Axis::linear(0.0, data.top).label(r"$|w_A \Gamma/(\omega A)|$").ticks(Ticks::every(1.0).minor(2)))
+        .x(Axis::linear(0.0, 1.0).label(IMPACT_PHASE).ticks(Ticks::every(0.2).minor(2)))
+        .y(Axis::linear(0.0, data.top).label(IMPACT_SPEED).ticks(Ticks::every(1.0).minor(2)))
         .letter("c")
         .layer(Raster::new(side, side, cells.collect(), &LABELS, (0.0, 1.0), (0.0, data.top)))
-}
-
-fn key(names: &[String], area: Rect) -> Panel {
-    let count = names.len().min(LABELS.len() - 1);
-    let place = |k: usize| (count - 1 - k) as f64 + 0.5;
-    let ticks = names.iter().take(count).enumerate().map(|(k, name)| (place(k), name.as_str()));
-    let ends = (0.0, count as f64);
-    Panel::new(area)
-        .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
-        .y(Axis::linear(ends.0, ends.1).ticks(Ticks::none()))
-        .right(Axis::linear(ends.0, ends.1).ticks(Ticks::at(ticks)))
-        .layer(Raster::new(1, count, (1..=count as u8).rev().collect(), &LABELS, (0.0, 1.0), ends))
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_1_PI, TAU};
 
 use bouncing_disk::core::attractors::{Verdict, VerdictSettings, verdicts};
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk_plot::pictures::{REGIMES, key};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Line, Panel, Raster, Rect, Rule, Stroke, Ticks,
 };
@@ -19,18 +20,8 @@ const RESTITUTIONS: (f64, f64) = (0.0, 0.95);
 /// Points of the lines in closed form.
 const POINTS: usize = 200;
 
-/// What a disk does, by the digits of the data, and the colour of each.
-const KINDS: [(&str, Colour); 9] = [
-    ("at rest", Colour::PALE_GREY),
-    ("cycle with rest", Colour::WHITE),
-    ("same, by rounding", Colour::rgb(250, 225, 160)),
-    ("period 1", Colour::BLUE),
-    ("period 2", Colour::SKY),
-    ("period 3", Colour::GREEN),
-    (r"period $\geq 4$", Colour::PURPLE),
-    ("chaotic", Colour::VERMILION),
-    ("undecided", Colour::BLACK),
-];
+/// Kinds of the data: those of the shared map that need no start of their own.
+const KINDS: usize = 9;
 
 /// Verdicts over forcing and restitution.
 #[derive(Debug)]
@@ -90,8 +81,8 @@ impl Experiment for ExtraRegimes {
     }
 
     fn draw(data: &ExtraRegimesData) -> Result<Figure, ExperimentError> {
-        let palette = KINDS.map(|(_, colour)| colour);
-        let last = KINDS.len() as u8 - 1;
+        let palette: Vec<Colour> = REGIMES.iter().take(KINDS).map(|(_, colour)| *colour).collect();
+        let last = KINDS as u8 - 1;
         let cells =
             data.rows.iter().flat_map(|row| row.bytes().map(|own| own.saturating_sub(b'0').min(last)));
         let (x, y) = (FORCINGS, RESTITUTIONS);
@@ -106,19 +97,13 @@ impl Experiment for ExtraRegimes {
             .layer(along(|restitution| (1.0 - restitution) / (1.0 + restitution)).colour(Colour::BLACK))
             .layer(along(ImpactMap::first_doubling_forcing).colour(Colour::BLACK).dash(Dash::Dashed))
             .layer(Rule::vertical(FRAC_1_PI).stroke(Stroke::new(Colour::BLACK, 0.6).dashed(Dash::Dotted)));
-        let count = KINDS.len();
-        let ticks = KINDS.iter().enumerate().map(|(k, (name, _))| ((count - 1 - k) as f64 + 0.5, *name));
-        let ends = (0.0, count as f64);
-        let key = Panel::new(Rect::new(404.0, 40.0, 12.0, 171.0))
-            .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
-            .y(Axis::linear(ends.0, ends.1).ticks(Ticks::none()))
-            .right(Axis::linear(ends.0, ends.1).ticks(Ticks::at(ticks)))
-            .layer(Raster::new(1, count, (0..=last).rev().collect(), &palette, (0.0, 1.0), ends));
+        let names = (0..=last).zip(REGIMES.map(|(name, _)| name));
+        let key = key(Rect::new(404.0, 40.0, 12.0, 171.0), &palette, names);
         Ok(Figure::new(DOUBLE_COLUMN, 300.0).panels([map, key]))
     }
 }
 
-/// The place of a verdict in [`KINDS`].
+/// The place of a verdict in [`REGIMES`].
 fn kind(verdict: &Verdict) -> u8 {
     match verdict {
         Verdict::AtRest { .. } => 0,

@@ -5,8 +5,9 @@ use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
 use bouncing_disk::estimate::{FitSettings, IntervalEstimate, TransientEnsemble, TransientFit};
 use bouncing_disk::motor::{Estimate, OperatingPoint, OperatingSettings, Operation, TransientSettings};
+use bouncing_disk_plot::pictures::interval_curve;
 use bouncing_disk_plot::{
-    Anchor, Axis, Band, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rule,
+    Anchor, Axis, Band, Colour, Corner, Dash, Figure, Fill, Grid, Legend, Line, Margins, Marker, Panel, Rule,
     SINGLE_COLUMN, Scatter, Stroke, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
@@ -133,8 +134,6 @@ fn frame(
         .iter()
         .map(|point| (MICRO * point.load_torque, of(point).value, NORMAL_975 * of(point).standard_error))
         .collect();
-    let curve = || points.iter().map(|(load, value, _)| (*load, *value));
-    let band = Band::new(points.iter().map(|(load, value, half)| (*load, value - half, value + half)));
     Panel::new(grid.cell(row, 0))
         .x(x)
         .top(top)
@@ -142,9 +141,7 @@ fn frame(
         .layer(runaway.colour(Colour::PALE_GREY).opacity(1.0))
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
         .layer(Rule::vertical(largest).stroke(Stroke::new(Colour::DARK_GREY, 0.8)))
-        .layer(band.colour(Colour::LIGHT_GREY).opacity(0.8))
-        .layer(Line::new(curve()).width(0.8))
-        .layer(Scatter::new(curve()).size(2.6))
+        .layers(interval_curve(&points, Colour::BLACK, Fill::new(Colour::LIGHT_GREY, 0.8), None))
 }
 
 fn speeds(data: &ExtraTorqueSpeedData, grid: &Grid) -> Panel {

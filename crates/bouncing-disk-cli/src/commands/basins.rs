@@ -189,15 +189,17 @@ impl GridJob for BasinsJob {
         drop(rows);
         let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
         let labels: Rc<[Label]> = labels.into();
-        let picture = pictures::basins::Picture {
-            axial_forcing: self.axial_forcing,
-            restitution: self.restitution,
-            phases: self.phase_periods,
-            speeds: self.normalised_speed,
-            cells: self.cells,
-            labels: Rc::clone(&labels),
-            legend,
-            impacts: impacts(&attractors),
+        let (drawn, impacts) = (Rc::clone(&labels), impacts(&attractors));
+        let figure = move || {
+            let basins = pictures::Basins {
+                title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution),
+                phases: self.phase_periods,
+                speeds: self.normalised_speed,
+                labels: &drawn,
+                legend: &legend,
+                impacts: &impacts,
+            };
+            basins.draw()
         };
         let table = Box::new(move |to: &mut dyn Write| {
             let columns = Columns::<(f64, f64, Label)>::new()
@@ -210,7 +212,7 @@ impl GridJob for BasinsJob {
             };
             columns.write_csv(to, labels.iter().enumerate().map(cell))
         });
-        Ok(Report { provenance, text, table, data, figure: Some(Box::new(move || picture.draw())) })
+        Ok(Report { provenance, text, table, data, figure: Some(Box::new(figure)) })
     }
 }
 

@@ -8,7 +8,9 @@ use bouncing_disk::toss::{
 };
 
 use super::prelude::*;
-use super::toss::{MOST_INSTANTS, SPINS, Sample, instants, motion, quantities, samples, write_table};
+use super::toss::{
+    MOST_INSTANTS, SPINS, Sample, instants, motion, picture, quantities, samples, write_table,
+};
 
 /// The quantities that a toss can maximise.
 const OBJECTIVES: Words<TossObjective> = &[
@@ -102,7 +104,7 @@ pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
         text: list(&design, &system).to_text(),
         table: write_table(&samples),
         data: vec![("design", stored(&design)?), ("motion", motion(&samples))],
-        figure: Some(Box::new(move || pictures::toss::draw(&samples, None))),
+        figure: Some(Box::new(move || picture(&samples, None))),
     };
     report.deliver(&args.output, context.quiet)
 }

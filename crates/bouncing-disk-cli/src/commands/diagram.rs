@@ -11,6 +11,8 @@ use bouncing_disk::core::{
     ChatterPolicy, ImpactState, Orbit,
     sweep::{MAX_RECORDED, orbit_diagram},
 };
+use bouncing_disk_plot::Figure;
+use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
 
 use super::map::{MapArgs, VERTICAL, map, single};
@@ -115,10 +117,10 @@ impl Impacts {
 /// The impacts of each start of one forcing; none where it has no such start.
 type Column = Vec<Option<Impacts>>;
 
-/// The columns of the diagram, each with its forcing, and the names of the starts.
+/// The columns of the diagram, each with its forcing, and the starts.
 struct Diagram {
     axial_forcings: Range,
-    starts: Vec<String>,
+    starts: Vec<Start>,
     rows: Vec<Column>,
 }
 
@@ -141,27 +143,27 @@ impl Diagram {
 
     /// Each orbit a row.
     fn text(&self) -> String {
-        type Row<'r> = (f64, &'r str, &'r Impacts);
+        type Row<'r> = (f64, Start, &'r Impacts);
         let columns = Columns::<Row<'_>>::new()
             .column("axial_forcing", "1", |row| row.0)
-            .column("start", "1", |row| row.1.to_owned())
+            .column("start", "1", |row| row.1.to_string())
             .column("impacts", "1", |row| row.2.impact_phase_periods.len())
             .column("distinct_phases", "1", |row| row.2.distinct())
             .column("least_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.0))
             .column("largest_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.1))
             .column("largest_speed", "1", |row| ends(&row.2.normalised_impact_speed).map(|ends| ends.1));
-        let rows =
-            self.orbits().map(|(forcing, start, impacts)| (forcing, self.starts[start].as_str(), impacts));
+        let rows = self.orbits().map(|(forcing, start, impacts)| (forcing, self.starts[start], impacts));
         columns.to_text(&rows.collect::<Vec<_>>())
     }
 
-    /// The points of a picture: forcing, phase and speed, in a layer for each start.
-    fn layers(&self) -> Vec<Vec<(f64, f64, f64)>> {
-        let mut layers = vec![Vec::new(); self.starts.len()];
+    fn draw(&self, restitution: f64) -> Figure {
+        let named = |start: &Start| (start.in_words(), Vec::new());
+        let mut starts: Vec<OrbitsFrom> = self.starts.iter().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
-            layers[start].push((forcing, phase, speed));
+            starts[start].1.push((forcing, phase, speed));
         }
-        layers
+        let axial_forcings = self.axial_forcings.cell_ends(0.01);
+        OrbitDiagram { axial_forcings, restitution, starts: &starts }.draw()
     }
 }
 
@@ -223,24 +225,21 @@ impl GridJob for DiagramJob {
     fn report(self, (): (), rows: Vec<Self::Row>) -> Result<Report, Failure> {
         let provenance =
             provenance("bouncing-disk diagram", &self)?.with_chatter_policy(ChatterPolicy::Complete);
-        let ends = self.axial_forcings.cell_ends(0.01);
-        let from: Vec<String> = self.starts.iter().map(Start::in_words).collect();
         let restitution = self.restitution;
-        let starts = self.starts.iter().map(Start::to_string).collect();
-        let diagram = Rc::new(Diagram { axial_forcings: self.axial_forcings, starts, rows });
+        let diagram = Rc::new(Diagram { axial_forcings: self.axial_forcings, starts: self.starts, rows });
         let (tabled, listed, drawn) = (Rc::clone(&diagram), Rc::clone(&diagram), Rc::clone(&diagram));
         let table = move |to: &mut dyn Write| {
             let own = Rc::clone(&tabled);
             let columns = Columns::<(f64, usize, f64, f64)>::new()
                 .column("axial_forcing", "1", |row| row.0)
-                .column("start", "1", move |row| own.starts[row.1].clone())
+                .column("start", "1", move |row| own.starts[row.1].to_string())
                 .column("impact_phase", "periods", |row| row.2)
                 .column("normalised_impact_speed", "1", |row| row.3);
             columns.write_csv(to, tabled.impacts())
         };
         let list = Data::List(Box::new(move |each| {
             listed.orbits().try_for_each(|(forcing, start, impacts)| {
-                each(&json!({ "axial_forcing": forcing, "start": listed.starts[start], "impacts": impacts }))
+                each(&json!({ "axial_forcing": forcing, "start": listed.starts[start].to_string(), "impacts": impacts }))
             })
         }));
         Ok(Report {
@@ -248,9 +247,7 @@ impl GridJob for DiagramJob {
             text: diagram.text(),
             table: Box::new(table),
             data: vec![("columns", list)],
-            figure: Some(Box::new(move || {
-                pictures::diagram::draw(ends, restitution, &from, &drawn.layers())
-            })),
+            figure: Some(Box::new(move || drawn.draw(restitution))),
         })
     }
 }

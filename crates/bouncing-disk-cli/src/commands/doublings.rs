@@ -4,9 +4,10 @@ use bouncing_disk::core::orbits::{
     CascadeDoubling, FeigenbaumEstimate, doubling_cascade, feigenbaum_estimates,
 };
 
+use bouncing_disk_plot::rounded;
+
 use super::map::MapArgs;
 use super::prelude::*;
-use crate::output::numbers::rounded;
 
 /// The period-doubling cascade, forcing by forcing, with Feigenbaum's constants
 #[derive(Debug, Args)]
@@ -35,6 +36,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure>
     let found = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
     let estimates = feigenbaum_estimates(&found);
     let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
+    let forcings: Vec<f64> = found.iter().map(|doubling| doubling.axial_forcing).collect();
     let rows = found.iter().map(|doubling| (*doubling, of(doubling))).collect();
     let job = json!({ "restitution": restitution, "count": args.count });
     let report = Report {
@@ -42,7 +44,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure>
         text: text(&found, &estimates),
         table: columns().csv_of(rows),
         data: vec![("doublings", stored(&found)?), ("feigenbaum_estimates", stored(&estimates)?)],
-        figure: Some(Box::new(move || pictures::doublings::draw(restitution, &found))),
+        figure: Some(Box::new(move || pictures::doublings(restitution, &forcings))),
     };
     report.deliver(&args.output, context.quiet)
 }

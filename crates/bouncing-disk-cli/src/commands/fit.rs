@@ -8,6 +8,7 @@ use bouncing_disk::estimate::{
     CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient,
     ParameterEstimate, ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
+use bouncing_disk_plot::Figure;
 
 use super::prelude::*;
 use crate::parameters::source::{Described as _, Setting};
@@ -151,7 +152,7 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
         text: list.to_text(),
         table: list.into_csv(),
         data: vec![("fit", stored(&fit)?)],
-        figure: Some(Box::new(move || pictures::transient::measured(&speeds, &fit))),
+        figure: Some(Box::new(move || draw(&speeds, &fit))),
     })
 }
 
@@ -162,6 +163,21 @@ pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
     list.push_interval("stall_acceleration", fit.stall_acceleration(), "rad/s^2");
     list.push("residual", fit.exponential.residual, "rad/s");
     list.push("better_form", format!("{:?}", fit.form).to_lowercase(), "1");
+}
+
+/// A fit as it is drawn, up to a time (s).
+pub(super) fn fitted_curve(fit: &TransientFit, end: f64) -> pictures::FittedCurve {
+    let numbers = (fit.steady_speed().value, fit.time_constant().value);
+    pictures::FittedCurve::new(numbers, (fit.start_time, end), |time| fit.speed(time))
+}
+
+/// Measured runs and their fit; of runs with times of their own the first one.
+fn draw(speeds: &MeasuredSpeeds, fit: &TransientFit) -> Figure {
+    let times = &speeds.runs()[0].times;
+    let runs: Vec<&[f64]> =
+        speeds.runs().iter().filter(|run| run.times == *times).map(|run| run.speeds.as_slice()).collect();
+    let fit = fitted_curve(fit, times.last().copied().unwrap_or(1.0));
+    pictures::RunUp { times, runs: &runs, name: "measured", fit: Some((fit, "fit of the mean")) }.draw()
 }
 
 /// The words of a fit that is refused; another error is a failure.

@@ -8,18 +8,19 @@ use super::motor::sweep::SweepJob;
 use super::motor::transient::TransientJob;
 use super::prelude::*;
 use super::verdicts::VerdictsJob;
-use crate::grid::{GridJob, Part, merged};
+use crate::grid::{GridJob, computation_of, merged};
 
 /// Puts the chunks of a computation together
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The result has the very bytes that the command without --chunk gives. Chunks that are missing, there twice, damaged, or of \
-another computation or version of the program are refused by name. See docs/command-line.md, \"On a cluster\".
+The result has the very bytes that the command without --chunk gives. A part is a journal with some of the rows, so that \
+journals can be merged, too. Rows that are missing, and files that are damaged or of another computation or version of the \
+program, are refused by name. See docs/command-line.md, \"On a cluster\".
 
 Example:
   bouncing-disk merge part-*.json --out diagram.png")]
 pub(crate) struct MergeArgs {
-    /// The files of all chunks, in any order
+    /// The files of all chunks, or journals, in any order
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -30,14 +31,15 @@ pub(crate) struct MergeArgs {
 pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<(), Failure> {
     let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
     args.output.check(true, &inputs, None)?;
-    let parts = args.files.iter().map(|path| Part::read(path)).collect::<Result<Vec<_>, _>>()?;
+    let (command, job) = computation_of(&args.files[0])?;
     let watcher = context.watch("merge");
-    let report = match parts.first().map(Part::command).unwrap_or_default().to_owned().as_str() {
-        DiagramJob::COMMAND => merged::<DiagramJob>(parts, &watcher),
-        VerdictsJob::COMMAND => merged::<VerdictsJob>(parts, &watcher),
-        BasinsJob::COMMAND => merged::<BasinsJob>(parts, &watcher),
-        SweepJob::COMMAND => merged::<SweepJob>(parts, &watcher),
-        TransientJob::COMMAND => merged::<TransientJob>(parts, &watcher),
+    let (job, parts) = (&job, &args.files[..]);
+    let report = match command.as_str() {
+        DiagramJob::COMMAND => merged::<DiagramJob>(job, parts, &watcher),
+        VerdictsJob::COMMAND => merged::<VerdictsJob>(job, parts, &watcher),
+        BasinsJob::COMMAND => merged::<BasinsJob>(job, parts, &watcher),
+        SweepJob::COMMAND => merged::<SweepJob>(job, parts, &watcher),
+        TransientJob::COMMAND => merged::<TransientJob>(job, parts, &watcher),
         other => Err(Failure::usage(format!("chunks of the command {other:?} are not known"))),
     }?;
     drop(watcher);

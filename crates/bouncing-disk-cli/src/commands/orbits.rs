@@ -2,7 +2,8 @@
 
 use std::rc::Rc;
 
-use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound, PeriodicOrbit};
+use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound, PeriodicOrbit, Stability};
+use bouncing_disk_plot::Figure;
 
 use super::map::{MapArgs, VERTICAL, map};
 use super::prelude::*;
@@ -59,7 +60,7 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
         text: text(&found),
         table: impacts().csv_of(rows),
         data: vec![("orbits", stored(&found.orbits)?), ("coverage", stored(&found.coverage)?)],
-        figure: Some(Box::new(move || pictures::orbits::draw(axial_forcing, restitution, &found))),
+        figure: Some(Box::new(move || draw(axial_forcing, restitution, &found))),
     };
     report.deliver(&args.output, context.quiet)
 }
@@ -81,6 +82,15 @@ fn text(found: &OrbitsFound) -> String {
         coverage.found_by_coarser,
         found.orbits.len()
     )
+}
+
+fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) -> Figure {
+    let impacts = |orbit: &PeriodicOrbit| {
+        let states = orbit.states.iter().map(|state| (state.phase().cycles(), state.normalised_speed()));
+        (orbit.stability() == Stability::Stable, states.collect())
+    };
+    let orbits: Vec<_> = found.orbits.iter().map(impacts).collect();
+    pictures::periodic_orbits(&pictures::forcing_and_restitution(axial_forcing, restitution), &orbits)
 }
 
 /// An orbit with its number, and the place of one of its impacts in it.

@@ -1,5 +1,6 @@
 //! What most commands need.
 
+pub(super) use bouncing_disk_plot::pictures;
 pub(super) use clap::Args;
 pub(super) use serde_json::json;
 
@@ -9,7 +10,6 @@ pub(super) use crate::grid::{self, GridArgs, GridJob};
 pub(super) use crate::output::{Columns, OutputArgs, Quantities, Report, provenance, stored};
 pub(super) use crate::parameters::motor::MotorArgs;
 pub(super) use crate::parameters::system::SystemArgs;
-pub(super) use crate::pictures;
 pub(super) use crate::range::{Interval, Range, Words, one_of};
 
 /// The heading of what is a command's own.

@@ -10,6 +10,7 @@ use bouncing_disk::toss::{
     single_toss, toss_trajectory,
 };
 use bouncing_disk::{Engine, InitialCondition, System};
+use bouncing_disk_plot::Figure;
 use serde::Serialize;
 
 use super::prelude::*;
@@ -173,15 +174,15 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
 }
 
 /// Disk and platform at an instant, in SI units.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
-pub(crate) struct Sample {
-    pub(crate) time_s: f64,
-    pub(crate) disk_height_m: f64,
-    pub(crate) platform_height_m: f64,
-    pub(crate) disk_angle_rad: f64,
-    pub(crate) platform_angle_rad: f64,
-    pub(crate) disk_angular_speed_rad_s: f64,
-    pub(crate) platform_angular_speed_rad_s: f64,
+#[derive(Debug, Clone, Copy, Serialize)]
+pub(super) struct Sample {
+    time_s: f64,
+    disk_height_m: f64,
+    platform_height_m: f64,
+    disk_angle_rad: f64,
+    platform_angle_rad: f64,
+    disk_angular_speed_rad_s: f64,
+    platform_angular_speed_rad_s: f64,
 }
 
 /// Disk and platform in SI units; the time is 0 at the first instant.
@@ -230,8 +231,19 @@ fn report(
         text,
         table: write_table(&samples),
         data,
-        figure: Some(Box::new(move || pictures::toss::draw(&samples, period))),
+        figure: Some(Box::new(move || picture(&samples, period))),
     })
+}
+
+/// The picture of a motion; see [`pictures::toss`].
+pub(super) fn picture(samples: &[Sample], period: Option<f64>) -> Figure {
+    let instant = |own: &Sample| pictures::TossInstant {
+        time: own.time_s,
+        heights: [own.disk_height_m, own.platform_height_m],
+        angles: [own.disk_angle_rad, own.platform_angle_rad],
+        angular_speeds: [own.disk_angular_speed_rad_s, own.platform_angular_speed_rad_s],
+    };
+    pictures::toss(&samples.iter().map(instant).collect::<Vec<_>>(), period)
 }
 
 /// The motion as a list for a file of JSON.

@@ -154,7 +154,7 @@ impl GridJob for VerdictsJob {
             seen += 1;
             match all.last_mut() {
                 Some(Row::Verdicts(row)) => row.push(cell),
-                Some(Row::Kinds(row)) => row.push(Kind::of(cell.as_ref()).digit()),
+                Some(Row::Kinds(row)) => row.push(digit(kind(cell.as_ref()))),
                 None => {}
             }
         };
@@ -167,11 +167,11 @@ impl GridJob for VerdictsJob {
         for row in rows {
             match row {
                 Row::Verdicts(cells) => {
-                    kinds.extend(cells.iter().map(|cell| Kind::of(cell.as_ref())));
+                    kinds.extend(cells.iter().map(|cell| kind(cell.as_ref())));
                     verdicts.extend(cells);
                 }
                 Row::Kinds(row) => {
-                    kinds.extend(row.chars().filter_map(Kind::of_digit));
+                    kinds.extend(row.chars().filter_map(of_digit));
                     digits.push(row);
                 }
             }
@@ -183,7 +183,7 @@ impl GridJob for VerdictsJob {
         }
         let provenance =
             provenance("bouncing-disk verdicts", &self)?.with_chatter_policy(ChatterPolicy::Complete);
-        let mut data = vec![("kinds", stored(&Kind::ALL.map(Kind::name))?)];
+        let mut data = vec![("kinds", stored(&KINDS)?)];
         if !self.details {
             data.push(("kinds_by_restitution", stored(&digits)?));
         }
@@ -198,7 +198,16 @@ impl GridJob for VerdictsJob {
             data.push(("cells", Data::list(found.kinds.len(), cell)));
         }
         let (text, drawn) = (found.text(), Rc::clone(&found));
-        let figure = move || pictures::regimes::draw(self.axial_forcings, self.restitutions, &drawn.kinds);
+        let figure = move || {
+            let regimes = pictures::Regimes {
+                axial_forcings: self.axial_forcings.cell_ends(0.01),
+                restitutions: self.restitutions.cell_ends(1.0),
+                only: self.restitutions.only(),
+                rows: self.restitutions.count(),
+                cells: &drawn.kinds,
+            };
+            regimes.draw()
+        };
         let table = move |to: &mut dyn Write| {
             let columns = found.columns();
             columns.write_csv(to, (0..found.kinds.len()).map(|index| found.row(index)))
@@ -211,7 +220,7 @@ impl GridJob for VerdictsJob {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Row {
-    /// The digits of the kinds, by their places in [`Kind::ALL`].
+    /// The digits of the kinds, by their places in [`KINDS`].
     Kinds(String),
     /// `None` where there is no such start.
     Verdicts(Vec<Option<Verdict>>),
@@ -240,13 +249,13 @@ impl VerdictsJob {
 /// The verdicts, cell by cell in the order of the rows.
 struct Found {
     job: VerdictsJob,
-    kinds: Vec<Kind>,
+    kinds: Vec<u8>,
     /// Of each cell, where the job keeps the evidence; else none at all.
     verdicts: Vec<Option<Verdict>>,
 }
 
 /// Forcing and restitution of a cell, what the disk does there, and the evidence where it is kept.
-type Cell = (f64, f64, Kind, Option<Verdict>);
+type Cell = (f64, f64, u8, Option<Verdict>);
 
 impl Found {
     /// Forcing and restitution of a cell.
@@ -264,17 +273,17 @@ impl Found {
         if !self.job.is_map() {
             let columns = Columns::<Cell>::new().column("axial_forcing", "1", |row| row.0);
             let columns = columns.column("verdict", "1", |row| {
-                row.3.map_or(row.2.name().to_owned(), |verdict| verdict.to_string())
+                row.3.map_or(name(row.2).to_owned(), |verdict| verdict.to_string())
             });
             return columns.to_text(&(0..self.kinds.len()).map(|index| self.row(index)).collect::<Vec<_>>());
         }
         let all = self.kinds.len() as f64;
-        let columns = Columns::<(Kind, usize)>::new()
-            .column("verdict", "1", |row| row.0.name())
+        let columns = Columns::<(&str, usize)>::new()
+            .column("verdict", "1", |row| row.0)
             .column("cells", "1", |row| row.1)
             .column("share", "%", move |row| 100.0 * row.1 as f64 / all);
-        let count = |kind| (kind, self.kinds.iter().filter(|own| **own == kind).count());
-        let there = Kind::ALL.map(count).into_iter().filter(|(_, count)| *count > 0);
+        let count = |(kind, name)| (name, self.kinds.iter().filter(|own| **own == kind).count());
+        let there = (0..).zip(KINDS).map(count).filter(|(_, count)| *count > 0);
         columns.to_text(&there.collect::<Vec<_>>())
     }
 
@@ -283,7 +292,7 @@ impl Found {
         let plain = Columns::<Cell>::new()
             .column("axial_forcing", "1", |row| row.0)
             .column("restitution", "1", |row| row.1)
-            .column("verdict", "1", |row| row.2.name());
+            .column("verdict", "1", |row| name(row.2));
         if !self.job.details {
             return plain;
         }
@@ -314,74 +323,47 @@ impl Found {
     }
 }
 
-/// The kind of motion that the disk settles on, without the evidence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Kind {
-    AtRest,
-    ExactCycle,
-    LongCycle,
-    PeriodOne,
-    PeriodTwo,
-    PeriodThree,
-    LongerPeriod,
-    Chaotic,
-    Undecided,
-    /// There is no such start.
-    NoStart,
+/// The kinds of motion that the disk settles on, without the evidence; their places are those of the picture's
+/// [`REGIMES`](pictures::REGIMES).
+const KINDS: [&str; 10] = [
+    "at rest",
+    "cycle with rest",
+    "cycle with rest, chosen by rounding",
+    "period 1",
+    "period 2",
+    "period 3",
+    "period 4 or longer",
+    "chaotic",
+    "undecided",
+    "no such start",
+];
+
+/// The place in [`KINDS`].
+fn kind(verdict: Option<&Verdict>) -> u8 {
+    match verdict {
+        Some(Verdict::AtRest { .. }) => 0,
+        Some(Verdict::Chattering { cycle, .. }) if cycle.is_exact() => 1,
+        Some(Verdict::Chattering { .. }) => 2,
+        Some(Verdict::Periodic { impacts, .. }) => 2 + (*impacts).min(4) as u8,
+        Some(Verdict::Chaotic { .. }) => 7,
+        Some(_) => 8,
+        None => 9,
+    }
 }
 
-impl Kind {
-    pub(crate) const ALL: [Self; 10] = [
-        Self::AtRest,
-        Self::ExactCycle,
-        Self::LongCycle,
-        Self::PeriodOne,
-        Self::PeriodTwo,
-        Self::PeriodThree,
-        Self::LongerPeriod,
-        Self::Chaotic,
-        Self::Undecided,
-        Self::NoStart,
-    ];
+/// The name of a kind.
+fn name(kind: u8) -> &'static str {
+    KINDS[usize::from(kind)]
+}
 
-    pub(crate) fn of(verdict: Option<&Verdict>) -> Self {
-        match verdict {
-            None => Self::NoStart,
-            Some(Verdict::AtRest { .. }) => Self::AtRest,
-            Some(Verdict::Chattering { cycle, .. }) if cycle.is_exact() => Self::ExactCycle,
-            Some(Verdict::Chattering { .. }) => Self::LongCycle,
-            Some(Verdict::Periodic { impacts: 1, .. }) => Self::PeriodOne,
-            Some(Verdict::Periodic { impacts: 2, .. }) => Self::PeriodTwo,
-            Some(Verdict::Periodic { impacts: 3, .. }) => Self::PeriodThree,
-            Some(Verdict::Periodic { .. }) => Self::LongerPeriod,
-            Some(Verdict::Chaotic { .. }) => Self::Chaotic,
-            Some(_) => Self::Undecided,
-        }
-    }
+/// A kind as a digit.
+fn digit(kind: u8) -> char {
+    char::from(b'0' + kind)
+}
 
-    /// Its place in [`Self::ALL`], as a letter.
-    fn digit(self) -> char {
-        char::from(b'0' + self as u8)
-    }
-
-    fn of_digit(letter: char) -> Option<Self> {
-        Self::ALL.get(letter.to_digit(10)? as usize).copied()
-    }
-
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::AtRest => "at rest",
-            Self::ExactCycle => "cycle with rest",
-            Self::LongCycle => "cycle with rest, chosen by rounding",
-            Self::PeriodOne => "period 1",
-            Self::PeriodTwo => "period 2",
-            Self::PeriodThree => "period 3",
-            Self::LongerPeriod => "period 4 or longer",
-            Self::Chaotic => "chaotic",
-            Self::Undecided => "undecided",
-            Self::NoStart => "no such start",
-        }
-    }
+/// The kind of a digit.
+fn of_digit(letter: char) -> Option<u8> {
+    letter.to_digit(10).map(|digit| digit as u8)
 }
 
 #[cfg(test)]
@@ -390,9 +372,10 @@ mod tests {
 
     #[test]
     fn kinds_have_a_digit_each() {
-        for kind in Kind::ALL {
-            assert_eq!(Kind::of_digit(kind.digit()), Some(kind));
+        for kind in 0..KINDS.len() as u8 {
+            assert_eq!(of_digit(digit(kind)), Some(kind));
         }
-        assert_eq!([':', '/', 'a'].map(Kind::of_digit), [None; 3]);
+        assert_eq!([':', '/', 'a'].map(of_digit), [None; 3]);
+        assert_eq!(KINDS.len(), pictures::REGIMES.len());
     }
 }

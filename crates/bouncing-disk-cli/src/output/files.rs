@@ -158,12 +158,23 @@ impl Target {
         quiet: bool,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let write = || {
-            let mut file = begin(&self.path)?;
+        self.fill(replace, quiet, |file| {
             let mut writer = BufWriter::with_capacity(GATHERED, file.as_file_mut());
             content(&mut writer)?;
-            writer.flush()?;
-            drop(writer);
+            writer.flush()
+        })
+    }
+
+    /// The same for content that is written into the file itself, which has its name only afterwards.
+    pub(crate) fn fill(
+        &self,
+        replace: bool,
+        quiet: bool,
+        content: impl FnOnce(&mut NamedTempFile) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let write = || {
+            let mut file = begin(&self.path)?;
+            content(&mut file)?;
             file.as_file().sync_all()?;
             if replace { file.persist(&self.path) } else { file.persist_noclobber(&self.path) }?;
             Ok(())

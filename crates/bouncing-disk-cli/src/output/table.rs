@@ -3,14 +3,16 @@
 use std::io::{self, Write};
 
 use bouncing_disk::estimate::IntervalEstimate;
+use bouncing_disk_plot::rounded;
 use serde_json::{Value, json};
 
-use super::numbers::shown;
+/// Significant digits of a number in a table.
+const DIGITS: usize = 6;
 
 /// A cell for people; a missing one, or one that is no number, is a dash.
 fn shown_cell(cell: &Value) -> String {
     match cell.as_f64() {
-        Some(number) if cell.is_f64() => shown(number),
+        Some(number) if cell.is_f64() => rounded(number, DIGITS),
         _ if cell.is_null() => "-".to_owned(),
         _ => exact_cell(cell),
     }

@@ -1,10 +1,9 @@
 //! A motor's data sheet, which the library reads.
 
+use bouncing_disk::Motor;
 use bouncing_disk::motor::{MotorField, MotorFileError};
-use bouncing_disk::{Motor, System};
 
 use super::source::{Described, Format, Refusal, Setting, SourceArgs};
-use super::system::is_parameter;
 use crate::range::Words;
 
 /// A motor's data sheet.
@@ -19,18 +18,10 @@ fn changes(settings: &[Setting]) -> Result<Vec<(MotorField, f64)>, String> {
 }
 
 impl Described for Motor {
-    type Other = System;
-
     const PRESETS: Words<fn() -> Self> = &[
         ("paper-70-khz", "The motor of Table III at 70 kHz", Self::paper_70_khz),
         ("paper-184-khz", "The same at its second operating frequency, 184 kHz", Self::paper_184_khz),
     ];
-    const FILE: &'static str = "the data sheet of a motor";
-    const READERS: &'static str = "motor and fit --motor";
-
-    fn is_known_by(key: &str) -> bool {
-        key.parse::<MotorField>().is_ok() && !is_parameter(key)
-    }
 
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
         let changes = changes(settings).map_err(Refusal::Value)?;

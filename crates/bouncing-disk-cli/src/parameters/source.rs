@@ -1,13 +1,12 @@
 //! Where a command has its parameters from, the same for a system and for a motor.
 
-use std::collections::BTreeMap;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use bouncing_disk::regular_file;
 use clap::{Args, ValueEnum};
-use serde::de::{DeserializeOwned, IgnoredAny};
+use serde::de::DeserializeOwned;
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -19,16 +18,6 @@ use crate::range::{Words, one_of};
 pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// Those of the paper; the first are the default ones.
     const PRESETS: Words<fn() -> Self>;
-
-    /// The other kind of file, which may be given by mistake.
-    type Other: Described;
-
-    /// The content of a file in words, and the commands that read it.
-    const FILE: &'static str;
-    const READERS: &'static str;
-
-    /// Whether a key of the outermost table is one of this kind of file, and no parameter of the other.
-    fn is_known_by(key: &str) -> bool;
 
     /// Reads a file; the settings take the place of what it says before anything is checked, so that they can
     /// put a wrong file right.
@@ -97,18 +86,10 @@ impl<D: Described> SourceArgs<D> {
         let name = path.display();
         let (text, format) = read_text(path)?;
         D::read(&text, format, &self.set).map_err(|refusal| match refusal {
-            // The first unknown key would not tell that the file is given to the wrong command.
-            Refusal::Text(why) => match mistaken::<D>(&text, format) {
-                Some(key) => Failure::usage(format!(
-                    "{name}: by its key \"{key}\" this is {}, which {} read; needed is {}",
-                    D::Other::FILE,
-                    D::Other::READERS,
-                    D::FILE
-                )),
-                None => Failure::usage(format!("{name}: {why}")),
-            },
-            Refusal::Value(why) if self.set.is_empty() => Failure::usage(format!("{name}: {why}")),
-            Refusal::Value(why) => Failure::usage(format!("{name} with --set: {why}")),
+            Refusal::Value(why) if !self.set.is_empty() => {
+                Failure::usage(format!("{name} with --set: {why}"))
+            }
+            Refusal::Text(why) | Refusal::Value(why) => Failure::usage(format!("{name}: {why}")),
         })
     }
 
@@ -229,11 +210,4 @@ fn in_words(reason: &str) -> String {
         // The type is a programmer's word.
         None => visible(&reason.replace("expected f64", "expected a number")),
     }
-}
-
-/// The key by which a text is of the other kind; `None` if a key shows that it is of its own kind.
-fn mistaken<D: Described>(text: &str, format: Format) -> Option<String> {
-    let keys: BTreeMap<String, IgnoredAny> = parse(text, format).ok()?;
-    let own = keys.keys().any(|key| D::is_known_by(key));
-    keys.into_keys().find(|key| !own && D::Other::is_known_by(key))
 }

@@ -1,6 +1,6 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
-use bouncing_disk::{Motor, System};
+use bouncing_disk::System;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
@@ -9,9 +9,6 @@ use crate::range::Words;
 
 /// Disk and platform.
 pub(crate) type SystemArgs = SourceArgs<System>;
-
-/// The tables of a file.
-const TABLES: [&str; 2] = ["platform", "disk"];
 
 /// The parameters: table and key, unit, meaning.
 const FIELDS: [(&str, &str, &str); 10] = [
@@ -26,11 +23,6 @@ const FIELDS: [(&str, &str, &str); 10] = [
     ("disk.preload_acceleration", "m/s^2", "preload acceleration g; gravity, where nothing else presses"),
     ("disk.load_acceleration", "rad/s^2", "angular deceleration by a load, T/(m a_g^2)"),
 ];
-
-/// Whether a key is a parameter, in whatever table it stands.
-pub(super) fn is_parameter(key: &str) -> bool {
-    FIELDS.iter().any(|(path, ..)| path.split_once('.').is_some_and(|(_, name)| name == key))
-}
 
 /// A file, which may lack parameters that --set gives.
 #[derive(Serialize, Deserialize, Default)]
@@ -81,18 +73,10 @@ fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
 }
 
 impl Described for System {
-    type Other = Motor;
-
     const PRESETS: Words<fn() -> Self> = &[
         ("pizza-toss", "The pizza toss of Table I: a stroke of 0.25 m at 15 rad/s", Self::pizza_toss),
         ("motor", "The motor of Table III at 70 kHz", Self::motor),
     ];
-    const FILE: &'static str = "the parameters of a disk and its platform";
-    const READERS: &'static str = "toss, orbits, diagram, verdicts, basins, doublings and design";
-
-    fn is_known_by(key: &str) -> bool {
-        TABLES.contains(&key)
-    }
 
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
         let mut file: File = parse(text, format).map_err(Refusal::Text)?;

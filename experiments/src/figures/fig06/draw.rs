@@ -1,5 +1,6 @@
 //! The drawing of Fig. 6.
 
+use bouncing_disk_plot::pictures::{IMPACT_PHASE, OrbitDiagram};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Margins, Panel,
     Rect, Rule, Stroke, Text, Ticks,
@@ -28,16 +29,10 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
         };
         let panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
         marked(panel, data, (row, column))
-            .layer(
-                DensePoints::new(dots(&data.chattering))
-                    .colour(Colour::LIGHT_GREY)
-                    .radius(0.3)
-                    .name("chattering"),
-            )
+            .layer(DensePoints::new(dots(&data.chattering)).colour(Colour::LIGHT_GREY).name("chattering"))
             .layer(
                 DensePoints::new(dots(&data.followed))
-                    .colour(Colour::rgb(40, 40, 40))
-                    .radius(0.3)
+                    .colour(OrbitDiagram::ALONE)
                     .name("followed from period 1"),
             )
     };
@@ -48,23 +43,11 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
         .chain(&data.chattering)
         .flat_map(|slice| slice.normalised_impact_speed.iter())
         .fold(0.0_f64, |most, speed| most.max(*speed));
+    let [phases, speeds] = OrbitDiagram::axes(fastest);
+    let speeds = speeds.ticks(Ticks::every(0.5).minor(5));
     Figure::new(DOUBLE_COLUMN, HEIGHT).panels([
-        panel(
-            0,
-            0,
-            "a",
-            Axis::linear(0.0, 1.0).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(0.2).minor(4)),
-            |slice| &slice.impact_phase_cycles,
-        ),
-        panel(
-            0,
-            1,
-            "b",
-            Axis::linear(0.0, 1.08 * fastest)
-                .label(r"$|w_A\Gamma/(\omega A)|$")
-                .ticks(Ticks::every(0.5).minor(5)),
-            |slice| &slice.normalised_impact_speed,
-        ),
+        panel(0, 0, "a", phases, |slice| &slice.impact_phase_cycles),
+        panel(0, 1, "b", speeds, |slice| &slice.normalised_impact_speed),
         panel(1, 0, "c", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.linear)
             .legend(Legend::at(Corner::BottomLeft)),
         panel(1, 1, "d", speed().label(r"$\dot{\alpha}'/|\omega\Phi|$"), |slice| &slice.semielliptical),
@@ -129,9 +112,7 @@ fn zoom(data: &Fig06Data, area: Rect) -> Panel {
     let room = 0.12 * (highest - lowest);
     let mut panel = Panel::new(area)
         .x(Axis::linear(low, high).label(r"$\Gamma$").ticks(Ticks::every(0.001).minor(5)))
-        .y(Axis::linear(lowest - room, highest + room)
-            .label(r"$\tau_{imp}/2\pi$")
-            .ticks(Ticks::every(0.01).minor(5)))
+        .y(Axis::linear(lowest - room, highest + room).label(IMPACT_PHASE).ticks(Ticks::every(0.01).minor(5)))
         .letter("a'");
     for n in MARKED_DOUBLINGS {
         let Some(forcing) = data.doublings.get(n - 1) else { continue };
@@ -142,5 +123,5 @@ fn zoom(data: &Fig06Data, area: Rect) -> Panel {
             .layer(Rule::vertical(*forcing).stroke(stroke))
             .layer(text.anchor(Anchor::Middle).size(8.0).colour(Colour::BLUE));
     }
-    panel.layer(DensePoints::new(dots).colour(Colour::rgb(40, 40, 40)).radius(0.3))
+    panel.layer(DensePoints::new(dots).colour(OrbitDiagram::ALONE))
 }

@@ -1,5 +1,6 @@
 //! The drawing of Fig. 7.
 
+use bouncing_disk_plot::pictures::{IMPACT_PHASE, IMPACT_SPEED, crosses};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
     Raster, Rect, Rule, Scatter, Stroke, Text, Ticks,
@@ -28,17 +29,12 @@ fn basin_panel(data: &Fig07Data, basins: &Basins, letter: &str, area: Rect) -> P
     let window = (0.0, data.window_top);
     let rows: Vec<u8> = basins.rows.iter().flat_map(|row| cells(row)).collect();
     let raster = Raster::new(data.cells, data.cells, rows, &PALETTE, (0.0, 1.0), window);
-    let crosses = |spots: &[(f64, f64)], colour: Colour| {
-        Scatter::new(spots.iter().copied()).marker(Marker::Cross).size(5.5).width(1.1).colour(colour)
-    };
     let dots = |spots: &[(f64, f64)], colour: Colour, size: f64| {
         Scatter::new(spots.iter().copied()).marker(Marker::Dot).size(size).colour(colour)
     };
     let panel = Panel::new(area)
-        .x(Axis::linear(0.0, 1.0).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(0.2).minor(2)))
-        .y(Axis::linear(0.0, data.window_top)
-            .label(r"$|w_A\Gamma/(\omega A)|$")
-            .ticks(Ticks::every(1.0).minor(5)))
+        .x(Axis::linear(0.0, 1.0).label(IMPACT_PHASE).ticks(Ticks::every(0.2).minor(2)))
+        .y(Axis::linear(0.0, data.window_top).label(IMPACT_SPEED).ticks(Ticks::every(1.0).minor(5)))
         .title(format!(r"({letter}) $\Gamma = {}$", forcing_text(basins.axial_forcing)))
         .layer(raster)
         .markers_on_top();
@@ -47,8 +43,8 @@ fn basin_panel(data: &Fig07Data, basins: &Basins, letter: &str, area: Rect) -> P
         "e" => panel.layer(dots(&basins.chattering, Colour::BLACK, 1.6)),
         _ => {
             let mut panel = panel
-                .layer(crosses(&basins.attractor, Colour::WHITE))
-                .layer(crosses(&basins.chattering, Colour::BLACK));
+                .layer(crosses(basins.attractor.iter().copied(), Colour::WHITE))
+                .layer(crosses(basins.chattering.iter().copied(), Colour::BLACK));
             for other in &basins.others {
                 let marks = Scatter::new(other.impacts.iter().copied())
                     .marker(Marker::Circle)

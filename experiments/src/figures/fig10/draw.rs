@@ -1,6 +1,7 @@
 //! The drawing of Fig. 10.
 
 use bouncing_disk::estimate::ExponentialFit;
+use bouncing_disk_plot::pictures::FittedCurve;
 use bouncing_disk_plot::{
     Anchor, Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Panel, Rect, Text,
     Ticks,
@@ -51,7 +52,7 @@ fn drawn(
     exception: Option<&Exception>,
 ) -> Panel {
     let fit = panel.member_fit;
-    let smooth = sampled(reading.duration_s, |time| fit.speed(time));
+    let fitted = curve(fit, reading.duration_s);
     let band = panel
         .band_time_s
         .iter()
@@ -68,15 +69,10 @@ fn drawn(
             .label(r"$t$ (s)"))
         .y(Axis::linear(0.0, 1.4 * highest).ticks(Ticks::every(10.0)).label(r"$\dot{\alpha}$ (rad/s)"))
         .layer(named(Line::new(member).colour(Colour::GREY).width(0.6), "a", "one member"))
-        .layer(named(
-            Line::new(smooth).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed),
-            "b",
-            "fit of the member",
-        ))
+        .layer(named(fitted.line(), "b", "fit of the member"))
         .layer(note(0.30, format!("$A = 10^{{{}}}$ m", exponent(panel.amplitude_m))))
         .layer(note(0.22, format!("$g = {}$ m/s$^2$", reading.preload_acceleration_m_per_s2)))
-        .layer(note(0.14, format!(r"$\dot{{\alpha}}_{{ss}} = {:.1}$ rad/s", fit.steady_speed)))
-        .layer(note(0.06, format!("$t_c = {:.3}$ s", fit.time_constant)));
+        .layers(fitted.notes(1, 0.06, 0.08));
     let band = Band::new(band).colour(Colour::BLUE).opacity(0.30);
     drawn = drawn.layer(if letter == "b" { band.name("ensemble") } else { band });
     if let Some(exception) = exception {
@@ -90,12 +86,9 @@ fn drawn(
     if matches!(letter, "a" | "b") { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
 }
 
-/// A curve at 201 times from 0 to `duration`.
-fn sampled(duration: f64, curve: impl Fn(f64) -> f64) -> impl Iterator<Item = (f64, f64)> {
-    (0..=200).map(move |i| {
-        let time = duration * f64::from(i) / 200.0;
-        (time, curve(time))
-    })
+/// A fit from the start to a time (s).
+fn curve(fit: ExponentialFit, end: f64) -> FittedCurve {
+    FittedCurve::new((fit.steady_speed, fit.time_constant), (0.0, end), |time| fit.speed(time))
 }
 
 /// The panel of a trial; `model` is the fit to the computed curves that it is compared with.
@@ -111,9 +104,8 @@ fn measured_panel(area: Rect, trials: &[Trial], trial: &Trial, model: Exponentia
     let points = trial.time_s.iter().copied().zip(trial.angular_speed_rad_per_s.iter().copied());
     // The words stand where the curve does not go.
     let bottom = if fit.steady_speed < 0.0 { 0.74 } else { 0.04 };
-    let note =
-        |line: f64, text: String| Text::at_axes(0.96, bottom + 0.08 * line, text).anchor(Anchor::Right);
-    let curve = |fit: ExponentialFit| sampled(last, move |time| fit.speed(time));
+    let name = format!("measured, trial ${}$", trial.trial);
+    let fitted = curve(fit, last);
     let drawn = Panel::new(area)
         .letter_in(
             ["g", "h", "i"].get(trial.trial as usize - 1).copied().unwrap_or_default(),
@@ -123,11 +115,10 @@ fn measured_panel(area: Rect, trials: &[Trial], trial: &Trial, model: Exponentia
         .y(Axis::linear(if low < 0.0 { low - room } else { 0.0 }, high + 8.0 * room)
             .label(r"$\dot{\alpha}$ (rad/s)"))
         .layer(Line::new(points).colour(Colour::BLUE).width(0.6).name("measured"))
-        .layer(Line::new(curve(model)).colour(Colour::VERMILION).dash(Dash::Dotted).name("model, (b)"))
-        .layer(Line::new(curve(fit)).colour(Colour::BLACK).width(1.0).dash(Dash::Dashed).name("fit"))
-        .layer(note(2.0, format!("measured, trial ${}$", trial.trial)))
-        .layer(note(1.0, format!(r"$\dot{{\alpha}}_{{ss}} = {:.1}$ rad/s", fit.steady_speed)))
-        .layer(note(0.0, format!("$t_c = {:.3}$ s", fit.time_constant)));
+        .layer(curve(model, last).line().colour(Colour::VERMILION).dash(Dash::Dotted).name("model, (b)"))
+        .layer(fitted.line().name("fit"))
+        .layer(Text::at_axes(0.96, bottom + 0.16, name).anchor(Anchor::Right))
+        .layers(fitted.notes(1, bottom, 0.08));
     let first = trials.first().is_some_and(|first| first.trial == trial.trial);
     if first { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
 }

@@ -89,16 +89,20 @@ fn zoomed(area: Rect, shown: &Shown) -> Panel {
     Panel::new(area).x(Axis::linear(first, last).label(r"$t$ (s)"))
 }
 
+fn speed_axis(slowest: f64, fastest: f64) -> Axis {
+    let room = 0.05 * (fastest - slowest);
+    Axis::linear(slowest - room, fastest + room)
+        .label(r"$\dot{\alpha}$ (rad/s)")
+        .ticks(Ticks::every(tick_step(fastest - slowest)))
+}
+
 /// The speed in the zoom.
 fn speeds(area: Rect, shown: &Shown) -> Panel {
     let zoom = &shown.zoom;
     let points = zoom.time_s.iter().copied().zip(zoom.speed_rad_per_s.iter().copied());
     let slowest = zoom.speed_rad_per_s.iter().copied().fold(f64::INFINITY, f64::min);
     let fastest = zoom.speed_rad_per_s.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let y = Axis::around([slowest, fastest]).label(r"$\dot{\alpha}$ (rad/s)");
-    zoomed(area, shown)
-        .y(y.ticks(Ticks::every(tick_step(fastest - slowest))))
-        .layer(Line::new(points).width(0.8))
+    zoomed(area, shown).y(speed_axis(slowest, fastest)).layer(Line::new(points).width(0.8))
 }
 
 /// The flights of some cycles of low period, each of a cycle in a shade of its own: they form lines.
@@ -113,12 +117,9 @@ fn lines(area: Rect, shown: &Shown) -> Panel {
     };
     let ((first, last), (slowest, fastest)) = (extent(|point| point.0), extent(|point| point.1));
     let margin = 0.03 * (last - first);
-    let mut panel =
-        Panel::new(area).x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)")).y(Axis::around([
-            slowest, fastest,
-        ])
-        .label(r"$\dot{\alpha}$ (rad/s)")
-        .ticks(Ticks::every(tick_step(fastest - slowest))));
+    let mut panel = Panel::new(area)
+        .x(Axis::linear(first - margin, last + margin).label(r"$t$ (s)"))
+        .y(speed_axis(slowest, fastest));
     for flight in 0..flights {
         let of_flight: Vec<(f64, f64)> = points.iter().copied().skip(flight).step_by(flights).collect();
         let colour = [Colour::BLUE, Colour::VERMILION, Colour::GREEN, Colour::BLACK][flight % 4];

@@ -2,7 +2,9 @@
 
 use bouncing_disk::motor::{InputSpread, MotorField, Operation, SweepQuantity};
 
-use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
+use bouncing_disk_plot::Figure;
+
+use super::settings::{SettingsArgs, SpreadArgs, interval, lock_note, state, warn};
 use crate::commands::prelude::*;
 
 /// Loads unless given: points from none to the largest torque.
@@ -61,9 +63,23 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
         text: shown().to_text(&rows) + &lock_note(&motor)?,
         table: columns().csv_of(rows),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
-        figure: Some(Box::new(move || pictures::motor_curve::draw(motor.largest_torque(), &found))),
+        figure: Some(Box::new(move || draw(motor.largest_torque(), &found))),
     };
     report.deliver(&args.output, context.quiet)
+}
+
+fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
+    let point = |operation: &Operation| {
+        let of = |quantity: SweepQuantity| quantity.of(operation).map(interval);
+        pictures::LoadPoint {
+            load_torque: operation.load_torque(),
+            speed: of(SweepQuantity::Speed),
+            input_power: of(SweepQuantity::InputPower),
+            mechanical_power: of(SweepQuantity::MechanicalPower),
+            efficiency: of(SweepQuantity::Efficiency),
+        }
+    };
+    pictures::torque_speed(largest_torque, &found.iter().map(point).collect::<Vec<_>>())
 }
 
 /// A load, and the spread over motors within the tolerance, where it was asked for.

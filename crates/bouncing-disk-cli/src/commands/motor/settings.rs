@@ -3,7 +3,8 @@
 use crate::commands::prelude::*;
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
-use bouncing_disk::motor::{InputTolerance, OperatingSettings, Operation};
+use bouncing_disk::core::numerics::statistics::NORMAL_975;
+use bouncing_disk::motor::{Estimate, InputTolerance, OperatingSettings, Operation};
 use serde::Serialize;
 
 /// The settings of the library, with its defaults.
@@ -83,6 +84,11 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
         Operation::Runaway { .. } => "runaway",
         _ => "unknown",
     }
+}
+
+/// A value, and half the width of its 95 % interval, for a picture.
+pub(super) fn interval(estimate: Estimate) -> (f64, f64) {
+    (estimate.value, NORMAL_975 * estimate.standard_error)
 }
 
 /// The arguments of a command that looks for one operation of a motor.

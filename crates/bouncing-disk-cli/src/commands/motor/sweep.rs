@@ -5,13 +5,15 @@ use std::str::FromStr;
 
 use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::motor::{
-    MotorField, MotorSweep, MotorSweepRun, OperatingSettings, Operation, SweepAxis, SweepQuantity, operations,
+    MotorField, MotorSweep, MotorSweepResult, MotorSweepRun, OperatingSettings, Operation, SweepAxis,
+    SweepQuantity, operations,
 };
 use bouncing_disk::{Motor, Observer};
+use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, state, warn};
+use super::settings::{SettingsArgs, interval, state, warn};
 use crate::commands::prelude::*;
 
 /// A motor over one or two fields of its data sheet
@@ -180,7 +182,30 @@ impl GridJob for SweepJob {
             text: columns.to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
-            figure: Some(Box::new(move || pictures::sweep::draw(&result, quantity))),
+            figure: Some(Box::new(move || draw(&result, quantity))),
         })
+    }
+}
+
+/// The quantity over the axes. What a cell does not have is a gap in a curve, and grey in a map.
+fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
+    let (name, unit, scale) = match quantity {
+        SweepQuantity::Efficiency => (quantity.name(), "%", 100.0),
+        other => (other.name(), other.unit(), 1.0),
+    };
+    let estimates =
+        result.cells().iter().map(|cell| quantity.of(cell).map_or((f64::NAN, f64::NAN), interval));
+    let (values, halves): (Vec<f64>, Vec<f64>) =
+        estimates.map(|(value, half)| (scale * value, scale * half)).unzip();
+    let cells = pictures::Quantity { name, unit, values: &values };
+    let along = |axis: &'a SweepAxis| pictures::Quantity {
+        name: axis.parameter.name(),
+        unit: axis.parameter.unit(),
+        values: &axis.values,
+    };
+    match result.axes() {
+        [rows, columns, ..] => pictures::heat_map(&along(columns), &along(rows), &cells),
+        [only] => pictures::swept_curve(&along(only), &cells, &halves),
+        [] => Figure::new(SINGLE_COLUMN, SINGLE_COLUMN),
     }
 }

@@ -6,10 +6,11 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitSettings, LEAST_MEMBERS, TransientEnsemble, TransientFit};
 use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
 use bouncing_disk::{Motor, Observer};
+use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 
 use super::settings::warn;
-use crate::commands::fit::{estimates, refusal};
+use crate::commands::fit::{estimates, fitted_curve, refusal};
 use crate::commands::prelude::*;
 
 /// The run-up from rest, of one motor or many, with its fit
@@ -149,7 +150,25 @@ impl GridJob for TransientJob {
                 ("curves", stored(&ensemble.curves)?),
                 ("member_fits", stored(&ensemble.fits)?),
             ],
-            figure: Some(Box::new(move || pictures::transient::draw(&ensemble, fit.as_ref(), judged))),
+            figure: Some(Box::new(move || draw(&ensemble, fit.as_ref(), judged))),
         })
     }
+}
+
+/// Runs with their fit; of runs too few for a fit that can be judged, with that of the first. A fit that was judged
+/// and refused is not drawn.
+fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>, judged: bool) -> Figure {
+    let times = &ensemble.curves[0].times;
+    let end = times.last().copied().unwrap_or(1.0);
+    let own = ensemble.fits[0];
+    let of_one = || {
+        pictures::FittedCurve::new((own.steady_speed, own.time_constant), (0.0, end), |time| own.speed(time))
+    };
+    let runs: Vec<&[f64]> = ensemble.curves.iter().map(|curve| curve.speeds.as_slice()).collect();
+    let fit = match fit {
+        Some(fit) => Some((fitted_curve(fit, end), "fit of the mean")),
+        None if judged => None,
+        None => Some((of_one(), "fit of the run")),
+    };
+    pictures::RunUp { times, runs: &runs, name: "one run", fit }.draw()
 }

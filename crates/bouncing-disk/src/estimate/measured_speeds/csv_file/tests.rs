@@ -211,18 +211,18 @@ fn only_regular_files_are_read() {
         other => panic!("{other:?}"),
     };
     assert_eq!(reason(&folder.join("none.csv")).kind(), io::ErrorKind::NotFound);
-    assert_eq!(reason(&folder).to_string(), "it is a folder; legal is a regular file");
+    assert_eq!(reason(&folder).to_string(), "it is a folder, not a regular file");
     #[cfg(unix)]
     {
         let told = reason(Path::new("/dev/zero")).to_string();
-        assert_eq!(told, "it is a device; legal is a regular file");
+        assert_eq!(told, "it is a device, not a regular file");
         let socket = folder.join("socket");
         let _socket = std::os::unix::net::UnixListener::bind(&socket).expect("writable");
-        assert_eq!(reason(&socket).to_string(), "it is a socket; legal is a regular file");
+        assert_eq!(reason(&socket).to_string(), "it is a socket, not a regular file");
         // A named pipe would wait for a writer for ever; only a program of the system makes one.
         let pipe = folder.join("pipe");
         if std::process::Command::new("mkfifo").arg(&pipe).status().is_ok_and(|status| status.success()) {
-            assert_eq!(reason(&pipe).to_string(), "it is a named pipe; legal is a regular file");
+            assert_eq!(reason(&pipe).to_string(), "it is a named pipe, not a regular file");
         }
     }
     fs::remove_dir_all(folder).expect("removable");

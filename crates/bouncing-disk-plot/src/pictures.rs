@@ -1,0 +1,15 @@
+//! Whole pictures of results, each from plain numbers alone: slices, ends of axes, words.
+
+mod diagram;
+mod impact_plane;
+mod maps;
+mod torque_speed;
+mod toss;
+mod transient;
+
+pub use diagram::{OrbitDiagram, OrbitsFrom, doublings};
+pub use impact_plane::{IMPACT_PHASE, IMPACT_SPEED, crosses, forcing_and_restitution, periodic_orbits};
+pub use maps::{Basins, REGIMES, Regimes, heat_map, key};
+pub use torque_speed::{LoadPoint, Quantity, interval_curve, swept_curve, torque_speed};
+pub use toss::{LONGEST_MOTION, TossInstant, toss};
+pub use transient::{FittedCurve, RunUp};

@@ -1,0 +1,227 @@
+//! Quantities of a motor with their intervals: over the load, and over another parameter.
+
+use crate::annotation::Text;
+use crate::axis::Axis;
+use crate::colour::Colour;
+use crate::figure::{Figure, SINGLE_COLUMN};
+use crate::frame::{Grid, Margins, Rect};
+use crate::layer::Layer;
+use crate::legend::{Corner, Legend};
+use crate::line::{Band, Line, Rule};
+use crate::numbers::rounded;
+use crate::panel::Panel;
+use crate::scatter::{Marker, Scatter};
+use crate::style::{Fill, Stroke};
+use crate::text_style::Anchor;
+
+/// Values of one quantity in its plain unit.
+#[derive(Debug)]
+pub struct Quantity<'a> {
+    /// Its name; `_` stands for a space.
+    pub name: &'a str,
+    /// Its unit, `1` where it has none.
+    pub unit: &'a str,
+    /// The values; what is not finite is a gap.
+    pub values: &'a [f64],
+}
+
+impl Quantity<'_> {
+    /// The factor that makes the values of the size of 1, and the unit with its prefix.
+    fn prefixed(&self) -> (f64, String) {
+        let finite = self.values.iter().filter(|value| value.is_finite());
+        let size = finite.fold(0.0_f64, |most, value| most.max(value.abs()));
+        let prefixes = [(1.0, ""), (1e3, "m"), (1e6, "µ"), (1e9, "n")];
+        let fits = |scale: &f64| size == 0.0 || size * scale >= 1.0;
+        let (scale, prefix) = prefixes.into_iter().find(|(scale, _)| fits(scale)).unwrap_or((1.0, ""));
+        match self.unit {
+            "1" => (1.0, String::new()),
+            // Not a millikilogram.
+            "kg" if size > 0.0 && size < 1.0 => (1e3, "g".to_owned()),
+            "kg" => (1.0, "kg".to_owned()),
+            unit @ ("m" | "N" | "N m" | "W") => (scale, format!("{prefix}{unit}")),
+            // Angles, shares and frequencies are left as they are.
+            unit => (1.0, unit.replace("^2", "$^2$").replace("^3", "$^3$")),
+        }
+    }
+
+    /// The values as they are drawn, and the label of their axis.
+    pub(super) fn shown(&self) -> (Vec<f64>, String) {
+        let (scale, unit) = self.prefixed();
+        let name = self.name.replace('_', " ");
+        let label = if unit.is_empty() { name } else { format!("{name} ({unit})") };
+        (self.values.iter().map(|value| scale * value).collect(), label)
+    }
+}
+
+/// A place on the axis, a value, and half the width of its interval.
+type Point = (f64, f64, f64);
+
+/// A curve through values, with dots, and a band of their intervals; `name` goes into the legend.
+pub fn interval_curve(points: &[Point], colour: Colour, band: Fill, name: Option<&str>) -> [Layer; 3] {
+    let line = || points.iter().map(|point| (point.0, point.1));
+    let area = Band::new(points.iter().map(|(x, y, half)| (*x, y - half, y + half)));
+    let dots = Scatter::new(line().filter(|point| point.1.is_finite())).size(2.6).colour(colour);
+    let dots = if let Some(name) = name { dots.name(name) } else { dots };
+    [area.style(band).into(), Line::new(line()).width(0.8).colour(colour).into(), dots.into()]
+}
+
+/// A quantity, with the half widths of its intervals, over one parameter.
+pub fn swept_curve(along: &Quantity<'_>, quantity: &Quantity<'_>, half_widths: &[f64]) -> Figure {
+    let ((places, place_label), (values, label)) = (along.shown(), quantity.shown());
+    let scale = quantity.prefixed().0;
+    let halves = half_widths.iter().map(|half| scale * half);
+    let points: Vec<Point> =
+        places.iter().zip(values).zip(halves).map(|((x, y), half)| (*x, y, half)).collect();
+    let panel = Panel::new(Rect::new(48.0, 12.0, 186.0, 150.0))
+        .x(Axis::around(places).label(place_label))
+        .y(Axis::around(points.iter().flat_map(|(_, y, half)| [y - half, y + half, 0.0])).label(label))
+        .layers(interval_curve(&points, Colour::BLUE, Fill::new(Colour::LIGHT_GREY, 0.8), None));
+    Figure::new(SINGLE_COLUMN, 202.0).panel(panel)
+}
+
+/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has a steady
+/// speed.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadPoint {
+    /// The load torque (N m).
+    pub load_torque: f64,
+    /// The mean speed (rad/s).
+    pub speed: Option<(f64, f64)>,
+    /// The power that the stator puts in (W).
+    pub input_power: Option<(f64, f64)>,
+    /// The mechanical power (W).
+    pub mechanical_power: Option<(f64, f64)>,
+    /// The share of the power put in that becomes mechanical.
+    pub efficiency: Option<(f64, f64)>,
+}
+
+/// The share of the lower panel that the legend leaves to the curves.
+const UNDER_LEGEND: f64 = 0.68;
+
+/// The distance of the foot of a rotated name from its rule (points): room for what is below its line.
+const NEXT_TO_RULE: f64 = 3.0;
+
+/// Two panels over the load: speed, and powers with the efficiency. Beyond `largest_torque` (N m) the load
+/// overpowers the motor.
+pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
+    const HEIGHT: f64 = 330.0;
+    let margins = Margins { left: 46.0, right: 44.0, top: 10.0, bottom: 34.0 };
+    let grid = Grid::new(SINGLE_COLUMN + 30.0, HEIGHT, 2, 1).margins(margins).gaps(10.0, 12.0);
+    let loads: Vec<f64> = found.iter().map(|own| own.load_torque).collect();
+    let loads = Quantity { name: "load torque $T$", unit: "N m", values: &loads };
+    let (torque, torque_unit) = loads.prefixed();
+    let (loads, load_label) = loads.shown();
+    let points = |of: fn(&LoadPoint) -> Option<(f64, f64)>, scale: f64| -> Vec<Point> {
+        let own = found.iter().zip(&loads).filter_map(|(own, load)| Some((*load, of(own)?)));
+        own.map(|(load, (value, half))| (load, scale * value, scale * half)).collect()
+    };
+    let curve = |points: &[Point], colour: Colour, name: Option<&str>| {
+        interval_curve(points, colour, Fill::new(colour, 0.2), name)
+    };
+    let speeds = points(|own| own.speed, 1.0);
+    let (first, last) = Axis::ends_around(loads.iter().copied());
+    let x = || Axis::spanned(first, last);
+    // Beyond the loads that were asked for there is nothing to see.
+    let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
+    let rule = || limit.map(|limit| Rule::vertical(limit).stroke(Stroke::new(Colour::DARK_GREY, 0.8)));
+    let (slowest, fastest) =
+        Axis::ends_around(speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2, 0.0]));
+    // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of what is
+    // below zero.
+    let beside = |load: f64, label: String, below_zero: bool| {
+        let left = (load - first) / (last - first) - NEXT_TO_RULE / grid.cell(0, 0).width;
+        let (height, anchor) = if below_zero {
+            (-0.5 * slowest / (fastest - slowest), Anchor::Middle)
+        } else {
+            (0.97, Anchor::Right)
+        };
+        Text::at_axes(left, height, label).anchor(anchor).rotated(90.0).size(7.5).halo(Colour::WHITE)
+    };
+    let stall = stall(&speeds);
+    let stall_rule = || stall.map(|stall| Rule::vertical(stall).stroke(Stroke::new(Colour::GREY, 0.5)));
+    // Two digits are what a straight line between two loads is good for. There is more room on one side; left of
+    // the stall the speed is above zero.
+    let stall_name =
+        |stall: f64| beside(stall, format!("stall, {} {torque_unit}", rounded(stall, 2)), -slowest > fastest);
+    let nothing = || {
+        let words = Text::at_axes(0.5, 0.6, "no load has a steady speed").anchor(Anchor::Middle);
+        speeds.is_empty().then(|| words.size(8.0).halo(Colour::WHITE))
+    };
+    let upper = Panel::new(grid.cell(0, 0))
+        .x(x().without_numbers())
+        .y(Axis::spanned(slowest, fastest).label(r"mean speed $\dot{\alpha}$ (rad/s)"))
+        .letter_in("a", Corner::BottomLeft)
+        .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
+        .layers(rule())
+        .layers(stall_rule())
+        .layers(curve(&speeds, Colour::BLUE, None))
+        .layers(stall.map(|stall| {
+            Scatter::new([(stall, 0.0)]).marker(Marker::Circle).size(4.5).colour(Colour::BLUE).filled_white()
+        }))
+        .layers(stall.map(stall_name))
+        .layers(limit.map(|limit| beside(limit, r"largest torque $\mu m g a_e$".to_owned(), false)))
+        .layers(nothing());
+    let powers: Vec<f64> = found.iter().filter_map(|own| Some(own.input_power?.0)).collect();
+    let power = Quantity { name: "power", unit: "W", values: &powers };
+    let (scale, power_label) = (power.prefixed().0, power.shown().1);
+    let (input, output) = (points(|own| own.input_power, scale), points(|own| own.mechanical_power, scale));
+    let efficiency = points(|own| own.efficiency, 100.0);
+    // Both zeros at one height, and room above for the names.
+    let ends = |points: &mut dyn Iterator<Item = f64>| {
+        points.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
+    };
+    let (low, high) = ends(&mut input.iter().chain(&output).map(|point| point.1));
+    let low = 1.1 * low;
+    let high = low + (or_one(high) - low) / UNDER_LEGEND;
+    let below = -low / high;
+    let best = 1.1 * or_one(ends(&mut efficiency.iter().map(|point| point.1)).1)
+        / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
+    let share = || efficiency.iter().map(|point| (point.0, point.1));
+    let lower = Panel::new(grid.cell(1, 0))
+        .x(x().label(load_label))
+        .y(Axis::spanned(low, high).label(power_label))
+        .right(Axis::spanned(low / high * best, best).label("efficiency (%)"))
+        .letter_in("b", Corner::BottomLeft)
+        .layers(rule())
+        .layers(stall_rule())
+        .layers(curve(&input, Colour::GREY, Some("put in")))
+        .layers(curve(&output, Colour::BLUE, Some("mechanical")))
+        .layer_right(Line::new(share()).width(0.8).colour(Colour::VERMILION))
+        .layer_right(Scatter::new(share()).size(2.6).colour(Colour::VERMILION).name("efficiency"));
+    let legend = Legend::at(Corner::TopLeft).without_frame().inset(4.0);
+    let lower = if speeds.is_empty() { lower } else { lower.legend(legend) };
+    Figure::new(SINGLE_COLUMN + 30.0, HEIGHT).panels([upper, lower])
+}
+
+/// The load at which the motor stops, on the straight line between the two loads (each with its speed and the
+/// half width of an interval) at which it turns to opposite sides; `None` where nothing tells the two speeds
+/// apart.
+fn stall(speeds: &[Point]) -> Option<f64> {
+    speeds.windows(2).find_map(|pair| {
+        let [(load, speed, bar), (next_load, next, next_bar)] = *pair else { return None };
+        let stops = (speed > 0.0) != (next > 0.0) && (speed - next).abs() > bar + next_bar;
+        stops.then(|| load + (next_load - load) * speed / (speed - next))
+    })
+}
+
+/// The largest value of an axis; where nothing is above zero, one.
+fn or_one(largest: f64) -> f64 {
+    if largest > 0.0 { largest } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_stall_lies_where_the_speed_changes_its_sign() {
+        let at = |points: &[Point]| stall(points);
+        assert_eq!(at(&[(0.0, 8.0, 0.1), (1.0, 3.0, 0.1), (2.0, -1.0, 0.1), (3.0, -9.0, 0.1)]), Some(1.75));
+        assert_eq!(at(&[(0.0, -3.0, 0.1), (1.0, 0.0, 0.1), (2.0, 3.0, 0.1)]), Some(1.0));
+        // It always lies within the loads, and a motor that does not turn has none.
+        for none in [&[][..], &[(0.0, 8.0, 0.1)], &[(0.0, 8.0, 0.1), (1.0, 7.0, 0.1)]] {
+            assert_eq!(at(none), None);
+        }
+        assert_eq!(at(&[(0.0, 0.1, 0.3), (1.0, -0.1, 0.3)]), None);
+    }
+}
