@@ -65,11 +65,16 @@ pub(super) fn cycles(
     Ok(cycles)
 }
 
-/// The flights, as duration and impact speed, of a disk that leaves the platform from rest, and the time (radians) at which it is at rest again; `None` where it is not.
-fn to_rest(
-    map: &ImpactMap,
-    policy: ChatterPolicy,
-) -> Result<Option<(Vec<(f64, f64)>, f64)>, ExperimentError> {
+/// How a disk that leaves the platform from rest comes to rest again.
+struct ToRest {
+    /// Durations (radians) and impact speeds.
+    flights: Vec<(f64, f64)>,
+    /// The time of rest (radians).
+    time: f64,
+}
+
+/// `None` where the disk does not leave or does not come to rest.
+fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, ExperimentError> {
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
     let mut orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy);
     let (mut flights, mut time) = (Vec::new(), 0.0);
@@ -80,7 +85,7 @@ fn to_rest(
                 flights.push((impact.duration(), -impact.velocity));
             }
             Some(OrbitEvent::Attachment(rest)) => {
-                return Ok(Some((flights, time + rest.accumulation.duration)));
+                return Ok(Some(ToRest { flights, time: time + rest.accumulation.duration }));
             }
             _ => return Ok(None),
         }
@@ -92,13 +97,13 @@ fn to_rest(
 pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter>, ExperimentError> {
     let chatter = |&axial_forcing: &f64| -> Result<Option<Chatter>, ExperimentError> {
         let map = map(axial_forcing, restitution)?;
-        let (Some((flights, cut)), Some((_, rests))) =
+        let (Some(cut), Some(rests)) =
             (to_rest(&map, PAPER_CHATTER)?, to_rest(&map, ChatterPolicy::Complete)?)
         else {
             return Ok(None);
         };
-        let long = flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
-        let chatter = &flights[long.map_or(0, |long| long + 1)..];
+        let long = cut.flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
+        let chatter = &cut.flights[long.map_or(0, |long| long + 1)..];
         let falls = |of: fn(&(f64, f64)) -> f64| {
             trend(chatter.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
         };
@@ -107,8 +112,8 @@ pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter
             impacts: chatter.len(),
             slower: falls(|flight| flight.1),
             shorter: falls(|flight| flight.0),
-            rests_at_cycles: rests / TAU,
-            cut_at_cycles: cut / TAU,
+            rests_at_cycles: rests.time / TAU,
+            cut_at_cycles: cut.time / TAU,
         }))
     };
     forcings.iter().map(chatter).filter_map(Result::transpose).collect()
