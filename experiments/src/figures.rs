@@ -45,3 +45,6 @@ pub mod table1;
 pub mod table2;
 pub mod table3;
 mod toss_case;
+
+/// The range of Γ of the diagrams of Fig. 6, to whose end Fig. 7 looks for starts that do not come to rest.
+pub(crate) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);

@@ -634,7 +634,7 @@ mod tests {
         file.set_len(LARGEST_FILE + 1).expect("writable");
         // The figure shows the message.
         assert_ne!(read().digest(&layout), digest);
-        unreadable("it has 67108865 bytes; legal are 67108864 or fewer").expect("removable");
+        unreadable("it has 67108865 bytes; at most 67108864 are read").expect("removable");
         // A folder of something else; its files are not read.
         (0..30).for_each(|index| write(&format!("z\n{index:02}.csv"), ""));
         let unknown: Vec<_> = read().unknown().iter().map(ToString::to_string).collect();

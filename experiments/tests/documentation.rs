@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::report::pages::{
-    DIGESTS_FILE, Digests, LARGEST_PICTURE, Pictures, TEMPLATE, digest,
+    DIGESTS_FILE, Digests, LARGEST_PICTURE, LARGEST_VECTOR, Pictures, TEMPLATE, digest,
 };
 
 /// All pictures of a folder together may be so large (bytes).
@@ -38,6 +38,12 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
             assert_eq!(digest(&picture), digests.picture, "{id}.png was edited");
             assert!(picture.len() <= LARGEST_PICTURE, "{id}.png has {} bytes", picture.len());
             together += picture.len();
+            if let Some(expected) = &digests.vector {
+                let vector =
+                    fs::read(folder.join(format!("{id}.svg"))).expect("the vector file is committed");
+                assert_eq!(digest(&vector), *expected, "{id}.svg was edited");
+                assert!(vector.len() <= LARGEST_VECTOR, "{id}.svg has {} bytes", vector.len());
+            }
         }
         assert!(together <= ALL_PICTURES, "the pictures have {together} bytes");
     }

@@ -101,7 +101,7 @@ mod tests {
         fs::write(&file, b"1234").expect("writable");
         assert_eq!(read(&file, 4).expect("regular"), b"1234");
         let error = read(&file, 3).expect_err("too large");
-        assert_eq!(error.to_string(), "it has 4 bytes; legal are 3 or fewer");
+        assert_eq!(error.to_string(), "it has 4 bytes; at most 3 are read");
         let error = read(&path, 4).expect_err("a folder");
         assert_eq!(error.to_string(), "it is a folder, not a regular file");
         assert_eq!(read(&path.join("none"), 4).expect_err("absent").kind(), ErrorKind::NotFound);

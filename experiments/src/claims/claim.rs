@@ -171,9 +171,9 @@ impl Claim {
             [false, false] => Verdict::Differs,
         };
         let words = if self.verdict == Verdict::NotComputable {
-            "the paper does not define what decides, and definitions that were tried give different verdicts"
+            "the paper does not define what decides, and the definitions tried give different verdicts"
         } else {
-            "the paper does not define what decides; no definition that was tried reproduces it, and the kindest counts"
+            "the paper does not define what decides; no definition tried reproduces it, and the kindest counts"
         };
         self.note(words)
     }

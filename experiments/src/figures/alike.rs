@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor_case::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
-use super::numbers::StraightLine;
+use super::numbers::{StraightLine, middle_range};
 use crate::experiment::ExperimentError;
 
 /// Intervals over which the speed of a transient is averaged.
@@ -116,8 +116,41 @@ fn turn(curve: &SpeedCurve) -> Option<f64> {
     Some((reaches(0.98)? - reaches(0.90)?) / reaches(0.50)?)
 }
 
+/// The middle nine tenths of the speeds of motors that print alike, against time.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SpeedBand {
+    pub(crate) time_s: Vec<f64>,
+    pub(crate) low_rad_per_s: Vec<f64>,
+    pub(crate) high_rad_per_s: Vec<f64>,
+}
+
+impl SpeedBand {
+    /// The intervals of the curves are equal parts of durations that differ by what the rise times do: a per cent.
+    fn of(curves: &[SpeedCurve]) -> Self {
+        let points = curves.iter().map(|curve| curve.times.len()).min().unwrap_or(0);
+        let mut band = Self { time_s: Vec::new(), low_rad_per_s: Vec::new(), high_rad_per_s: Vec::new() };
+        for point in 0..points {
+            if let Some([low, high]) = middle_range(curves.iter().map(|curve| curve.speeds[point])) {
+                band.time_s
+                    .push(curves.iter().map(|curve| curve.times[point]).sum::<f64>() / curves.len() as f64);
+                band.low_rad_per_s.push(low);
+                band.high_rad_per_s.push(high);
+            }
+        }
+        band
+    }
+}
+
 /// The motors from rest, over `rises` rise times each; their starting phases are spread evenly over the cycle of the platform.
 pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>, ExperimentError> {
+    Ok(alike_with_band(motors, rises)?.0)
+}
+
+/// The same, with the speeds that most of them have.
+pub(crate) fn alike_with_band(
+    motors: &[MotorCase],
+    rises: f64,
+) -> Result<(Vec<AlikeMotor>, SpeedBand), ExperimentError> {
     let duration = |motor: &MotorCase| rises * motor.rise_time_s();
     let members = motors
         .iter()
@@ -136,12 +169,13 @@ pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>,
             })
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
-    let curves = transients(&members, &Unobserved)?;
-    motors
+    let curves = transients(&members, &Unobserved)?.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let alike = motors
         .par_iter()
-        .zip(curves)
-        .map(|(motor, curve)| AlikeMotor::of(motor, &curve?, duration(motor)))
-        .collect()
+        .zip(&curves)
+        .map(|(motor, curve)| AlikeMotor::of(motor, curve, duration(motor)))
+        .collect::<Result<_, ExperimentError>>()?;
+    Ok((alike, SpeedBand::of(&curves)))
 }
 
 #[cfg(test)]

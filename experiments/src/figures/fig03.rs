@@ -1,22 +1,16 @@
 //! Fig. 3: flow chart of the simulation, from the modes and events that really occur.
 
-mod cycle;
+mod census;
 mod draw;
 mod sprung;
 
-use std::{
-    collections::BTreeMap,
-    f64::consts::{FRAC_PI_2, PI},
-};
-
-use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motion::Transition;
-use bouncing_disk::parameters::{DimensionlessParameters, DimensionlessSystem};
-use bouncing_disk::{Engine, InitialCondition};
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 
-use self::{cycle::cycle, sprung::sprung};
+use self::census::{Census, ChatteringCycle, census, cycle};
+use self::sprung::{Sprung, sprung};
 use crate::claims::{self as claim, Claim};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -58,11 +52,11 @@ impl Experiment for Fig03 {
     }
 
     fn draw(data: &Fig03Data) -> Result<Figure, ExperimentError> {
-        Ok(draw::draw(data))
+        Ok(draw::draw(&data.census, &data.cycle))
     }
 
     fn claims(data: &Fig03Data) -> Vec<Claim> {
-        vec![sprung_rotor(data)]
+        vec![sprung_rotor(data), cap(&data.census)]
     }
 
     fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
@@ -105,163 +99,6 @@ pub struct Fig03Data {
     sprung: Sprung,
 }
 
-/// The transitions of many motions.
-#[derive(Debug, Serialize, Deserialize)]
-struct Census {
-    peak_accelerations: Vec<f64>,
-    twist_speeds: Vec<f64>,
-    phase_lags_rad: Vec<f64>,
-    frictions: Vec<f64>,
-    restitutions: Vec<f64>,
-    loads: Vec<f64>,
-    longest_motion: usize,
-    motions: u64,
-    events: u64,
-    /// In the order of the modes and events.
-    transitions: Vec<Counted>,
-}
-
-/// A transition and how often it occurred.
-#[derive(Debug, Serialize, Deserialize)]
-struct Counted {
-    transition: Transition,
-    number: u64,
-}
-
-/// From one separation to the next; time in periods from the first collision between them, heights in
-/// amplitudes of the platform.
-#[derive(Debug, Serialize, Deserialize)]
-struct ChatteringCycle {
-    axial_forcing: f64,
-    restitution: f64,
-    time_cycles: Vec<f64>,
-    disk_height: Vec<f64>,
-    platform_height: Vec<f64>,
-    /// The height of the first impact, which is at time 0.
-    collision_height: f64,
-    attachment_cycles: f64,
-    attachment_height: f64,
-    separation_cycles: f64,
-    separation_height: f64,
-    /// Impacts before those that the attachment sums.
-    impacts: usize,
-}
-
-/// Springs under the motors of Fig. 10.
-#[derive(Debug, Serialize, Deserialize)]
-struct Sprung {
-    /// See `deflection_for_share_m`.
-    preload_share: f64,
-    motors: Vec<SprungMotor>,
-}
-
-/// A motor of Table III with an amplitude.
-#[derive(Debug, Serialize, Deserialize)]
-struct SprungMotor {
-    amplitude_m: f64,
-    axial_forcing: f64,
-    /// Events of the motion from rest under constant preload in which the highest point was looked for.
-    events: usize,
-    /// From the stator's lowest point to the rotor's highest.
-    travel_m: f64,
-    /// The static deflection for which the preload changes by the share, from end to end of the travel.
-    deflection_for_share_m: f64,
-    /// The first flight of a rotor at rest.
-    flight_cycles: f64,
-    springs: Vec<SprungFlight>,
-}
-
-/// The first flight of a rotor at rest with a spring, against that under constant preload.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct SprungFlight {
-    /// The static deflection over the travel.
-    deflection_over_travel: f64,
-    /// Duration with the spring over that without, minus 1.
-    duration_change: f64,
-    /// The same for the speed of the fall at the impact.
-    fall_speed_change: f64,
-    /// How much later in the stator's motion the impact comes, in periods.
-    impact_shift_cycles: f64,
-}
-
-/// From a platform that never throws the disk, through period 1, chattering and chaos, to a motor.
-const PEAK_ACCELERATIONS: [f64; 9] = [0.0, 0.6, 1.0, 1.1, 1.26, 1.55, 1.75, 4.9, 20.0];
-const TWIST_SPEEDS: [f64; 4] = [0.0, 0.2, 1.0, 6.0];
-const PHASE_LAGS: [f64; 3] = [-0.26 * PI, 0.0, FRAC_PI_2];
-const FRICTIONS: [f64; 3] = [0.0, 0.1, 0.6];
-const RESTITUTIONS: [f64; 3] = [0.0, 0.5, 0.8];
-const LOADS: [f64; 2] = [0.0, 0.05];
-
-fn starts(system: &DimensionlessSystem) -> Result<[InitialCondition; 2], ExperimentError> {
-    let height = 1.0 + system.peak_acceleration();
-    Ok([
-        InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed: 0.0 },
-        InitialCondition::Flight {
-            phase: Phase::new(1.0)?,
-            gap: height,
-            relative_velocity: 0.0,
-            angular_speed: 0.3,
-        },
-    ])
-}
-
-fn systems() -> Result<Vec<DimensionlessSystem>, ExperimentError> {
-    let mut systems = Vec::new();
-    for peak_acceleration in PEAK_ACCELERATIONS {
-        for twist_speed in TWIST_SPEEDS {
-            for phase_lag in PHASE_LAGS {
-                for friction in FRICTIONS {
-                    for restitution in RESTITUTIONS {
-                        for load in LOADS {
-                            let parameters = DimensionlessParameters {
-                                peak_acceleration,
-                                twist_speed,
-                                phase_lag,
-                                friction,
-                                restitution,
-                                load,
-                            };
-                            systems.push(parameters.build()?);
-                        }
-                    }
-                }
-            }
-        }
-    }
-    Ok(systems)
-}
-
-fn census(quality: Quality, progress: &dyn Progress) -> Result<Census, ExperimentError> {
-    let longest_motion = quality.choose(60, 400);
-    let systems = systems()?;
-    progress.start(systems.len() as u64, "systems");
-    let mut counts: BTreeMap<Transition, u64> = BTreeMap::new();
-    let (mut motions, mut events) = (0, 0);
-    for system in &systems {
-        for start in starts(system)? {
-            motions += 1;
-            for record in Engine::new(*system, start, ChatterPolicy::Complete)?.take(longest_motion) {
-                events += 1;
-                *counts.entry(record?.transition()).or_default() += 1;
-            }
-        }
-        progress.advance(1);
-    }
-    let transitions = counts.into_iter().map(|(transition, number)| Counted { transition, number }).collect();
-    Ok(Census {
-        peak_accelerations: PEAK_ACCELERATIONS.to_vec(),
-        twist_speeds: TWIST_SPEEDS.to_vec(),
-        phase_lags_rad: PHASE_LAGS.to_vec(),
-        frictions: FRICTIONS.to_vec(),
-        restitutions: RESTITUTIONS.to_vec(),
-        loads: LOADS.to_vec(),
-        longest_motion,
-        motions,
-        events,
-        transitions,
-    })
-}
-
 fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, ExperimentError> {
     let census = census(quality, progress)?;
     let cycle = cycle(quality)?;
@@ -271,6 +108,7 @@ fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, Exper
 
 /// A spring that is compressed by so many times the rotor's displacement is compressed by "much more" than it.
 const MUCH_GREATER: f64 = 100.0;
+
 /// A flight under an effectively constant preload lasts as long and falls as fast as one under a constant preload to this share.
 const SAME_FLIGHT: f64 = 0.01;
 
@@ -295,6 +133,18 @@ fn sprung_rotor(data: &Fig03Data) -> Claim {
              peak, {}. For the phases of the impacts to stay the same δl_0 must be longer by much more than the flight's number of periods",
             100.0 * SAME_FLIGHT,
             travels.join("; ")
+        ),
+    )
+}
+
+/// Without the cap an impact whose available impulse is the larger one would turn the slip round.
+fn cap(census: &Census) -> Claim {
+    let Census { sliding_impacts, capped_impacts, .. } = census;
+    Claim::printed_statement(
+        "section2.cap_prevents_reversal",
+        claim::all(Some(*capped_impacts).filter(|_| *sliding_impacts > 0), |capped| capped > 0),
+        format!(
+            "of {sliding_impacts} impacts of a sliding disk the available impulse is larger than the possible one in {capped_impacts}: without the cap the slip would be reversed in these"
         ),
     )
 }

@@ -2,21 +2,20 @@
 
 mod claims;
 mod consistency;
+mod data;
 mod draw;
 mod sweep;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::toss::InitialSpin;
 use bouncing_disk_plot::Figure;
-use serde::{Deserialize, Serialize};
 
 use self::consistency::consistency;
+pub use self::data::Fig04Data;
+use self::data::TossPoint;
 use super::toss_case::TossCase;
 use crate::claims::printed::PrintedNumber;
-use crate::claims::{
-    Claim,
-    paper::{self, SectionThree, TableOne},
-};
+use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -91,200 +90,6 @@ impl Experiment for Fig04 {
 fn frictions(data: &Fig04Data) -> String {
     let texts: Vec<_> = data.friction_curves.iter().map(|curve| curve.friction.to_string()).collect();
     texts.join(", ")
-}
-
-/// The data of Fig. 4.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig04Data {
-    table_i: TableOne,
-    printed: SectionThree,
-    /// acos(g/(c ω²)).
-    largest_amplitude_angle_rad: f64,
-    /// The abscissa of panels (a) to (c) and (e).
-    amplitude_angle_rad: Vec<f64>,
-    /// Panels (a) to (c), for both initial states.
-    families: Vec<Family>,
-    /// Panel (d).
-    separation: Separation,
-    /// Panel (e).
-    friction_curves: Vec<FrictionCurve>,
-    /// The fastest toss at friction coefficients below those of panel (e).
-    low_friction: Vec<FrictionOptimum>,
-    /// The toss of Table I.
-    table_i_toss: TossPoint,
-    /// |ν| of the toss at the printed optimum, if a number is printed.
-    speed_ratio_at_printed_optimum: Option<f64>,
-    /// The best tosses of all phase lags and amplitude angles.
-    best: Vec<Best>,
-    /// Up to this amplitude angle friction holds the dough to the end if θ = −τ_sep: tan φ_L = (μ a_e²/a_g²)
-    /// cos τ_sep.
-    held_to_separation_angle_rad: f64,
-    compromise: Compromise,
-    /// Energy efficiency of the fastest toss at θ = 0 if the energy lost in friction is not counted as put
-    /// in.
-    lossless_efficiency_of_fastest: f64,
-    consistency: Consistency,
-}
-
-/// The performance measures of one toss.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct TossPoint {
-    amplitude_angle_rad: f64,
-    airborne_speed_rad_per_s: f64,
-    efficiency: f64,
-    /// Absent without twist.
-    speed_ratio: Option<f64>,
-}
-
-/// The curves of one initial state.
-#[derive(Debug, Serialize, Deserialize)]
-struct Family {
-    initial_state: InitialSpin,
-    curves: Vec<LagCurve>,
-}
-
-/// The performance against the amplitude angle at one phase lag, θ = n π/8.
-#[derive(Debug, Serialize, Deserialize)]
-struct LagCurve {
-    n: u32,
-    phase_lag_rad: f64,
-    airborne_speed_rad_per_s: Vec<f64>,
-    efficiency: Vec<f64>,
-    speed_ratio: Vec<Option<f64>>,
-    /// Where the absolute value of the airborne speed is largest.
-    fastest: TossPoint,
-    most_efficient: TossPoint,
-    /// Where the absolute value of the speed ratio is largest.
-    largest_speed_ratio: TossPoint,
-}
-
-/// The airborne speed against the phase of separation.
-#[derive(Debug, Serialize, Deserialize)]
-struct Separation {
-    /// The first and last phase that occur, from the first and the last amplitude angle.
-    lowest_rad: f64,
-    highest_rad: f64,
-    separation_phase_rad: Vec<f64>,
-    curves: Vec<SeparationCurve>,
-}
-
-/// A curve of panel (d).
-#[derive(Debug, Serialize, Deserialize)]
-struct SeparationCurve {
-    n: u32,
-    phase_lag_rad: f64,
-    airborne_speed_rad_per_s: Vec<f64>,
-}
-
-/// A curve of panel (e).
-#[derive(Debug, Serialize, Deserialize)]
-struct FrictionCurve {
-    friction: f64,
-    airborne_speed_rad_per_s: Vec<f64>,
-    fastest: TossPoint,
-}
-
-/// The fastest toss at a friction coefficient.
-#[derive(Debug, Serialize, Deserialize)]
-struct FrictionOptimum {
-    friction: f64,
-    fastest: TossPoint,
-}
-
-/// The fastest and the most efficient toss of all phase lags in [-π/2, π/2] and all amplitude angles.
-#[derive(Debug, Serialize, Deserialize)]
-struct Best {
-    initial_state: InitialSpin,
-    fastest_phase_lag_rad: f64,
-    fastest: TossPoint,
-    most_efficient_phase_lag_rad: f64,
-    most_efficient: TossPoint,
-}
-
-/// Amplitude angles about the fastest toss, at θ = 0.
-#[derive(Debug, Serialize, Deserialize)]
-struct Compromise {
-    /// Where the speed ratio is largest.
-    least_slip_angle_rad: f64,
-    fastest_toss_angle_rad: f64,
-    /// Where the hand turns fastest as the dough leaves: the fastest toss if nothing slipped.
-    fastest_hand_at_separation_angle_rad: f64,
-    hand_speed_at_separation_rad_per_s: f64,
-}
-
-/// Which parameter sets give the numbers that the paper prints for θ = 0.
-#[derive(Debug, Serialize, Deserialize)]
-struct Consistency {
-    /// What Table I gives as printed.
-    as_printed: Reading,
-    hand_speed: HandSpeed,
-    /// The maxima picked from a coarse grid of amplitude angles.
-    coarse_grid: CoarseGrid,
-    /// Airborne speed of the coarse-grid set.
-    coarse_grid_curve: SpeedCurve,
-}
-
-/// The hand's largest speed ωΦ at the printed optimum, from Table I's c, ω and a_e and from the printed speed
-/// and ratio.
-#[derive(Debug, Serialize, Deserialize)]
-struct HandSpeed {
-    /// The least that Table I gives for an angle that rounds to the printed one.
-    least_rad_per_s: f64,
-    /// The most that a speed and a ratio that round to the printed ones allow.
-    most_rad_per_s: f64,
-}
-
-/// A curve of panel (f).
-#[derive(Debug, Serialize, Deserialize)]
-struct SpeedCurve {
-    amplitude_angle_rad: Vec<f64>,
-    airborne_speed_rad_per_s: Vec<f64>,
-}
-
-/// A parameter set and what it gives in place of the printed numbers.
-#[derive(Debug, Serialize, Deserialize)]
-struct Reading {
-    parameters: TossCase,
-    numbers: Vec<Comparison>,
-}
-
-/// A printed number and ours.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Comparison {
-    quantity: String,
-    /// The entry of the catalogue.
-    key: String,
-    printed: String,
-    /// In the unit of the printed number; angles in rad.
-    computed: f64,
-    reproduced: bool,
-}
-
-/// The reading in which maxima are the best points of an even grid of amplitude angles.
-#[derive(Debug, Serialize, Deserialize)]
-struct CoarseGrid {
-    /// ω and φ_L that Eq. (14) gives, not rounded.
-    angular_frequency_rad_per_s: f64,
-    amplitude_angle_rad: f64,
-    /// acos(g/(c ω²)) with that ω.
-    largest_amplitude_angle_rad: f64,
-    /// The smallest number of equal intervals of [0, acos(g/(c ω²))] whose points hold all printed angles.
-    intervals: u32,
-    /// The index of each printed angle among these points.
-    indices: Vec<u32>,
-    /// The same for ω as printed; absent if no number of intervals up to `most_intervals` works.
-    intervals_with_printed_frequency: Option<u32>,
-    most_intervals: u32,
-    /// Share of all largest angles between 0.40 π and 0.48 π for which `intervals` or fewer intervals work.
-    share_by_chance: f64,
-    /// The range of ω for which the printed angles lie on the grid.
-    frequency_range_rad_per_s: (f64, f64),
-    /// The radii of gyration, in steps of 0.1 mm, with which all printed numbers come out.
-    gyration_radius_range_m: Option<(f64, f64)>,
-    /// The one of them that is nearest to Table I; all other parameters are those of Table I, except for ω.
-    reading: Reading,
-    grid_angle_rad: Vec<f64>,
-    grid_speed_rad_per_s: Vec<f64>,
 }
 
 fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {

@@ -577,16 +577,13 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
             ]),
             listed(data, |column, toss| {
                 format!(
-                    "{} at the separation, {:.2} rad/s or {:.1} % behind the hand, sliding for {:.0} % of the contact",
+                    "{} at the separation, {:.1} % behind the hand",
                     if toss.sliding_at_separation { "slides" } else { "sticks" },
-                    toss.slip_at_separation_rad_per_s,
                     100.0 * slip_share(column, toss),
-                    100.0 * toss.sliding_share_of_contact
                 )
             }),
         )
-        .note("θ = 0. At low φ_L the dough slides only in the last moments, where N falls to zero, and then ahead of the hand; φ_L = π/2 itself \
-               is out of reach, since the dough does not leave beyond arccos(g/cω²)"),
+        .note("θ = 0; at low φ_L the dough slides in the last moments only, where N falls to zero"),
         Claim::printed_statement(
             "section3.middle_column_is_fastest",
             match speed[..] {
@@ -639,7 +636,7 @@ fn limits(data: &Fig05Data) -> Vec<Claim> {
         converges,
         format!(
             "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
-             θ = 0: {}; it vanishes as μ grows. Just before τ_sep it always slides, since N falls to zero",
+             θ = 0: {}; it vanishes as μ grows",
             grips.join("; ")
         ),
     )]

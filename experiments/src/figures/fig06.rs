@@ -4,7 +4,6 @@ mod chattering;
 mod claims;
 mod compute;
 mod contact;
-mod crossings;
 mod data;
 mod dimension;
 mod draw;
@@ -22,7 +21,6 @@ use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motion::{PAPER_CHATTER, PAPER_CUT};
 use bouncing_disk_plot::Figure;
 
-pub(super) use self::compute::FORCING_RANGE;
 pub use self::data::Fig06Data;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
@@ -42,7 +40,7 @@ impl Experiment for Fig06 {
     fn caption(data: &Fig06Data) -> String {
         format!(
             "Bifurcation diagrams (ε = {}): the attractor followed in Γ from its period-1 orbit at Γ = {} (dark gray) and \
-             the chattering orbit of a disk from rest (light gray). (a) Phase of impact; (b) relative axial impact speed; \
+             the chattering orbit of a disk from rest (light gray); where an orbit has many impacts, the darker the gray the denser they are. (a) Phase of impact; (b) relative axial impact speed; \
              (c), (d) angular speed of the disk just before impact for (θ, Γ_T) = ({}, {}) and ({}, {}). Dotted lines \
              mark the panels of Fig. 7. {} values of Γ, {} impacts each after a transient of {}; chattering ends by the \
              paper's cut. The followed attractor is lost in a crisis at Γ = {:.5} (dashed). (a\u{2032}) The followed attractor of (a) about \
@@ -125,6 +123,8 @@ mod tests {
         data.transfers.clear();
         data.lyapunov_exponents.clear();
         data.best_lags.clear();
+        data.chatters.clear();
+        data.forcing_effects.clear();
         data.explored.shadows.clear();
         data.period_one.lags.clear();
         data.period_one.orbits = 0;

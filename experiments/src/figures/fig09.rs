@@ -280,7 +280,12 @@ fn frictions(area: Rect, data: &Fig09Data) -> Panel {
         .x(Axis::linear(60.0, 300.0).label("preload (mN)").ticks(Ticks::every(40.0)))
         .y(Axis::linear(0.0, 0.36).label(r"$\mu$").ticks(Ticks::every(0.1)))
         .layer(Rule::horizontal(data.printed_mean).name("printed mean"))
-        .layer(Scatter::new(milli(&data.synthetic)).size(2.6).colour(Colour::GREY).name("synthetic"))
+        .layer(
+            Scatter::new(milli(&data.synthetic))
+                .size(2.6)
+                .colour(Colour::GREY)
+                .name("synthetic, not measured"),
+        )
         .layer(Scatter::new(recovered).marker(Marker::Circle).colour(Colour::BLUE).name("model, Eq. (17)"));
     let panel = if data.measured_frictions.is_empty() {
         panel

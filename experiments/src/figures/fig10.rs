@@ -2,22 +2,20 @@
 
 mod claims;
 mod compute;
+mod data;
 mod draw;
 
 use bouncing_disk::Unobserved;
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::estimate::{ExponentialFit, Spread};
+use bouncing_disk::estimate::ExponentialFit;
 use bouncing_disk::motor::TransientSettings;
 use bouncing_disk_plot::Figure;
-use serde::{Deserialize, Serialize};
 
 use self::compute::MEMBER_INTERVALS;
-use super::alike::AlikeMotor;
-use super::motor_case::{Cycle, MotorCase, PerturbationEffect, RobustCycle};
-use crate::claims::{
-    Claim,
-    paper::{SectionFive, TableThree},
-};
+pub use self::data::Fig10Data;
+use self::data::Trial;
+use super::motor_case::MotorCase;
+use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
@@ -51,11 +49,14 @@ impl Experiment for Fig10 {
              ω/2π in kHz); (a′)–(c′) the same with g = {printed} m/s² as printed. Grey line: one member (speeds averaged over \
              1/{MEMBER_INTERVALS} of the time shown); black dashed line: its fit, whose numbers stand in the panel; blue band: mean ± one \
              standard deviation of {} members, which differ in the starting phase and in the seed of a relaunch perturbation below {} g/ω: {}. \
+             Gray band in (a)–(c): 5 to 95 % of {} single orbits that nothing perturbs and whose inputs print alike ({}). \
              Dotted in (a): the same motor at exactly g = {} m/s², where Aω²/g is 2π² and a low-period cycle exists in a range of g \
              of {:.1e} m/s² only. The paper's panels (d)–(f) are measured curves, which are not in its text.{}",
             data.members,
             data.relaunch_perturbation,
             ensembles(data),
+            data.alike.motors[0].len(),
+            data.alike.inputs,
             exception.preload_acceleration_m_per_s2,
             exception.highest_preload_acceleration_m_per_s2 - exception.lowest_preload_acceleration_m_per_s2,
             caption(&data.measured),
@@ -108,111 +109,6 @@ fn ensembles(data: &Fig10Data) -> String {
         )
     });
     words.collect::<Vec<_>>().join("; ")
-}
-
-/// The data of Fig. 10.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig10Data {
-    table_iii: TableThree,
-    section: SectionFive,
-    members: usize,
-    relaunch_perturbation: f64,
-    /// With standard gravity, and as printed.
-    readings: Vec<Reading>,
-    /// The motor of the smallest amplitude at exactly the printed 9.8 m/s².
-    exception: Exception,
-    /// Many motors that print alike, for the verdicts.
-    alike: Alike,
-    perturbations: Vec<PerturbationEffect>,
-    own_motor_axial_forcing: f64,
-    tsujino_axial_forcing: f64,
-    tsujino_peak_acceleration: f64,
-    /// A user's own trials.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    measured: Vec<Trial>,
-}
-
-/// One reading of Table III.
-#[derive(Debug, Serialize, Deserialize)]
-struct Reading {
-    preload_acceleration_m_per_s2: f64,
-    frequency_hz: f64,
-    duration_s: f64,
-    /// mu a_e g/a_g^2: the acceleration if friction pushed one way all the time.
-    largest_acceleration_rad_per_s2: f64,
-    panels: Vec<Transient>,
-}
-
-/// One amplitude: a member with its fit, and the ensemble.
-#[derive(Debug, Serialize, Deserialize)]
-struct Transient {
-    amplitude_m: f64,
-    axial_forcing: f64,
-    member_time_s: Vec<f64>,
-    member_speed_rad_per_s: Vec<f64>,
-    member_fit: ExponentialFit,
-    band_time_s: Vec<f64>,
-    band_low_rad_per_s: Vec<f64>,
-    band_high_rad_per_s: Vec<f64>,
-    steady_speed_rad_per_s: Spread,
-    time_constant_s: Spread,
-    stall_acceleration_rad_per_s2: Spread,
-    stall_torque_n_m: Spread,
-    /// Root mean square of member minus exponential fit, over the steady speed; mean over the ensemble.
-    relative_exponential_residual: f64,
-    /// The same for the fit of a linear rise to a constant speed.
-    relative_ramp_residual: f64,
-    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over the ensemble.
-    oscillation: f64,
-    /// What the unperturbed motor repeats.
-    cycle: Cycle,
-    impacts_per_s: f64,
-}
-
-/// The robust low-period cycle at A = 1 nm and exactly g = 9.8 m/s², and how narrow it is.
-#[derive(Debug, Serialize, Deserialize)]
-struct Exception {
-    amplitude_m: f64,
-    preload_acceleration_m_per_s2: f64,
-    /// Aω²/g over 2π².
-    peak_acceleration_over_two_pi_squared: f64,
-    robust_cycle: RobustCycle,
-    /// The preload accelerations, next to the printed one, between which the motor repeats this cycle.
-    lowest_preload_acceleration_m_per_s2: f64,
-    highest_preload_acceleration_m_per_s2: f64,
-    /// The width of this range, over the printed g.
-    relative_width: f64,
-    /// The transient there.
-    time_s: Vec<f64>,
-    speed_rad_per_s: Vec<f64>,
-    exponential_residual_rad_per_s: f64,
-    ramp_residual_rad_per_s: f64,
-}
-
-/// Motors whose inputs all print like the paper's: the same draws at the three amplitudes.
-#[derive(Debug, Serialize, Deserialize)]
-struct Alike {
-    /// The ranges drawn from.
-    inputs: String,
-    /// By amplitude, then by draw.
-    motors: [Vec<AlikeMotor>; 3],
-}
-
-impl Alike {
-    /// The three motors of each draw.
-    fn draws(&self) -> impl Iterator<Item = [&AlikeMotor; 3]> {
-        let [small, middle, large] = &self.motors;
-        small.iter().zip(middle).zip(large).map(|((small, middle), large)| [small, middle, large])
-    }
-}
-
-/// One measured trial with its fit.
-#[derive(Debug, Serialize, Deserialize)]
-struct Trial {
-    trial: u32,
-    time_s: Vec<f64>,
-    angular_speed_rad_per_s: Vec<f64>,
-    fit: ExponentialFit,
 }
 
 /// Panels in a row, and so the most trials.

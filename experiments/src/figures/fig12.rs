@@ -1,15 +1,17 @@
 //! Fig. 12: transient speed curves of long-period and low-period chattering.
 
 mod compute;
+mod data;
 mod draw;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
-use serde::{Deserialize, Serialize};
 
+pub use self::data::Fig12Data;
+use self::data::{Lines, LowPeriod};
 use super::alike::AlikeMotor;
-use super::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, MotorCase, RobustCycle};
-use crate::claims::{Cases, Claim, Verdict, paper::ChatteringCases};
+use super::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
+use crate::claims::{Cases, Claim, Verdict};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
@@ -32,7 +34,7 @@ impl Experiment for Fig12 {
         let (long, low) = (&data.long_period, &data.low_period);
         format!(
             "Speed transients of the motor of Table III that nothing perturbs. (a)–(c) A = {:e} m, g = {} m/s²: long-period \
-             chattering, one orbit of many between which the last places of the inputs choose; (d)–(f) g = {} m/s² and an amplitude {:.1e} of the printed one \
+             chattering, one orbit of many between which the last places of the inputs choose; (d)–(f) g = {} m/s² and the amplitude that stands in (d), {:.1e} of the printed one \
              away from it, the nearest that was found with a low-period cycle of more than one flight which they do not choose ({}). (a), (d) Speed during each \
              flight; dashed: exponential fit, and what the impulses of one cycle predict. (b) Speed and (c), (f) height of the rotor in the blue windows, (f) over \
              three cycles; (e) speed during each flight of ten cycles, dots of one colour for the same flight of every cycle, which form lines. At the printed \
@@ -73,124 +75,6 @@ impl Experiment for Fig12 {
     }
 }
 
-/// The data of Fig. 12.
-#[derive(Debug, Serialize, Deserialize)]
-pub struct Fig12Data {
-    cases: ChatteringCases,
-    /// The printed long-period case.
-    long_period: Shown,
-    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period cycle of more than one flight.
-    low_period: Shown,
-    /// Most flights of a cycle that counts as one of low period.
-    low_period_flights: usize,
-    /// Motors of both cases whose amplitudes agree to twelve digits.
-    alike: [Alike; 2],
-    /// The lines of the low-period case.
-    drawn_lines: Lines,
-    /// Motors of low period among those that print like the low-period case.
-    alike_of_low_period: LowPeriod,
-}
-
-/// Motors whose inputs all print like the paper's.
-#[derive(Debug, Serialize, Deserialize)]
-struct Alike {
-    /// The ranges drawn from.
-    inputs: String,
-    motors: Vec<AlikeMotor>,
-}
-
-/// The first motors of low period of a longer sequence of those that print alike.
-#[derive(Debug, Serialize, Deserialize)]
-struct LowPeriod {
-    /// Motors drawn to find them.
-    drawn: usize,
-    motors: Vec<AlikeMotor>,
-    /// For each the lines that its speed forms.
-    lines: Vec<Lines>,
-}
-
-/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for each flight of the cycle.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-struct Lines {
-    flights: usize,
-    /// Largest distance of neighbouring lines, over what the speed gains in a cycle.
-    gap_over_gain: f64,
-    /// The same over ωΦ.
-    gap_over_peak_angular_speed: f64,
-}
-
-/// A motor whose transient is drawn. Nothing perturbs it.
-#[derive(Debug, Serialize, Deserialize)]
-struct Shown {
-    motor: MotorCase,
-    /// Amplitude over the printed one minus 1.
-    amplitude_offset: f64,
-    axial_forcing: f64,
-    /// Its cycle, if rounding does not choose it.
-    robust_cycle: Option<RobustCycle>,
-    cycle_duration_s: Option<f64>,
-    largest_acceleration_rad_per_s2: f64,
-    duration_s: f64,
-    /// Each flight longer than half a period: its start and the speed during it.
-    flight_time_s: Vec<f64>,
-    flight_speed_rad_per_s: Vec<f64>,
-    /// The same motor averaged over equal intervals, and its fits.
-    fits: Fits,
-    /// What the impulses of one cycle predict.
-    prediction: Prediction,
-    zoom: Zoom,
-}
-
-/// The two forms fitted to the same curve.
-#[derive(Debug, Serialize, Deserialize)]
-struct Fits {
-    exponential_steady_speed_rad_per_s: f64,
-    time_constant_s: f64,
-    exponential_residual_rad_per_s: f64,
-    ramp_steady_speed_rad_per_s: f64,
-    rise_time_s: f64,
-    ramp_residual_rad_per_s: f64,
-    /// Mean over the last fifth.
-    last_speed_rad_per_s: f64,
-    /// Straight line through the whole of the rise, and its largest distance from the curve.
-    slope_rad_per_s2: f64,
-    slope_error_rad_per_s2: f64,
-    farthest_from_line_rad_per_s: f64,
-    /// Straight line through the first tenth of the rise.
-    first_slope_rad_per_s2: f64,
-    /// First time at which the speed is within 2 % of the last one.
-    reached_s: Option<f64>,
-}
-
-/// Straight pieces from the impulses of one cycle (module `impulse`).
-#[derive(Debug, Serialize, Deserialize)]
-struct Prediction {
-    /// S(0): net share of the normal impulse that pushes a slow rotor forwards.
-    net_share_at_rest: f64,
-    /// μ a_e g/a_g² S(0).
-    slope_rad_per_s2: f64,
-    steady_speed_rad_per_s: f64,
-    /// When the pieces reach it.
-    reached_s: f64,
-    time_s: Vec<f64>,
-    speed_rad_per_s: Vec<f64>,
-    /// Each impact of at least a hundredth of the cycle's impulse: phase/2π, share of the impulse and cos(τ + θ).
-    impacts: Vec<(f64, f64, f64)>,
-    /// Impulses of the cycle over weight times its duration, minus 1.
-    balance: f64,
-}
-
-/// A short part of the rise. Of the low-period case the flights of many cycles, which form its lines.
-#[derive(Debug, Serialize, Deserialize)]
-struct Zoom {
-    time_s: Vec<f64>,
-    speed_rad_per_s: Vec<f64>,
-    height_m: Vec<f64>,
-    /// Flights of many cycles: their starts and speeds.
-    flight_time_s: Vec<f64>,
-    flight_speed_rad_per_s: Vec<f64>,
-}
-
 /// So many orbits are enough for a verdict under another definition.
 const ENOUGH: usize = 20;
 
@@ -214,15 +98,13 @@ fn case(data: &Fig12Data, case: usize, key: &str) -> Claim {
     let alike = &data.alike[case];
     let cases = |most: usize| Cases::of(alike.motors.iter().map(|motor| is_low(motor, most) == (case == 1)));
     let others = DEFINITIONS.map(cases);
-    let words = DEFINITIONS.iter().zip(others).map(|(most, cases)| format!("{most}: {}", cases.words()));
     Claim::printed_statement(
         key,
         cases(LOW_PERIOD_FLIGHTS),
         format!(
-            "A and g are printed, and the last places of the amplitude choose the cycle: {}; low period is at most {LOW_PERIOD_FLIGHTS} flights of more than half a period from \
-             rest to rest. With other numbers of flights it holds for {}",
+            "orbits with {}: the last places choose the cycle. Low period is at most {LOW_PERIOD_FLIGHTS} flights of more than half a period; it holds, with other numbers of flights, for {}",
             alike.inputs,
-            words.collect::<Vec<_>>().join("; ")
+            by_definition_words(others)
         ),
     )
     .by_definition(&others.map(Cases::sampled))
@@ -257,50 +139,31 @@ fn low_period(found: &LowPeriod, holds: fn(&AlikeMotor) -> bool) -> Cases {
 }
 
 fn linear(data: &Fig12Data) -> Claim {
-    let (fits, prediction) = (&data.low_period.fits, &data.low_period.prediction);
+    let fits = &data.low_period.fits;
     let found = &data.alike_of_low_period;
     Claim::printed_statement(
         "section5.linear_rise",
         low_period(found, |motor| !motor.is_exponential()),
         format!(
-            "whether a linear rise to a constant fits better than the exponential, for the first {} orbits of low period of {} with amplitudes that round to the printed one. \
-             Of the motor drawn the deviation from a linear rise is {:.3}, from an exponential {:.3} rad/s; the line through the whole rise has \
-             the slope {:.4} ± {:.4} rad/s² and lies {:.2} rad/s off at most: the rise consists of straight pieces. The first has {:.4} rad/s². The \
-             normal impulse of a cycle is the weight times its duration (off by {:.0e}), of which the share {:.4} net pushes forwards \
-             where cos(τ + θ) > 0: that slope is μ a_e g/a_g² = {:.4} rad/s² times the share, {:.4} rad/s²",
+            "a linear rise to a constant fits better than the exponential, of the first {} orbits of low period of {} whose amplitudes round to the printed one. The rise of the \
+             motor drawn consists of straight pieces, {:.2} rad/s off one line at most",
             found.motors.len(),
             found.drawn,
-            fits.ramp_residual_rad_per_s,
-            fits.exponential_residual_rad_per_s,
-            fits.slope_rad_per_s2,
-            fits.slope_error_rad_per_s2,
             fits.farthest_from_line_rad_per_s,
-            fits.first_slope_rad_per_s2,
-            prediction.balance.abs(),
-            prediction.net_share_at_rest,
-            data.low_period.largest_acceleration_rad_per_s2,
-            prediction.slope_rad_per_s2,
         ),
     )
     .by_definition(&under_definitions(data, 1, |motor| !motor.is_exponential()))
 }
 
 fn abrupt(data: &Fig12Data) -> Claim {
-    let (fits, prediction) = (&data.low_period.fits, &data.low_period.prediction);
     let found = &data.alike_of_low_period;
     Claim::printed_statement(
         "section5.abrupt_steady_state",
         low_period(found, AlikeMotor::stops_abruptly),
         format!(
-            "whether the time from nine tenths of the last speed to all but a fiftieth of it, over that to one half, is nearer to the 0.16 of a \
-             linear rise to a constant than to the 2.3 of an exponential, for {} orbits of low period. Of the motor drawn the impulses \
-             predict as the steady speed that of the stator at the impact where those below and above balance, {:.3} rad/s, reached within 2 % after {:.3} s; \
-             simulated {:.3} rad/s after {} s",
+            "the time from nine tenths of the last speed to all but a fiftieth of it, over that to one half, is nearer to the 0.16 of a \
+             linear rise to a constant than to the 2.3 of an exponential; {} orbits of low period",
             found.motors.len(),
-            prediction.steady_speed_rad_per_s,
-            prediction.reached_s,
-            fits.last_speed_rad_per_s,
-            fits.reached_s.map_or_else(|| "no".to_owned(), |time| format!("{time:.3}")),
         ),
     )
     .by_definition(&under_definitions(data, 1, AlikeMotor::stops_abruptly))
@@ -308,6 +171,7 @@ fn abrupt(data: &Fig12Data) -> Claim {
 
 /// Lines are told apart in a window of [`SEEN_CYCLES`] cycles where neighbours are this share of the rise in it apart.
 const SEEN_APART: f64 = 0.05;
+
 /// See [`SEEN_APART`].
 const SEEN_CYCLES: f64 = 10.0;
 
@@ -315,25 +179,16 @@ fn lines(data: &Fig12Data) -> Claim {
     let found = &data.alike_of_low_period;
     let is_seen = |lines: &Lines| lines.gap_over_gain >= SEEN_APART * SEEN_CYCLES;
     let seen = Cases::of(found.lines.iter().map(is_seen));
-    let several = found.lines.iter().filter(|lines| lines.flights > 1).count();
     let mut gaps: Vec<f64> = found.lines.iter().map(|lines| lines.gap_over_peak_angular_speed).collect();
     gaps.sort_by(f64::total_cmp);
-    let (middle, widest) = (gaps.get(gaps.len() / 2), gaps.last());
-    let impacts = &data.low_period.prediction.impacts;
-    let words = impacts.iter().map(|(phase, share, level)| format!("({phase:.4}, {share:.3}, {level:+.3})"));
     Claim::printed_statement(
         "section5.multiple_lines",
         is_seen(&data.drawn_lines),
         format!(
-            "whether the speeds of the flights of the motor drawn form at least two lines that stand apart by a twentieth of what the speed rises in ten cycles, as \
-             panel (e) shows them. Of other orbits of low period {} do, where {several} of {} have more than one flight in a cycle. On the scale of the whole \
-             transient no lines are seen: neighbouring lines are {:.2} % of ωΦ apart on the median, {:.2} % at most. Impacts of the cycle drawn with at least 1 % of its impulse (τ/2π, \
-             share, cos(τ + θ)): {}",
+            "the speeds of the flights of the motor drawn form at least two lines that stand apart by a twentieth of what the speed rises in ten cycles, as \
+             panel (e) shows; so do those of {} other orbits of low period. On the scale of the whole transient neighbouring lines are {:.2} % of ωΦ apart on the median",
             seen.words(),
-            found.lines.len(),
-            100.0 * middle.copied().unwrap_or(f64::NAN),
-            100.0 * widest.copied().unwrap_or(f64::NAN),
-            words.collect::<Vec<_>>().join(" "),
+            100.0 * gaps.get(gaps.len() / 2).copied().unwrap_or(f64::NAN),
         ),
     )
 }

@@ -200,7 +200,12 @@ fn draw(data: &Fig14Data) -> Figure {
     let mut panel = Panel::new(grid.cell(0, 0))
         .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
         .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
-        .layer(Scatter::new(data.synthetic.iter().copied()).size(1.6).colour(Colour::GREY).name("synthetic"))
+        .layer(
+            Scatter::new(data.synthetic.iter().copied())
+                .size(1.6)
+                .colour(Colour::GREY)
+                .name("synthetic, not measured"),
+        )
         .layer(Line::new(straight).name("printed line"))
         .layer(Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"));
     for (toss, start) in &data.toss_start_s {

@@ -41,6 +41,14 @@ pub(crate) fn median_exponent(points: impl IntoIterator<Item = (f64, f64)>) -> O
     median(pairs.map(|(one, other)| (other.1 - one.1) / (other.0 - one.0)))
 }
 
+/// The range of the middle nine tenths of some values: between those of which a twentieth of all is lower, and a twentieth higher. `None` of none.
+pub(crate) fn middle_range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
+    let mut sorted: Vec<f64> = values.into_iter().collect();
+    sorted.sort_by(f64::total_cmp);
+    let outside = sorted.len() / 20;
+    Some([*sorted.get(outside)?, *sorted.get(sorted.len().checked_sub(outside + 1)?)?])
+}
+
 /// The line y = intercept + slope x of least squares, with the standard error of the slope.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct StraightLine {

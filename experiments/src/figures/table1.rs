@@ -529,8 +529,8 @@ fn launch_without_slip(data: &Table1Data) -> Claim {
             && same(separation.angular_speed_rad_per_s, separation.largest_angular_speed_rad_per_s),
         format!(
             "these are the hand's largest speeds, at τ = 0 ({:.3} m/s and {:.2} rad/s for Table I); the dough leaves \
-             at τ_sep with {:.3} of both ({:.3} m/s, {:.2} rad/s). φ_L does not depend on this factor; with it ω is \
-             {:.2} instead of {:.2} rad/s, a difference far below its uncertainty",
+             at τ_sep with {:.3} of both ({:.3} m/s, {:.2} rad/s). With this factor ω is \
+             {:.2} instead of {:.2} rad/s",
             separation.largest_axial_speed_m_per_s,
             separation.largest_angular_speed_rad_per_s,
             separation.speed_share,

@@ -29,6 +29,8 @@ pub const ERRATA_FILE: &str = "errata.md";
 pub const DIGESTS_FILE: &str = "digests.json";
 /// How large the file of a picture may be (bytes), where a smaller width helps.
 pub const LARGEST_PICTURE: usize = 300_000;
+/// How large its vector file may be (bytes). Dense points are an image in it, too.
+pub const LARGEST_VECTOR: usize = 700_000;
 /// Widths of a picture (pixels), from the best on: the first counts whose file is small enough.
 const PICTURE_WIDTHS: [u16; 4] = [1100, 950, 800, 650];
 
@@ -117,6 +119,9 @@ pub struct FigureDigests {
     paper: String,
     /// Digest of the picture's file.
     pub picture: String,
+    /// Digest of the vector file, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub vector: Option<String>,
 }
 
 /// A digest that does not depend on machine or compiler (FNV-1a, 64 bits).
@@ -129,6 +134,8 @@ struct Figure {
     made: Made,
     origin: Provenance,
     section: String,
+    /// The drawing as a vector file, of the paper's figures.
+    vector: Option<String>,
     digest: String,
 }
 
@@ -154,6 +161,8 @@ impl Figure {
         }
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
         let (made, _, origin) = entry.read(&data).map_err(failed)?;
+        let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
+        let vector = (!is_extra(id)).then(|| provenance::in_svg(&origin, &drawing));
         let mut section = String::new();
         if !is_extra(id) {
             let values = Value::from_serialize(Section::of(entry, &made)?);
@@ -162,9 +171,8 @@ impl Figure {
         // Another version of the program does not make another figure.
         let mut record: serde_json::Value = serde_json::from_slice(&data).unwrap_or_default();
         record.as_object_mut().map(|members| members.remove("provenance"));
-        let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
         let digest = digest([json::to_text(&record), drawing, section.clone()].concat().as_bytes());
-        Ok(Self { made, origin, section, digest })
+        Ok(Self { made, origin, section, vector, digest })
     }
 
     /// The file of the picture.
@@ -211,7 +219,14 @@ fn write_with(
         let drafted = Figure::read(entry, draft, Quality::Draft)?.digest;
         let figure = Figure::read(entry, paper, Quality::Paper)?;
         let picture = figure.picture(entry.id)?;
-        let known = FigureDigests { draft: drafted, paper: figure.digest.clone(), picture: digest(&picture) };
+        let known = FigureDigests {
+            draft: drafted,
+            paper: figure.digest.clone(),
+            picture: digest(&picture),
+            vector: figure.vector.as_ref().map(|vector| digest(vector.as_bytes())),
+        };
+        let vector = figure.vector.clone().map(|vector| (format!("{}.svg", entry.id), vector.into_bytes()));
+        files.extend(vector);
         digests.figures.insert(entry.id.to_owned(), known);
         files.push((format!("{}.png", entry.id), picture));
         figures.push((entry.id, figure));
@@ -277,7 +292,12 @@ fn outdated_with(
             Err(_) => false,
         };
         let name = format!("{}.png", entry.id);
-        if !current || folder.read(&name)?.is_none_or(|picture| digest(&picture) != known.picture) {
+        let file = |name: &str| folder.read(name).map(|bytes| bytes.map(|bytes| digest(&bytes)));
+        let vector = match &known.vector {
+            Some(_) => file(&format!("{}.svg", entry.id))?,
+            None => None,
+        };
+        if !current || file(&name)? != Some(known.picture) || vector != known.vector {
             outdated.push(format!("{}/{name}", pictures.folder()));
         }
     }
@@ -378,7 +398,7 @@ mod tests {
             || vec![("demo", Figure::read(&folders.demo, &folders.paper, Quality::Paper).expect("made"))];
         let page = results(&figure()).expect("filled in");
         for part in [
-            "\n\n<a id=\"demo\"></a>\n\n## demo. A demonstration\n\n![A demonstration](figures/demo.png)\n\nIt shows that | is escaped.\n\n*Caption.* 50 phases",
+            "\n\n<a id=\"demo\"></a>\n\n## demo. A demonstration\n\n![A demonstration](figures/demo.png)\n\n[As a vector file](figures/demo.svg).\n\nIt shows that | is escaped.\n\n*Caption.* 50 phases",
             "\n\n| parameter | value |\n| --- | --- |\n| restitution ε | 0.5 |\n\n| place |",
             "| Sec. 1 | last phase | 0.36\u{a0}rad | 0.36\u{a0}rad | 0.005 | this work | agrees |  |\n",
             "| [demo](#demo) | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |\n| together | 0 | 0 | 0 | 0 | 0 | 0 | 0 | 1 |\n\n<a id",
@@ -422,9 +442,11 @@ mod tests {
                 assert_eq!(folders.outdated(pictures, Draft), [*page]);
                 write();
             }
-            folder.write("demo.png", b"edited").expect("writable");
-            assert_eq!(folders.outdated(pictures, Draft), picture);
-            write();
+            for file in ["demo.png", "demo.svg"] {
+                folder.write(file, b"edited").expect("writable");
+                assert_eq!(folders.outdated(pictures, Draft), picture);
+                write();
+            }
             // What has not been made is not compared; another drawing of the draft alone is.
             let nothing = OutputFolder::existing(folders.docs.path());
             let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);

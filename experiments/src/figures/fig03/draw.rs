@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
     Stroke, Style, Text, TextBox, TextStyle, Ticks,
 };
 
-use super::{Census, ChatteringCycle, Fig03Data};
+use super::census::{Census, ChatteringCycle};
 
 const CHART_HEIGHT: f64 = 232.0;
 const INSET_HEIGHT: f64 = 150.0;
@@ -136,7 +136,7 @@ fn arrow(transition: Transition) -> ChartArrow {
     ChartArrow { transition, planned: true, points, words }
 }
 
-fn chart(data: &Fig03Data) -> Drawing {
+fn chart(census: &Census) -> Drawing {
     let area = Rect::new(0.0, 0.0, CHART_WIDTH, CHART_HEIGHT);
     let mut drawing = Drawing::new(area, (0.0, CHART_WIDTH), (0.0, CHART_HEIGHT));
     let stroke = Stroke::new(Colour::BLACK, 0.8);
@@ -148,7 +148,7 @@ fn chart(data: &Fig03Data) -> Drawing {
         .text((BETWEEN, FLIGHT.1 + 12.0), Anchor::Middle, "$x = s$")
         .arrow([(CHART_WIDTH - 16.0, IMPACT.1), (IMPACT.0 + HALF.0, IMPACT.1)], stroke)
         .text((CHART_WIDTH - 2.0, IMPACT.1 + 6.0), Anchor::Right, "start");
-    for arrow in arrows(&data.census) {
+    for arrow in arrows(census) {
         let colour = if arrow.planned { Colour::BLACK } else { Colour::VERMILION };
         if !arrow.planned {
             let Transition { from, event, to } = arrow.transition;
@@ -212,7 +212,7 @@ fn inset(cycle: &ChatteringCycle) -> Panel {
     panel
 }
 
-pub(super) fn draw(data: &Fig03Data) -> Figure {
+pub(super) fn draw(census: &Census, cycle: &ChatteringCycle) -> Figure {
     let height = CHART_HEIGHT + INSET_HEIGHT;
-    Figure::new(CHART_WIDTH, height).drawing(chart(data)).panel(inset(&data.cycle))
+    Figure::new(CHART_WIDTH, height).drawing(chart(census)).panel(inset(cycle))
 }

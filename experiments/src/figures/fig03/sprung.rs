@@ -13,11 +13,48 @@ use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::motion::EventKind;
 use bouncing_disk::toss::TOSS_START;
 use bouncing_disk::{Engine, EventRecord, System};
+use serde::{Deserialize, Serialize};
 
-use super::{Sprung, SprungFlight, SprungMotor};
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::motor_case::MotorCase;
+
+/// Springs under the motors of Fig. 10.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Sprung {
+    /// See `deflection_for_share_m`.
+    pub(super) preload_share: f64,
+    pub(super) motors: Vec<SprungMotor>,
+}
+
+/// A motor of Table III with an amplitude.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct SprungMotor {
+    pub(super) amplitude_m: f64,
+    pub(super) axial_forcing: f64,
+    /// Events of the motion from rest under constant preload in which the highest point was looked for.
+    pub(super) events: usize,
+    /// From the stator's lowest point to the rotor's highest.
+    pub(super) travel_m: f64,
+    /// The static deflection for which the preload changes by the share, from end to end of the travel.
+    pub(super) deflection_for_share_m: f64,
+    /// The first flight of a rotor at rest.
+    pub(super) flight_cycles: f64,
+    pub(super) springs: Vec<SprungFlight>,
+}
+
+/// The first flight of a rotor at rest with a spring, against that under constant preload.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct SprungFlight {
+    /// The static deflection over the travel.
+    pub(super) deflection_over_travel: f64,
+    /// Duration with the spring over that without, minus 1.
+    pub(super) duration_change: f64,
+    /// The same for the speed of the fall at the impact.
+    pub(super) fall_speed_change: f64,
+    /// How much later in the stator's motion the impact comes, in periods.
+    pub(super) impact_shift_cycles: f64,
+}
 
 /// The change of the preload, from end to end of the travel, for which the deflection is given.
 const SHARE: f64 = 0.01;

@@ -4,7 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use bouncing_disk::toss::InitialSpin;
 
-use super::{Best, Fig04Data, LagCurve, TossPoint};
+use super::data::{Best, Fig04Data, LagCurve, TossPoint};
 use crate::claims::judging::{LINE_WIDTH, trend};
 use crate::claims::paper::Uncertain;
 use crate::claims::printed::PrintedNumber;
@@ -90,11 +90,8 @@ fn optimum(data: &Fig04Data) -> Vec<Claim> {
     let fastest = &curve.fastest;
     let grid = &data.consistency.coarse_grid;
     let reason = format!(
-        "Table I as printed; all printed numbers come out with {}, both {} and {} to two digits, if the maximum is \
-         the best of {} equal intervals of φ_L",
+        "all printed numbers come out with {}, if the maximum is the best of {} equal intervals of φ_L",
         described(data),
-        data.table_i.angular_frequency_rad_per_s.value,
-        data.table_i.gyration_radius_m.value,
         grid.intervals
     );
     let numbers = [
@@ -152,8 +149,7 @@ fn optimal_phase_lag(data: &Fig04Data) -> Option<Claim> {
         linear(fastest) && linear(efficient),
         format!(
             "dough at rest at the start: of all phase lags and φ_L the fastest toss has θ = {:.1e}π and the most efficient θ = {:.1e}π (or π \
-             more); a linear path is a helix on the cylinder. A dough that starts with the hand is fastest, {:.2} rad/s, at θ = {}, φ_L = {}: \
-             the paper's optimum needs a start from rest, as Sec. III A says",
+             more). A dough that starts with the hand is fastest, {:.2} rad/s, at θ = {}, φ_L = {}",
             absolute.fastest_phase_lag_rad / PI,
             absolute.most_efficient_phase_lag_rad / PI,
             relative.fastest.airborne_speed_rad_per_s,
@@ -292,32 +288,11 @@ fn hand_speed(data: &Fig04Data) -> Claim {
 /// What an even grid of amplitude angles gives.
 fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
     let grid = &data.consistency.coarse_grid;
-    let range = grid.gyration_radius_range_m.map_or_else(
-        || "no a_g gives all numbers".to_owned(),
-        |(low, high)| format!("a_g from {low:.4} to {high:.4} m gives all numbers"),
-    );
-    let printed_frequency = grid.intervals_with_printed_frequency.map_or_else(
-        || format!("no grid of up to {} intervals fits", grid.most_intervals),
-        |intervals| format!("{intervals} intervals fit"),
-    );
-    let evidence = format!(
-        "Eq. (14) gives ω = {:.3} rad/s before rounding; from 0 to arccos(g/cω²) = {} the points {:?} of {} equal \
-         intervals are the angles that the paper prints here and in Fig. 5; ω from {:.2} to {:.2} rad/s fits; {:.1} % \
-         of all ranges would fit as few intervals by chance; with ω as printed {printed_frequency}; {range}",
-        grid.angular_frequency_rad_per_s,
-        pi(grid.largest_amplitude_angle_rad),
-        grid.indices,
-        grid.intervals,
-        grid.frequency_range_rad_per_s.0,
-        grid.frequency_range_rad_per_s.1,
-        100.0 * grid.share_by_chance,
-    );
-    grid.reading.numbers.iter().enumerate().map(move |(index, number)| {
+    grid.reading.numbers.iter().map(move |number| {
         let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
-        let claim = Claim::reading(ID, &number.key, &quantity, number.computed)
+        Claim::reading(ID, &number.key, &quantity, number.computed)
             .fitted("a_g, and the number of intervals")
-            .note(described(data));
-        if index == 0 { claim.note(&evidence) } else { claim }
+            .note(described(data))
     })
 }
 

@@ -5,8 +5,8 @@
 use bouncing_disk::core::numerics::elementary::sin;
 use bouncing_disk::toss::InitialSpin;
 
+use super::data::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
-use super::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;

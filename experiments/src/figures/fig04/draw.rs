@@ -7,7 +7,7 @@ use bouncing_disk_plot::{
     Panel, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::{Family, Fig04Data, LagCurve, TossPoint};
+use super::data::{Family, Fig04Data, FrictionCurve, LagCurve, TossPoint};
 use crate::claims::printed::PrintedNumber;
 
 const HEIGHT: f64 = 480.0;
@@ -219,9 +219,8 @@ fn friction_panel(panel: Panel, data: &Fig04Data) -> Panel {
                 .name(format!(r"$\mu = {}$", curve.friction)),
         );
     }
-    let best = |curve: &super::FrictionCurve| {
-        (curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s)
-    };
+    let best =
+        |curve: &FrictionCurve| (curve.fastest.amplitude_angle_rad, curve.fastest.airborne_speed_rad_per_s);
     panel
         .layer(circle(data.friction_curves.iter().map(best)))
         .legend(Legend::at(Corner::BottomRight).without_frame())

@@ -8,7 +8,7 @@ use bouncing_disk::core::numerics::elementary::{acos, asin, cos, sin, tan};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::toss::{InitialSpin, TossPerformance};
 
-use super::{
+use super::data::{
     Best, Compromise, Family, FrictionCurve, FrictionOptimum, LagCurve, Separation, SeparationCurve,
     SpeedCurve, TossPoint,
 };

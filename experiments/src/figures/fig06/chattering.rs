@@ -1,18 +1,22 @@
 //! The chattering orbit: its cycle, and the end of the single tosses.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
 use bouncing_disk::InitialCondition;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::sweep::{SweepEvent, sweep};
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Phase, Unobserved, Vibration};
+use bouncing_disk::core::{
+    ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Phase, Unobserved, Vibration,
+};
+use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};
 
-use super::data::{SingleTosses, Slice};
-use super::inputs::{Inputs, Systems};
+use super::data::{Chatter, SingleTosses, Slice};
+use super::inputs::{Inputs, Systems, map};
 use super::slices::slice;
+use crate::claims::judging::trend;
 use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
 
@@ -59,6 +63,60 @@ pub(super) fn cycles(
         cycles[index] = rests.then_some(cycle);
     }
     Ok(cycles)
+}
+
+/// How a disk that leaves the platform from rest comes to rest again.
+struct ToRest {
+    /// Durations (radians) and impact speeds.
+    flights: Vec<(f64, f64)>,
+    /// The time of rest (radians).
+    time: f64,
+}
+
+/// `None` where the disk does not leave or does not come to rest.
+fn to_rest(map: &ImpactMap, policy: ChatterPolicy) -> Result<Option<ToRest>, ExperimentError> {
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
+    let mut orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, policy);
+    let (mut flights, mut time) = (Vec::new(), 0.0);
+    while flights.len() < LONGEST_CYCLE {
+        match orbit.advance()? {
+            Some(OrbitEvent::Impact(impact)) => {
+                time += impact.duration();
+                flights.push((impact.duration(), -impact.velocity));
+            }
+            Some(OrbitEvent::Attachment(rest)) => {
+                return Ok(Some(ToRest { flights, time: time + rest.accumulation.duration }));
+            }
+            _ => return Ok(None),
+        }
+    }
+    Ok(None)
+}
+
+/// How a disk from rest comes to rest at each Γ.
+pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter>, ExperimentError> {
+    let chatter = |&axial_forcing: &f64| -> Result<Option<Chatter>, ExperimentError> {
+        let map = map(axial_forcing, restitution)?;
+        let (Some(cut), Some(rests)) =
+            (to_rest(&map, PAPER_CHATTER)?, to_rest(&map, ChatterPolicy::Complete)?)
+        else {
+            return Ok(None);
+        };
+        let long = cut.flights.iter().rposition(|(duration, _)| *duration > LONG_FLIGHT);
+        let chatter = &cut.flights[long.map_or(0, |long| long + 1)..];
+        let falls = |of: fn(&(f64, f64)) -> f64| {
+            trend(chatter.iter().enumerate().map(|(impact, flight)| (impact as f64, of(flight))), -1.0)
+        };
+        Ok(Some(Chatter {
+            axial_forcing,
+            impacts: chatter.len(),
+            slower: falls(|flight| flight.1),
+            shorter: falls(|flight| flight.0),
+            rests_at_cycles: rests.time / TAU,
+            cut_at_cycles: cut.time / TAU,
+        }))
+    };
+    forcings.iter().map(chatter).filter_map(Result::transpose).collect()
 }
 
 /// Rest on the platform at its lowest point, turning with it.

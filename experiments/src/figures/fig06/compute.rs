@@ -11,17 +11,17 @@ use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings};
 use rayon::prelude::*;
 
 use super::chattering;
-use super::crossings::branch_crossings;
-use super::data::{BestLag, Bouncing, Column, Fig06Data, Merging, SingleTosses, Slice, Transfer};
+use super::data::{
+    BestLag, Bouncing, Column, Fig06Data, ForcingEffect, Merging, SingleTosses, Slice, Transfer,
+};
 use super::inputs::{Inputs, map, no_orbit};
-use super::slices::followed_slice;
+use super::slices::{branch_crossings, followed_slice, forcing_effect};
 use super::{contact, dimension, explored, merging, period_one};
 use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::FORCING_RANGE;
 use crate::progress::Progress;
 
-/// The range of Γ of the diagram.
-pub(in crate::figures) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
 /// Impacts after which a disk that has not come to rest is looked at.
 const SETTLING: usize = 20_000;
 /// Longest period (impacts) of an orbit that it may have settled on, and how well two rounds of it agree.
@@ -79,6 +79,9 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
     let impacts: Vec<(f64, Option<usize>)> =
         diagrams.cycles.iter().map(|(forcing, cycle)| (*forcing, cycle.map(|cycle| cycle.impacts))).collect();
     let explored = explored::explored(first, inputs, &merging, &impacts)?;
+    let resting: Vec<f64> = sampled(SAMPLED, &diagrams.resting());
+    let chatters = chattering::chatters(&resting, restitution)?;
+    let forcing_effects = diagrams.forcing_effects(doublings.get(1).copied(), crisis, inputs, settings)?;
     let (transfers, best_lags) = along_the_diagram(&diagrams, &chaotic, crisis, inputs, settings)?;
     let one_impact_decides = explored::one_impact_decides(crisis, restitution, quality)?;
     let period_one_threshold = period_one::threshold(inputs, first)?;
@@ -106,6 +109,8 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
             .spectral_radius(),
         merging,
         single_tosses,
+        chatters,
+        forcing_effects,
         branch_crossings,
         lyapunov_exponents,
         period_one: period_one::period_one(inputs)?,
@@ -118,6 +123,11 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
         best_lags,
         one_impact_decides,
     })
+}
+
+/// So many of all, or some more, evenly.
+fn sampled<T: Copy>(count: usize, all: &[T]) -> Vec<T> {
+    all.iter().copied().step_by((all.len() / count).max(1)).collect()
 }
 
 /// Γ and the Lyapunov exponent of each orbit that has one.
@@ -176,6 +186,37 @@ impl Diagrams {
         Ok(Self { first, walk, followed, cycles, chattering })
     }
 
+    /// The Γ at which a disk from rest comes to rest again.
+    fn resting(&self) -> Vec<f64> {
+        self.cycles.iter().filter(|(_, cycle)| cycle.is_some()).map(|(forcing, _)| *forcing).collect()
+    }
+
+    /// What Γ_T does to the rotation from the period-4 bifurcation on: of the followed attractor, and beyond the crisis of the disk from rest.
+    fn forcing_effects(
+        &self,
+        period_four: Option<f64>,
+        crisis: f64,
+        inputs: Inputs,
+        settings: MultiTossSettings,
+    ) -> Result<Vec<ForcingEffect>, ExperimentError> {
+        let inputs = inputs.exchanged();
+        let period_four = period_four.unwrap_or(f64::NAN);
+        let followed = self.on_attractor().iter().zip(&self.followed);
+        let followed: Vec<_> = followed.filter(|(at, _)| at.axial_forcing > period_four).collect();
+        let beyond = self.cycles.iter().zip(&self.chattering).filter(|((forcing, _), _)| *forcing > crisis);
+        let beyond: Vec<_> = beyond.filter_map(|(at, drawn)| Some((at, drawn.as_ref()?))).collect();
+        let of_followed = sampled(SAMPLED, &followed).into_par_iter().map(|(at, drawn)| {
+            let exchanged = followed_slice(at, inputs, settings)?;
+            Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
+        });
+        let of_resting = sampled(SAMPLED, &beyond).into_par_iter().map(|((forcing, cycle), drawn)| {
+            let exchanged = chattering::chattering_slice(*forcing, *cycle, inputs, settings)?;
+            Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
+        });
+        let effects = of_followed.chain(of_resting).collect::<Vec<Result<_, ExperimentError>>>();
+        effects.into_iter().filter_map(Result::transpose).collect()
+    }
+
     /// The walk where it is on the attractor.
     fn on_attractor(&self) -> &[Followed] {
         &self.walk[..self.followed.len()]
@@ -228,21 +269,16 @@ fn along_the_diagram(
     inputs: Inputs,
     settings: MultiTossSettings,
 ) -> Result<(Vec<Transfer>, Vec<BestLag>), ExperimentError> {
-    let spread = |count: usize, all: &[(f64, ImpactState)]| -> Vec<(f64, ImpactState)> {
-        all.iter().copied().step_by((all.len() / count).max(1)).collect()
-    };
     let states: Vec<(f64, ImpactState)> =
         diagrams.on_attractor().iter().map(|at| (at.axial_forcing, at.state)).collect();
-    let resting: Vec<f64> =
-        diagrams.cycles.iter().filter(|(_, cycle)| cycle.is_some()).map(|(forcing, _)| *forcing).collect();
-    let resting: Vec<f64> = resting.iter().copied().step_by((resting.len() / SAMPLED).max(1)).collect();
-    let transfers = contact::transfers(&spread(SAMPLED, &states), &resting, inputs)?;
+    let resting = sampled(SAMPLED, &diagrams.resting());
+    let transfers = contact::transfers(&sampled(SAMPLED, &states), &resting, inputs)?;
     let beyond: Vec<f64> = resting.iter().copied().filter(|forcing| *forcing > crisis).collect();
-    let beyond: Vec<f64> = beyond.iter().copied().step_by((beyond.len() / (SAMPLED / 4)).max(1)).collect();
+    let beyond = sampled(SAMPLED / 4, &beyond);
     let lag_settings = MultiTossSettings { transient_impacts: LAG_TRANSIENT, ..settings };
     let chaotic: Vec<(f64, ImpactState)> = chaotic.iter().map(|at| (at.axial_forcing, at.state)).collect();
     let lagged: Vec<_> =
-        spread(SAMPLED / 4, &states).into_iter().chain(spread(SAMPLED / 4, &chaotic)).collect();
+        sampled(SAMPLED / 4, &states).into_iter().chain(sampled(SAMPLED / 4, &chaotic)).collect();
     Ok((transfers, explored::best_lags(&lagged, &beyond, inputs, lag_settings)?))
 }
 

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::claims::Cases;
+
 /// Data of Fig. 6.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig06Data {
@@ -36,6 +38,10 @@ pub struct Fig06Data {
     pub(super) merging: Merging,
     /// Where the chattering orbit stops being a chain of single tosses.
     pub(super) single_tosses: SingleTosses,
+    /// How a disk from rest comes to rest again, at some Γ.
+    pub(super) chatters: Vec<Chatter>,
+    /// What Γ_T does to the rotation, at some Γ from period 4 on.
+    pub(super) forcing_effects: Vec<ForcingEffect>,
     /// Γ at which two branches of the period-4 orbit have the same speed in (d).
     pub(super) branch_crossings: Vec<f64>,
     /// Lyapunov exponents of the followed attractor beyond the last doubling: Γ, and the growth rate per impact.
@@ -221,6 +227,28 @@ pub(super) struct OneImpactDecides {
 pub(super) struct Twist {
     pub(super) phase_lag_rad: f64,
     pub(super) angular_forcing: f64,
+}
+
+/// The last impacts of a disk from rest before it comes to rest again: those that end flights of less than half a period.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Chatter {
+    pub(super) axial_forcing: f64,
+    /// Impacts up to the paper's cut.
+    pub(super) impacts: usize,
+    /// Of all pairs of these, those whose later one is slower, and whose later flight is shorter.
+    pub(super) slower: Cases,
+    pub(super) shorter: Cases,
+    /// The time of rest (periods), from the separation on, with infinitely many impacts summed, and with the paper's cut.
+    pub(super) rests_at_cycles: f64,
+    pub(super) cut_at_cycles: f64,
+}
+
+/// By how much the angular speeds of the impacts vary more at the small Γ_T than at the large one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct ForcingEffect {
+    pub(super) axial_forcing: f64,
+    /// Difference of the standard deviations, as shares of ωΦ, with the phase lags of (c) and of (d).
+    pub(super) added_variation: [f64; 2],
 }
 
 /// The impacts at one Γ. Coordinates are rounded to 1e-6, far below the resolution of the picture.

@@ -8,6 +8,13 @@ use bouncing_disk_plot::{
 
 use super::data::{Fig06Data, Slice};
 
+/// Orbits of more impacts are drawn by the density of their impacts: dots that let others shine through.
+const SEPARATE: usize = 24;
+/// Radius of such a dot (points): a pixel of the picture.
+const DOT: f64 = 0.25;
+const FOLLOWED: Colour = Colour::rgb(20, 20, 20);
+const CHATTERING: Colour = Colour::rgb(150, 150, 150);
+
 /// A column of the data.
 type Column = fn(&Slice) -> &[f64];
 
@@ -15,26 +22,28 @@ pub(super) fn draw(data: &Fig06Data) -> Figure {
     /// Of the four panels of the paper.
     const UPPER: f64 = 400.0;
     const HEIGHT: f64 = 570.0;
-    let margins = Margins { left: 46.0, right: 10.0, top: 22.0, bottom: 34.0 };
+    let margins = Margins { left: 46.0, right: 16.0, top: 22.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, UPPER, 2, 2).margins(margins).gaps(52.0, 12.0);
     let (low, high) = data.axial_forcing_range;
     let panel = |row: usize, column: usize, letter: &str, y: Axis, of: Column| {
         let x = Axis::linear(low, high).ticks(Ticks::every(0.05).minor(5));
         let x = if row == 0 { x.without_numbers() } else { x.label(r"$\Gamma$") };
-        let dots = |slices: &[Slice]| -> Vec<(f64, f64)> {
-            slices
-                .iter()
-                .flat_map(|slice| of(slice).iter().map(|value| (slice.axial_forcing, *value)))
-                .collect()
+        let shaded = |slices: &[Slice], colour: Colour, opacity: f64, name: &str| {
+            let points = |dense: bool| {
+                slices
+                    .iter()
+                    .filter(move |slice| (of(slice).len() > SEPARATE) == dense)
+                    .flat_map(|slice| of(slice).iter().map(|value| (slice.axial_forcing, *value)))
+            };
+            [
+                DensePoints::new(points(true)).colour(colour).radius(DOT).opacity(opacity),
+                DensePoints::new(points(false)).colour(colour).radius(0.3).name(name),
+            ]
         };
         let panel = Panel::new(grid.cell(row, column)).x(x).y(y).letter(letter);
         marked(panel, data, (row, column))
-            .layer(DensePoints::new(dots(&data.chattering)).colour(Colour::LIGHT_GREY).name("chattering"))
-            .layer(
-                DensePoints::new(dots(&data.followed))
-                    .colour(OrbitDiagram::ALONE)
-                    .name("followed from period 1"),
-            )
+            .layers(shaded(&data.chattering, CHATTERING, 0.4, "chattering"))
+            .layers(shaded(&data.followed, FOLLOWED, 0.07, "followed from period 1"))
     };
     let speed = || Axis::linear(-1.1, 1.1).ticks(Ticks::every(0.5).minor(5));
     let fastest = data
@@ -95,13 +104,17 @@ const SHOWN_PHASES: (f64, f64) = (0.15, 0.35);
 /// The doublings that panel (a) is too coarse for.
 fn zoom(data: &Fig06Data, area: Rect) -> Panel {
     let shown = |phase: &&f64| **phase > SHOWN_PHASES.0 && **phase < SHOWN_PHASES.1;
-    let dots: Vec<(f64, f64)> = data
-        .zoom
-        .iter()
-        .flat_map(|column| {
-            column.impact_phase_cycles.iter().filter(shown).map(|phase| (column.axial_forcing, *phase))
-        })
-        .collect();
+    let points = |dense: Option<bool>| -> Vec<(f64, f64)> {
+        let columns = data.zoom.iter().filter(|column| {
+            dense.is_none_or(|dense| (column.impact_phase_cycles.len() > SEPARATE) == dense)
+        });
+        columns
+            .flat_map(|column| {
+                column.impact_phase_cycles.iter().filter(shown).map(|phase| (column.axial_forcing, *phase))
+            })
+            .collect()
+    };
+    let dots = points(None);
     let ends = |of: fn(&(f64, f64)) -> f64| {
         dots.iter()
             .map(of)
@@ -123,5 +136,8 @@ fn zoom(data: &Fig06Data, area: Rect) -> Panel {
             .layer(Rule::vertical(*forcing).stroke(stroke))
             .layer(text.anchor(Anchor::Middle).size(8.0).colour(Colour::BLUE));
     }
-    panel.layer(DensePoints::new(dots).colour(OrbitDiagram::ALONE))
+    // The columns are wider than those of the other panels.
+    panel
+        .layer(DensePoints::new(points(Some(true))).colour(FOLLOWED).radius(0.5).opacity(0.4))
+        .layer(DensePoints::new(points(Some(false))).colour(FOLLOWED).radius(0.5))
 }

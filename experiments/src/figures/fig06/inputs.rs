@@ -18,6 +18,18 @@ pub(super) struct Inputs {
     pub(super) semielliptical: Twist,
 }
 
+impl Inputs {
+    /// With the angular forcings of (c) and (d) exchanged.
+    pub(super) fn exchanged(self) -> Self {
+        let Self { linear, semielliptical, .. } = self;
+        Self {
+            linear: Twist { angular_forcing: semielliptical.angular_forcing, ..linear },
+            semielliptical: Twist { angular_forcing: linear.angular_forcing, ..semielliptical },
+            ..self
+        }
+    }
+}
+
 impl From<&SectionFour> for Inputs {
     fn from(section: &SectionFour) -> Self {
         Self {

@@ -1,6 +1,6 @@
 //! What the paper says about chattering and the merging of the attractors in Fig. 6.
 
-use super::data::{BestLag, Fig06Data, Shadow, Slice};
+use super::data::{BestLag, Chatter, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
 use crate::claims::catalogue;
 use crate::claims::judging::trend;
@@ -10,6 +10,7 @@ use crate::figures::numbers::occupied_arc;
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = chattering(data);
     claims.extend([rest(data), complexity(data)]);
+    claims.extend(decay(data));
     claims.extend(merged(data));
     claims.extend(speeds(data));
     claims
@@ -186,6 +187,42 @@ fn rest(data: &Fig06Data) -> Claim {
             ones.len()
         ),
     )
+}
+
+/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk of the cut's speed does.
+const SAME_REST: f64 = 1.0e-4;
+
+/// How the chattering sequences of a disk from rest end.
+fn decay(data: &Fig06Data) -> [Claim; 2] {
+    let chatters = &data.chatters;
+    let sum = |pairs: fn(&Chatter) -> Cases| chatters.iter().map(pairs).sum::<Cases>();
+    let (slower, shorter) = (sum(|of| of.slower), sum(|of| of.shorter));
+    let off = |of: &Chatter| (of.cut_at_cycles - of.rests_at_cycles).abs();
+    let (_, worst) = extent(chatters.iter().map(off));
+    [
+        Claim::printed_statement(
+            "section4.chattering_decays",
+            slower
+                .tried
+                .min(shorter.tried)
+                .gt(&0)
+                .then(|| [slower, shorter].iter().all(|pairs| 2 * pairs.holding > pairs.tried)),
+            format!(
+                "of all pairs of impacts in the last flights of less than half a period, at {} values of Γ, the later one is slower in {} and its flight shorter in {}",
+                chatters.len(),
+                slower.words(),
+                shorter.words(),
+            ),
+        ),
+        Claim::printed_statement(
+            "section4.rest_in_finite_time",
+            claim::any(chatters, |of| off(of) < SAME_REST),
+            format!(
+                "the infinitely many flights of a chattering sequence have a finite sum, which the program computes; the paper's cut differs from it by {worst:.0e} of a period at most, at {} values of Γ",
+                chatters.len(),
+            ),
+        ),
+    ]
 }
 
 /// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has the longer cycle.

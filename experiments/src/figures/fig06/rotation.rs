@@ -6,7 +6,7 @@ use bouncing_disk::core::numerics::elementary::{cos, sin};
 
 use super::data::{Fig06Data, Slice};
 use crate::claims::judging::trend;
-use crate::claims::{self as claim, Cases, Claim};
+use crate::claims::{self as claim, Cases, Claim, Kind};
 use crate::figures::numbers;
 pub(super) use crate::figures::numbers::extent;
 
@@ -181,9 +181,52 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
                 ones.last().map_or(f64::NAN, |(slice, _)| slice.axial_forcing),
             ),
         ),
+        slow_at_birth(data),
         oscillation(data),
+        increasingly(data),
         tracking(data),
     ]
+}
+
+/// θ = −0.26π at the birth of the period-1 orbit, where τ_imp = 0 and Eq. (16) gives ωΦ cos θ.
+fn slow_at_birth(data: &Fig06Data) -> Claim {
+    let ones = period_ones(data);
+    let at_birth = cos(data.semielliptical.phase_lag_rad);
+    let fastest = extent(ones.iter().map(|(slice, _)| slice.semielliptical_mean)).1;
+    Claim::printed_statement(
+        "section4.semielliptical_slow_at_birth",
+        claim::all(ones.first(), |(first, _)| {
+            at_birth < cos(data.linear.phase_lag_rad)
+                && first.semielliptical_mean < fastest.min(first.linear_mean)
+        }),
+        format!(
+            "{at_birth:.3} ωΦ at Γ = 1/3 by Eq. (16), against ωΦ with θ = 0; of the orbits drawn the first, Γ = {:.4}, turns with {:.3} and {:.3} ωΦ",
+            ones.first().map_or(f64::NAN, |(first, _)| first.axial_forcing),
+            ones.first().map_or(f64::NAN, |(first, _)| first.semielliptical_mean),
+            ones.first().map_or(f64::NAN, |(first, _)| first.linear_mean),
+        ),
+    )
+}
+
+/// How much more the speed varies at the small Γ_T, as Γ grows beyond period 4.
+fn increasingly(data: &Fig06Data) -> Claim {
+    let effects = &data.forcing_effects;
+    let pairs =
+        [0, 1].map(|lag| trend(effects.iter().map(|of| (of.axial_forcing, of.added_variation[lag])), 1.0));
+    let grows = pairs.map(|pairs| Cases::from((pairs.tried > 0).then(|| 2 * pairs.holding > pairs.tried)));
+    Claim::printed_statement(
+        "section4.angular_forcing_matters_more",
+        grows[1],
+        format!(
+            "by how much the standard deviation of the angular speed is larger at Γ_T = {} than at {}, at {} values of Γ from period 4 on: it grows with Γ in {} of all pairs with θ of (c), and in {} with that of (d)",
+            data.semielliptical.angular_forcing,
+            data.linear.angular_forcing,
+            effects.len(),
+            pairs[0].words(),
+            pairs[1].words(),
+        ),
+    )
+    .by_definition(&grows.map(|grows| Kind::Trend.verdict(grows)))
 }
 
 /// The range of angular speeds beyond period 4.

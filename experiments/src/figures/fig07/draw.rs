@@ -6,8 +6,7 @@ use bouncing_disk_plot::{
     Raster, Rect, Rule, Scatter, Stroke, Text, Ticks,
 };
 
-use super::cells;
-use super::{CurvePoint, Fig07Data, Panel as Basins};
+use super::data::{CurvePoint, Fig07Data, Panel as Basins, cells};
 
 /// Chattering, attractor, other attractor, undecided.
 const PALETTE: [Colour; 4] = [Colour::WHITE, Colour::BLACK, Colour::rgb(150, 150, 150), Colour::SKY];

@@ -7,8 +7,8 @@ use bouncing_disk::core::{
     ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 
-use super::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
-use super::{Other, Panel, Shares, Spot};
+use super::data::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
+use super::data::{Other, Panel, Shares, Spot};
 use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};
 

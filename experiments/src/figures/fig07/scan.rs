@@ -8,8 +8,8 @@ use bouncing_disk::core::sweep::survival_times;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Phase, Unobserved};
 use rayon::prelude::*;
 
+use super::data::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use super::panels::{grid, map, start};
-use super::{Beyond, Easiness, Other, Rest, TopShares, Traced};
 use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
 
@@ -81,7 +81,7 @@ pub(super) fn beyond(
     top: f64,
     quality: Quality,
 ) -> Result<Vec<Beyond>, ExperimentError> {
-    let (first, last) = (section.merging, crate::figures::fig06::FORCING_RANGE.1);
+    let (first, last) = (section.merging, crate::figures::FORCING_RANGE.1);
     let (step, side) = quality.choose((5.0e-4, 8), (2.0e-4, 16));
     let count = ((last - first) / step).round() as u32;
     (0..=count)

@@ -6,9 +6,9 @@ use bouncing_disk::core::attractors::{BasinSettings, KnownOrbit};
 use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
 
+use super::data::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
+use super::data::{CurvePoint, Windows};
 use super::panels::{grid, map, others};
-use super::{ATTRACTOR, CHATTERING, STILL_OPEN, kind};
-use super::{CurvePoint, Windows};
 use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};

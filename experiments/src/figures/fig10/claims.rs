@@ -1,10 +1,10 @@
 //! What the paper says about Fig. 10.
 
-use super::{Fig10Data, Transient};
+use super::data::{Fig10Data, Transient};
 use crate::claims::catalogue;
 use crate::claims::{Cases, Claim, all};
 use crate::figures::alike::{AlikeMotor, INTERVALS};
-use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, perturbation_claim};
+use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words, perturbation_claim};
 use crate::figures::numbers;
 
 const ID: &str = "fig10";
@@ -74,12 +74,10 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
             "section5.exponential_transients",
             all(ensembles, |panel| panel.relative_exponential_residual < panel.relative_ramp_residual),
             format!(
-                "whether the exponential fits better than a linear rise to a constant at all three A; residuals over the steady speed, mean of the members: {} % \
-                 and {} %; of {single} it does for {}. {}",
+                "the exponential fits better than a linear rise to a constant at all three A: residuals {} % and {} % of the steady speed, mean of the members; of {single} it does for {}",
                 listed(|panel| panel.relative_exponential_residual, 1e2),
                 listed(|panel| panel.relative_ramp_residual, 1e2),
                 shares(AlikeMotor::is_exponential),
-                exception(data),
             ),
         )
         .single_orbits(over(&|draw| draw.into_iter().all(AlikeMotor::is_exponential))),
@@ -101,6 +99,7 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
         )
         .single_orbits(over(&rises(|motor| -motor.impacts_per_s))),
         long_period(data),
+        transient_chaos(data),
     ]
 }
 
@@ -113,17 +112,38 @@ fn long_period(data: &Fig10Data) -> Claim {
     let by_draw =
         |most| Cases::of(data.alike.draws().map(|draw| draw.into_iter().all(|motor| !is_low(motor, most))));
     let others = DEFINITIONS.map(by_draw);
-    let words = DEFINITIONS.iter().zip(others).map(|(most, cases)| format!("{most}: {}", cases.words()));
     Claim::printed_statement(
         "section5.long_period_chattering",
         by_draw(LOW_PERIOD_FLIGHTS),
         format!(
             "over single orbits ({}); low period is at most {LOW_PERIOD_FLIGHTS} flights of more than half a period from rest to rest. With other numbers of flights it holds for {}",
             data.alike.inputs,
-            words.collect::<Vec<_>>().join("; "),
+            by_definition_words(others),
         ),
     )
     .by_definition(&others.map(Cases::sampled))
+}
+
+/// Chaos that a rest ends.
+fn transient_chaos(data: &Fig10Data) -> Claim {
+    let between = &data.alike.between_rests;
+    let words = between.iter().map(|of| {
+        format!(
+            "{:e} m: {}, by a factor e^{:.1} an impact over {:.0} impacts (medians)",
+            of.amplitude_m,
+            of.grows.words(),
+            of.growth_per_impact.unwrap_or(f64::NAN),
+            of.impacts.unwrap_or(f64::NAN),
+        )
+    });
+    Claim::printed_statement(
+        "section5.transient_chaos",
+        between.iter().map(|of| of.grows).sum::<Cases>(),
+        format!(
+            "motors in which a small perturbation of the vertical motion grows between two rests as in a chaotic attractor: {}; the rest ends it",
+            words.collect::<Vec<_>>().join("; "),
+        ),
+    )
 }
 
 /// Motors of long period must oscillate more than the middle one of those of low period at their amplitude.
@@ -143,50 +163,14 @@ fn long_period_oscillates(data: &Fig10Data) -> Claim {
         Cases::of(draws)
     };
     let others = DEFINITIONS.map(by_draw);
-    let words = DEFINITIONS.iter().zip(others).map(|(most, cases)| format!("{most}: {}", cases.words()));
-    let amplitudes = data.alike.motors.each_ref().map(|motors| {
-        let of = |low: bool| {
-            let chosen = motors.iter().filter(move |motor| is_low(motor, LOW_PERIOD_FLIGHTS) == low);
-            chosen.map(|motor| 100.0 * motor.oscillation).collect::<Vec<f64>>()
-        };
-        let (long, low) = (of(false), of(true));
-        format!(
-            "{:.3} % ({} motors) and {:.3} % ({}, up to {:.3} %)",
-            median(long.iter().copied()),
-            long.len(),
-            median(low.iter().copied()),
-            low.len(),
-            low.iter().copied().fold(0.0, f64::max),
-        )
-    });
     Claim::printed_statement(
         "section5.oscillation_from_long_period",
         by_draw(LOW_PERIOD_FLIGHTS),
         format!(
             "a draw agrees if at every A at which it is of long period its speed varies more than that of the middle motor of low period; with low period up to another number of \
-             flights than {LOW_PERIOD_FLIGHTS} that holds for {}. Median standard deviation of the speed from its straight line in the second half of the transient, as a share of ωΦ, of \
-             motors of long and of low period at 10⁻⁹, 10⁻⁸, 10⁻⁷ m: {}",
-            words.collect::<Vec<_>>().join("; "),
-            amplitudes.join("; "),
+             flights than {LOW_PERIOD_FLIGHTS} that holds for {}",
+            by_definition_words(others),
         ),
     )
     .by_definition(&others.map(Cases::sampled))
-}
-
-/// The cycle at exactly 9.8 m/s².
-fn exception(data: &Fig10Data) -> String {
-    let exception = &data.exception;
-    format!(
-        "At A = {:e} m and exactly g = {} m/s², A ω²/g is {:.6} times 2π² and the motor repeats a cycle of {}, its speed rising linearly \
-         (deviation {:.3} rad/s, from the exponential {:.3} rad/s): an exception that ends at g = {:.4} and {:.4} m/s², {:.1e} of g wide",
-        exception.amplitude_m,
-        exception.preload_acceleration_m_per_s2,
-        exception.peak_acceleration_over_two_pi_squared,
-        exception.robust_cycle.words(),
-        exception.ramp_residual_rad_per_s,
-        exception.exponential_residual_rad_per_s,
-        exception.lowest_preload_acceleration_m_per_s2,
-        exception.highest_preload_acceleration_m_per_s2,
-        exception.relative_width,
-    )
 }

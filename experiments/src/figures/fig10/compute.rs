@@ -2,17 +2,23 @@
 
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk::core::chaos::LyapunovEstimate;
+use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
-use bouncing_disk::core::{ChatterPolicy, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Launch, OrbitEvent, Unobserved};
 use bouncing_disk::estimate::{RampFit, Spread, TransientEnsemble};
 use bouncing_disk::motor::TransientSettings;
 use bouncing_disk::{PlatformParameters, System};
+use glam::DVec2;
+use rayon::prelude::*;
 
-use super::{Alike, Exception, Fig10Data, Reading, Transient};
+use super::data::{Alike, BetweenRests, Exception, Fig10Data, Reading, Transient};
+use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{alike, oscillation};
+use crate::figures::alike::{alike_with_band, oscillation};
 use crate::figures::motor_case::{MotorCase, perturbation_table};
+use crate::figures::numbers::median;
 use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
 use crate::progress::Progress;
 
@@ -106,15 +112,61 @@ fn axial_forcing(amplitude: f64, frequency_hz: f64, preload: f64) -> Result<f64,
 /// The motors of Table III at the three amplitudes, with the g drawn that is not printed.
 fn drawn_alike(inputs: PrintedInputs, count: usize) -> Result<Alike, ExperimentError> {
     let motors = |key| -> Result<_, ExperimentError> {
-        alike(&inputs.amplitude(key)?.drawn(count, SEED), JUDGED_RISES)
+        let cases = inputs.amplitude(key)?.drawn(count, SEED);
+        let (motors, band) = alike_with_band(&cases, JUDGED_RISES)?;
+        Ok((motors, band, between_rests(&cases)?))
     };
+    let [small, middle, large] = [
+        motors("section5.smallest_amplitude_of_fig10")?,
+        motors("section5.middle_amplitude_of_fig10")?,
+        motors("section5.largest_amplitude_of_fig10")?,
+    ];
     Ok(Alike {
         inputs: inputs.words(),
-        motors: [
-            motors("section5.smallest_amplitude_of_fig10")?,
-            motors("section5.middle_amplitude_of_fig10")?,
-            motors("section5.largest_amplitude_of_fig10")?,
-        ],
+        motors: [small.0, middle.0, large.0],
+        bands: [small.1, middle.1, large.1],
+        between_rests: [small.2, middle.2, large.2],
+    })
+}
+
+/// Impacts after which a motor that has not come to rest is looked at no longer.
+const LONGEST_FLIGHTS: u64 = 20_000;
+
+/// The growth of a small perturbation from the separation to the next rest, as the mean of its logarithm per impact. A rest ends it: every motor leaves the stator at the same
+/// phase again.
+fn growth(motor: &MotorCase) -> Result<Option<LyapunovEstimate>, ExperimentError> {
+    let map = *motor.system()?.dimensionless().map();
+    let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
+    let mut orbit = map.orbit_from_launch(Launch::new(leaves, 0.0)?, ChatterPolicy::Complete);
+    let mut state: Option<ImpactState> = None;
+    let (mut perturbation, mut logarithm, mut impacts) = (DVec2::Y, 0.0, 0);
+    while impacts < LONGEST_FLIGHTS {
+        let Some(OrbitEvent::Impact(impact)) = orbit.advance()? else { break };
+        if let Some(state) = state {
+            perturbation = map.step_with_derivative(state)?.1 * perturbation;
+            let length = perturbation.length();
+            logarithm += ln(length);
+            perturbation /= length;
+            impacts += 1;
+        }
+        state = Some(impact.into());
+    }
+    Ok((impacts > 0).then(|| LyapunovEstimate {
+        exponent: logarithm / impacts as f64,
+        standard_error: 0.0,
+        impacts,
+    }))
+}
+
+fn between_rests(cases: &[MotorCase]) -> Result<BetweenRests, ExperimentError> {
+    let growths = cases.par_iter().map(growth).collect::<Vec<_>>();
+    let growths: Vec<_> = growths.into_iter().filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    let growing = || growths.iter().filter(|growth| growth.grows());
+    Ok(BetweenRests {
+        amplitude_m: cases.first().map_or(f64::NAN, |case| case.amplitude_m),
+        grows: Cases { holding: growing().count(), tried: cases.len() },
+        impacts: median(growing().map(|growth| growth.impacts as f64)),
+        growth_per_impact: median(growing().map(|growth| growth.exponent)),
     })
 }
 

@@ -7,7 +7,8 @@ use bouncing_disk_plot::{
     Ticks,
 };
 
-use super::{Exception, Fig10Data, Reading, Transient, Trial};
+use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
+use crate::figures::alike::SpeedBand;
 use crate::figures::numbers::exponent;
 
 /// Height of a row.
@@ -26,7 +27,9 @@ pub(super) fn draw(data: &Fig10Data) -> Figure {
         for (column, panel) in reading.panels.iter().enumerate() {
             let exception = (row == 0 && column == 0).then_some(&data.exception);
             let cell = grid.cell(row, column);
-            figure = figure.panel(drawn(cell, letters[row][column], reading, panel, highest, exception));
+            let alike = (row == 0).then(|| &data.alike.bands[column]);
+            figure =
+                figure.panel(drawn(cell, letters[row][column], reading, panel, highest, exception, alike));
         }
     }
     if let Some(panel) = data.readings.first().and_then(|reading| reading.panels.get(1)) {
@@ -50,6 +53,7 @@ fn drawn(
     panel: &Transient,
     highest: f64,
     exception: Option<&Exception>,
+    alike: Option<&SpeedBand>,
 ) -> Panel {
     let fit = panel.member_fit;
     let fitted = curve(fit, reading.duration_s);
@@ -60,9 +64,16 @@ fn drawn(
         .map(|(&time, (&low, &high))| (time, low, high));
     let member =
         panel.member_time_s.iter().zip(&panel.member_speed_rad_per_s).map(|(&time, &speed)| (time, speed));
-    let note = |y: f64, text: String| Text::at_axes(0.96, y, text).anchor(Anchor::Right);
+    let note = |y: f64, text: String| Text::at_axes(0.95, y, text).anchor(Anchor::Right);
     let named = |line: Line, panel: &str, name: &str| if letter == panel { line.name(name) } else { line };
-    let mut drawn = Panel::new(area)
+    let mut drawn = Panel::new(area);
+    if let Some(alike) = alike {
+        let speeds = alike.low_rad_per_s.iter().zip(&alike.high_rad_per_s);
+        let points = alike.time_s.iter().zip(speeds).map(|(&time, (&low, &high))| (time, low, high));
+        let band = Band::new(points).colour(Colour::LIGHT_GREY).opacity(0.45);
+        drawn = drawn.layer(if letter == "c" { band.name("single orbits") } else { band });
+    }
+    let mut drawn = drawn
         .letter_in(letter, Corner::TopLeft)
         .x(Axis::linear(0.0, reading.duration_s)
             .ticks(Ticks::every(if reading.duration_s > 2.0 { 2.0 } else { 0.3 }))
@@ -83,7 +94,7 @@ fn drawn(
         drawn = drawn.layer(line.name(name));
     }
     // Two entries of the legend in each of two panels, as there is little room above the curves.
-    if matches!(letter, "a" | "b") { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
+    if matches!(letter, "a" | "b" | "c") { drawn.legend(Legend::at(Corner::TopRight)) } else { drawn }
 }
 
 /// A fit from the start to a time (s).

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
 
-use super::{Coexisting, EndOfBouncing};
+use super::data::{Coexisting, EndOfBouncing};
 use crate::claims::Cases;
 use crate::claims::catalogue;
 use crate::experiment::ExperimentError;

@@ -1,7 +1,7 @@
 //! What the paper says about Fig. 11.
 
+use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};
-use super::{Fig11Data, Trend};
 use crate::claims::{Cases, Claim, all};
 
 const ID: &str = "fig11";

@@ -4,10 +4,11 @@ use bouncing_disk::estimate::Spread;
 use bouncing_disk::motor::TransientSettings;
 use rayon::prelude::*;
 
-use super::{
+use super::data::{
     Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist, StallAt, Trend,
     trend_mn,
 };
+use super::trends;
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
@@ -84,7 +85,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let second = MotorCase { frequency_hz: frequencies[1], preload_acceleration_m_per_s2: middle, ..motor };
     Ok(Fig11Data {
         holes: Holes::of(&curves),
-        estimate_over_balance: super::trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
+        estimate_over_balance: trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
         mean_estimate_over_balance: over_balance.iter().sum::<f64>() / over_balance.len() as f64,
         reduced_twist: reduced_twist(
             &motor,

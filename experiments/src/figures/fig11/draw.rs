@@ -5,12 +5,18 @@ use bouncing_disk_plot::{
     Panel, Scatter, Text, Ticks,
 };
 
-use super::{Curve, Fig11Data, MeasuredMotor, Point};
-use crate::figures::numbers::exponent;
+use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
+use crate::figures::numbers::{exponent, extent, middle_range};
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =
     [(Colour::BLACK, Dash::Solid), (Colour::BLUE, Dash::Dashed), (Colour::VERMILION, Dash::Dotted)];
+
+/// The sense in which the paper's motor turns at both frequencies; speeds count as positive in that sense.
+const SENSES: [&str; 2] = ["clockwise", "anticlockwise"];
+
+/// Parts of the range of preloads in which the single orbits of all three amplitudes are counted together.
+const PARTS: usize = 14;
 
 /// Ends of the axes, speed and stall acceleration, where nothing lies outside.
 const SPEEDS: (f64, f64) = (-9.0, 57.0);
@@ -138,17 +144,28 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             .filter(|at| at.frequency_hz.total_cmp(&frequency).is_eq())
             .map(|at| (at.preload_mn, at.stall.load_rad_per_s2.mean))
             .collect();
-        let label = Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3));
+        let label = [
+            Text::at_axes(0.12, 0.93, format!("${}$ kHz", frequency / 1e3)),
+            Text::at_axes(0.12, 0.86, SENSES[row]),
+        ];
+        // Half of the legend in each row: there is little room above the curves.
+        let (names, keys): (_, Vec<Layer>) = if row == 0 {
+            (Names::Shown, vec![low_period(Vec::new(), Colour::GREY).name("low-period cycle").into()])
+        } else {
+            (Names::Hidden, vec![squares(Vec::new()).name("stall load").into()])
+        };
+        let orbits = single_orbits(&curves, |point| Some(point.single_speed_rad_per_s));
         let left = frame(0, ["a", "c"][row], speeds)
+            .layer(if row == 0 { orbits } else { orbits.name("single orbits") })
             .layers(
                 curves
                     .iter()
                     .enumerate()
-                    .flat_map(|(index, curve)| layers(curve, index, steady_speed, Names::Shown)),
+                    .flat_map(|(index, curve)| layers(curve, index, steady_speed, names)),
             )
-            .layer(squares(Vec::new()).name("stall load in (b), (d)"))
+            .layers(keys)
             .layers(crosses(data, frequency, |point| point.steady_speed_rad_per_s))
-            .layer(label.clone());
+            .layers(label.clone());
         let torque = 1e6 * data.moment_of_inertia();
         let right = frame(1, ["b", "d"][row], stalls().label(r"stall $\dot{\alpha}_{ss}/t_c$ (rad/s$^2$)"))
             .right(
@@ -156,6 +173,7 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
                     .ticks(ticks(stall_ends, computed_stalls, 10.0, 2))
                     .label(r"$m a_g^2 \dot{\alpha}_{ss}/t_c$ (µN m)"),
             )
+            .layer(single_orbits(&curves, |point| point.single_stall_rad_per_s2))
             .layers(
                 curves
                     .iter()
@@ -164,12 +182,30 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
             )
             .layer(squares(stalls_really))
             .layers(crosses(data, frequency, |point| point.stall_acceleration_rad_per_s2))
-            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.85, words)))
-            .layer(label);
-        let left = if row == 0 { left.legend(Legend::at(Corner::TopRight)) } else { left };
-        figure = figure.panel(left).panel(right);
+            .layers(data.measured.label(frequency).map(|words| Text::at_axes(0.12, 0.79, words)))
+            .layers(label);
+        figure = figure.panel(left.legend(Legend::at(Corner::TopRight))).panel(right);
     }
     figure
+}
+
+/// The middle nine tenths of the single orbits of some curves, over the preloads.
+fn single_orbits(curves: &[&Curve], of: fn(&Point) -> Option<f64>) -> Band {
+    let points = || curves.iter().flat_map(|curve| &curve.points);
+    let (first, last) = extent(points().map(|point| point.preload_mn));
+    let part = (last - first) / PARTS as f64;
+    let bands = (0..PARTS).filter_map(|index| {
+        let from = first + part * index as f64;
+        let inside = points().filter(|point| (from..=from + part).contains(&point.preload_mn));
+        let [low, high] = middle_range(inside.filter_map(of))?;
+        Some((from + 0.5 * part, low, high))
+    });
+    Band::new(bands).colour(Colour::SKY).opacity(0.25)
+}
+
+/// The motors that repeat a low-period cycle.
+fn low_period(points: Vec<(f64, f64)>, colour: Colour) -> Scatter {
+    Scatter::new(points).marker(Marker::Circle).colour(colour).filled_white().size(3.4)
 }
 
 /// The loads that really stall the motor.
@@ -193,20 +229,16 @@ fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<
     let scatter =
         |points: &[(f64, f64, f64)]| Scatter::new(points.iter().map(|(x, y, _)| (*x, *y))).colour(colour);
     let line = Line::new(dots.iter().map(|(x, y, _)| (*x, *y))).colour(colour).width(0.7).dash(dash);
-    let circles =
-        scatter(&curve_points(curve, quantity, true)).marker(Marker::Circle).filled_white().size(3.4);
-    let (line, circles) = match names {
-        Names::Shown => (
-            line.name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m))),
-            if index + 1 == STYLES.len() { circles.name("low-period cycle") } else { circles },
-        ),
-        Names::Hidden => (line, circles),
+    let circles = curve_points(curve, quantity, true).iter().map(|(x, y, _)| (*x, *y)).collect();
+    let line = match names {
+        Names::Shown => line.name(format!("$A = 10^{{{}}}$ m", exponent(curve.amplitude_m))),
+        Names::Hidden => line,
     };
     vec![
         line.into(),
         scatter(&dots).size(1.8).into(),
         scatter(&barred).errors_y(barred.iter().map(|point| point.2)).size(1.8).into(),
-        circles.into(),
+        low_period(circles, colour).into(),
     ]
 }
 

@@ -1,6 +1,6 @@
 //! The trends of Fig. 11 over the preloads.
 
-use super::{Curve, Holes, Point, Trend};
+use super::data::{Curve, Holes, Point, Trend};
 use crate::claims::Cases;
 use crate::figures::numbers;
 

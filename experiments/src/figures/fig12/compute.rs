@@ -9,7 +9,7 @@ use bouncing_disk::toss::{CollisionEvent, Collisions, LONG_FLIGHT};
 use bouncing_disk::{Engine, InitialCondition, Trajectory};
 use rayon::prelude::*;
 
-use super::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
+use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::alike::alike;

@@ -5,7 +5,7 @@ use bouncing_disk_plot::{
     Panel, Rect, Scatter, Text, Ticks,
 };
 
-use super::{Fig12Data, Shown};
+use super::data::{Fig12Data, Shown};
 use crate::figures::numbers::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {
@@ -40,16 +40,20 @@ fn whole(area: Rect, shown: &Shown, printed_amplitude: f64, low_period: bool) ->
     let from = shown.zoom.time_s.first().copied().unwrap_or(0.0);
     let until = shown.zoom.time_s.last().copied().unwrap_or(0.0);
     let y = 1.12 * highest;
-    // What differs in the last places of the amplitude is said in the caption.
-    let amplitude = format!(
-        "$A = 10^{{{}}}$ m, $g = {}$ m/s$^2$",
-        exponent(printed_amplitude),
-        shown.motor.preload_acceleration_m_per_s2
-    );
+    let power = exponent(printed_amplitude);
+    let drawn = shown.motor.amplitude_m;
+    // A few units in the last place are the nearest double, and no other amplitude.
+    let amplitude = if (drawn / printed_amplitude - 1.0).abs() < 1e-12 {
+        format!("$A = 10^{{{power}}}$ m")
+    } else {
+        format!(r"$A = {:.10}\times10^{{{power}}}$ m", drawn / printed_amplitude)
+    };
+    let preload = format!("$g = {}$ m/s$^2$", shown.motor.preload_acceleration_m_per_s2);
     let panel = Panel::new(area)
         .x(Axis::linear(0.0, shown.duration_s).label(r"$t$ (s)"))
         .y(Axis::linear(0.0, y).label(r"$\dot{\alpha}$ (rad/s)"))
-        .layer(Text::at_axes(0.97, 0.1, amplitude).anchor(Anchor::RightCentre));
+        .layer(Text::at_axes(0.97, 0.17, amplitude).anchor(Anchor::RightCentre))
+        .layer(Text::at_axes(0.97, 0.07, preload).anchor(Anchor::RightCentre));
     let window = Band::new([(from, 0.0, y), (until, 0.0, y)]).colour(Colour::SKY).opacity(0.5);
     let panel = panel.layer(window);
     let panel = if low_period {

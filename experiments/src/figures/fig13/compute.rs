@@ -7,10 +7,11 @@ use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::estimate::ExponentialFit;
 use bouncing_disk::motor::{NormalImpulses, TransientSettings};
 
-use super::sweeps::{cosine_fit, trend_change};
-use super::{
-    AlikeMotors, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep, SweepPoint,
+use super::data::{
+    AlikeMotors, AlikeRange, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep,
+    SweepPoint,
 };
+use super::sweeps::{cosine_fit, trend_change};
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
@@ -179,6 +180,7 @@ fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     Ok(AlikeMotors {
         inputs: inputs.words(),
         drawn: count,
+        ranges: sweeps.iter().map(Varied::range).collect(),
         prevalence: restitutions
             .iter()
             .zip(&sweeps[1].motors)
@@ -208,6 +210,24 @@ impl Varied {
                 Some((self.parameter.of(&cases[index]), of(&cases[index], &motors[index])?))
             })
             .collect()
+    }
+
+    fn range(&self) -> AlikeRange {
+        let mut range = AlikeRange {
+            parameter: self.parameter,
+            values: Vec::new(),
+            speed_ratio: Vec::new(),
+            stall_acceleration_rad_per_s2: Vec::new(),
+        };
+        for (cases, motors) in self.cases.iter().zip(&self.motors) {
+            let speeds = numbers::middle_range(motors.iter().map(speed_ratio));
+            let stalls = cases.iter().zip(motors).filter_map(|(case, motor)| stall(case, motor));
+            let (Some(speeds), Some(stalls)) = (speeds, numbers::middle_range(stalls)) else { continue };
+            range.values.push(self.parameter.of(&cases[0]));
+            range.speed_ratio.push(speeds);
+            range.stall_acceleration_rad_per_s2.push(stalls);
+        }
+        range
     }
 
     fn sensitivity(&self, index: usize, default: (Option<f64>, Option<f64>)) -> Sensitivity {
@@ -292,7 +312,6 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
         motors.iter().map(|motor| motor.cycle.chattering_flights().unwrap_or(usize::MAX)).collect();
     flights.sort_unstable();
     let share = |most: usize| flights.partition_point(|flights| *flights <= most) as f64 / count;
-    let median = |of: fn(&AlikeMotor) -> Option<f64>| numbers::median(motors.iter().filter_map(of));
     Prevalence {
         restitution,
         share_of_low_period: share_where(&|_, motor| motor.cycle.is_low_period()),
@@ -310,7 +329,5 @@ fn prevalence(restitution: f64, motors: &[AlikeMotor], rises: &[f64]) -> Prevale
                 .filter_map(|motor| motor.stall_over_limit)
                 .map(|stall| stall <= 1.0),
         ),
-        median_speed_ratio: median(|motor| Some(speed_ratio(motor))).unwrap_or_default(),
-        median_stall_over_limit: median(|motor| motor.stall_over_limit),
     }
 }

@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use bouncing_disk_plot::{
-    Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
-    Scatter, Ticks,
+    Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
+    Rect, Scatter, Ticks,
 };
 
-use super::{Fig13Data, Parameter, Sweep, SweepPoint};
+use super::data::{AlikeRange, Fig13Data, Parameter, Sweep, SweepPoint};
+use super::sweeps::stall_over_limit;
 
 /// Speeds belong to the left scale, stall accelerations to the right one.
 const SPEED: Colour = Colour::BLACK;
@@ -15,6 +16,8 @@ const STALL: Colour = Colour::BLUE;
 
 /// The panel with room for a legend: (e).
 const LEGEND: usize = 4;
+/// The panel with room for the names of the bands: (d).
+const BANDS: usize = 3;
 
 pub(super) fn draw(data: &Fig13Data) -> Figure {
     const HEIGHT: f64 = 500.0;
@@ -45,8 +48,23 @@ fn sensitivity(area: Rect, data: &Fig13Data, sweep: &Sweep, index: usize) -> Pan
     let lowest = |top: f64| if signed { -top } else { 0.0 };
     let step = if torque > 60.0 { 30.0 } else { 10.0 };
     let steps = if signed { 2.0 * step } else { step };
+    let alike = data.alike.ranges.iter().find(|range| range.parameter == sweep.parameter);
+    let band = |of: fn(&AlikeRange) -> &[[f64; 2]], colour: Colour| {
+        let points = alike.into_iter().flat_map(move |range| range.values.iter().zip(of(range)));
+        let mut points: Vec<_> = points.map(|(value, [low, high])| (*value, *low, *high)).collect();
+        // What is at -π is at π, too.
+        if let Some((_, low, high)) = points.first().copied().filter(|_| signed) {
+            points.push((PI, low, high));
+        }
+        Band::new(points).colour(colour).opacity(0.12)
+    };
+    let (speeds, stalls) =
+        (band(|range| &range.speed_ratio, SPEED), band(|range| &range.stall_acceleration_rad_per_s2, STALL));
+    let named = |band: Band, name: &str| if index == BANDS { band.name(name) } else { band };
     let panel = Panel::new(area)
         .letter(letter)
+        .layer(named(speeds, "5–95 % of orbits, speed"))
+        .layer_right(named(stalls, "the same, stall torque"))
         .x(horizontal(sweep))
         .y(Axis::linear(lowest(1.1), 1.1)
             .ticks(Ticks::every(if signed { 0.5 } else { 0.2 }))
@@ -72,6 +90,14 @@ fn sensitivity(area: Rect, data: &Fig13Data, sweep: &Sweep, index: usize) -> Pan
         panel =
             panel.layer_right(if index == LEGEND { line.name("limit of the stall torque") } else { line });
     }
+    let above = sweep
+        .points
+        .iter()
+        .filter(|point| stall_over_limit(data, sweep.parameter, point).is_some_and(|over| over > 1.0));
+    let above = above.filter_map(|point| Some((point.value, point.stall()?)));
+    // Behind the dots, as a ring around them.
+    let above = Scatter::new(above).marker(Marker::Circle).colour(Colour::VERMILION).width(1.0).size(7.0);
+    panel = panel.layer_right(if index == LEGEND { above.name("stall above the limit") } else { above });
     for low_period in [true, false] {
         let points =
             || sweep.points.iter().filter(move |point| point.statistics.is_low_period() == low_period);
@@ -96,7 +122,7 @@ fn sensitivity(area: Rect, data: &Fig13Data, sweep: &Sweep, index: usize) -> Pan
         };
         panel = panel.layer(speeds).layer_right(stalls);
     }
-    if index == LEGEND { panel.legend(Legend::at(Corner::BottomRight)) } else { panel }
+    if matches!(index, LEGEND | BANDS) { panel.legend(Legend::at(Corner::BottomRight)) } else { panel }
 }
 
 fn scatter(points: Vec<(f64, f64, f64)>, colour: Colour) -> Scatter {

@@ -4,10 +4,10 @@ use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::numerics::elementary::ln;
 
+use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
-use super::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use crate::claims::judging::trend;
-use crate::claims::{Cases, Claim, all};
+use crate::claims::{Cases, Claim, all, any};
 use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
 use crate::figures::numbers::{Concentration, StraightLine};
 
@@ -48,9 +48,8 @@ pub(super) fn prevalent(data: &Fig13Data) -> Claim {
     let verdicts = definitions.iter().map(|(_, crossing)| Claim::printed(KEY, *crossing).verdict);
     Claim::printed(KEY, crossing(data, |entry| entry.share_of_low_period))
         .note(format!(
-            "the ε at which half of {} single orbits ({}) are of low period, a chattering cycle of at most {LOW_PERIOD_FLIGHTS} flights of more than half a period; with other bounds: {}",
+            "the ε at which half of {} single orbits are of low period, a chattering cycle of at most {LOW_PERIOD_FLIGHTS} flights of more than half a period; with other bounds: {}",
             alike.drawn,
-            alike.inputs,
             words.collect::<Vec<_>>().join("; ")
         ))
         .by_definition(&verdicts.collect::<Vec<_>>())
@@ -89,6 +88,24 @@ pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
     ]
 }
 
+/// Low-period orbits at an ε below that of the paper's motor.
+pub(super) fn reduced_restitution(data: &Fig13Data) -> Claim {
+    let printed = data.motor.restitution;
+    let lower = data.alike.prevalence.iter().filter(|entry| entry.restitution < printed);
+    Claim::printed_statement(
+        "section5.reduced_restitution",
+        any(lower.clone(), |entry| entry.share_of_low_period > 0.5),
+        format!(
+            "share of low period of {} motors that print like Table III's, by ε below {printed}: {}",
+            data.alike.drawn,
+            lower
+                .map(|entry| format!("{:.1}: {:.0} %", entry.restitution, 100.0 * entry.share_of_low_period))
+                .collect::<Vec<_>>()
+                .join(", "),
+        ),
+    )
+}
+
 /// The mean direction is "at τ = 0" within half of an eighth of the cycle; cos τ changes by less than a thirteenth up to there.
 const AT_ZERO: f64 = FRAC_PI_8;
 
@@ -106,45 +123,32 @@ pub(super) fn phases_of_impulse(data: &Fig13Data) -> [Claim; 2] {
             one.iter().zip(other).all(|(one, other)| one.mean_cosine() > other.mean_cosine())
         })
     });
-    let rows = data.impulses.iter().zip(&both).map(|(impulse, both)| {
-        let words = both.map_or_else(
-            || "none".to_owned(),
-            |pair| {
-                let [impulse, collisions] = pair.map(|of| {
-                    format!(
-                        "mean direction {:+.3}π, resultant length {:.3}, mean of cos τ {:.3}",
-                        of.mean_direction_rad / PI,
-                        of.resultant_length,
-                        of.mean_cosine()
-                    )
-                });
-                format!("impulse {impulse}; collisions {collisions}")
-            },
-        );
-        let parts = impulse.shares.len();
-        let peak = impulse.shares.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        format!(
-            "ε = {}: {words}; {:.1} % of the impulse within π/4 of τ = 0 (25 % if even), most at τ = {:.2}π, {:.1} % in contact",
-            impulse.restitution,
-            100.0 * impulse.share_near_zero,
-            peak.map_or(f64::NAN, |(part, _)| (2.0 * part as f64 + 1.0) / parts as f64 - 1.0),
-            100.0 * impulse.contact_share,
-        )
-    });
-    let rows = rows.collect::<Vec<_>>().join(". ");
+    let listed = |of: fn(&Concentration) -> String| {
+        let rows = data.impulses.iter().zip(&both).map(|(impulse, both)| {
+            let words = both.map_or_else(
+                || "none".to_owned(),
+                |[impulse, collisions]| format!("{} and {}", of(&impulse), of(&collisions)),
+            );
+            format!("ε = {}: {words}", impulse.restitution)
+        });
+        rows.collect::<Vec<_>>().join("; ")
+    };
     [
         Claim::printed_statement(
             "section5.collisions_at_zero_phase",
             at_zero,
             format!(
-                "whether the mean direction of the normal impulse, and of the collisions that end a flight of more than half a period, is within π/8 of τ = 0. {rows}. At \
-                 small ε the highest peak lies before τ = 0, where the first flight after a rest, of about Γ periods, ends"
+                "the mean directions of the normal impulse, and of the collisions that end a flight of more than half a period, are within π/8 of τ = 0: {}",
+                listed(|of| format!("{:+.3}π", of.mean_direction_rad / PI)),
             ),
         ),
         Claim::printed_statement(
             "section5.concentration_falls_with_restitution",
             falls,
-            format!("whether the mean of cos τ falls for both. {rows}"),
+            format!(
+                "the mean of cos τ, of the impulse and of these collisions, falls: {}",
+                listed(|of| format!("{:.3}", of.mean_cosine())),
+            ),
         ),
     ]
 }
@@ -182,28 +186,14 @@ pub(super) fn intervals(data: &Fig13Data) -> Claim {
         points.iter().filter(|point| !point.statistics.is_low_period())
     };
     let (low, high) = extent(chaotic(Parameter::Amplitude).map(scaled));
-    let by_restitution = chaotic(Parameter::Restitution)
-        .map(|point| format!("{:.2}: {:.2}", point.value, scaled(point)))
-        .collect::<Vec<_>>()
-        .join(", ");
     Claim::printed_statement(
         "section5.impulse_grows_with_speed",
         high - low <= CONSTANT_WITHIN * low,
         format!(
             "an impact that slides throughout has the impulse μ(1 + ε)w_A exactly; g ΔT/w_A of mean interval and mean speed is \
-             {low:.3} to {high:.3} over two decades of A. By ε it is {by_restitution}: the factor is 1 + ε, which the scaling leaves out"
+             {low:.3} to {high:.3} over two decades of A: 1 + ε, which the scaling leaves out"
         ),
     )
-}
-
-/// Medians over the motors that print alike at the first and the last ε.
-fn ends(data: &Fig13Data, of: fn(&Prevalence) -> Option<f64>) -> String {
-    let rows = &data.alike.prevalence;
-    let value = |entry: Option<&Prevalence>| {
-        let value = entry.and_then(|entry| Some((of(entry)?, entry.restitution)));
-        value.map_or_else(|| "none".to_owned(), |(value, at)| format!("{value:.3} at ε = {at:.2}"))
-    };
-    format!("{}, {}", value(rows.first()), value(rows.last()))
 }
 
 fn negative(slope: Option<f64>) -> bool {
@@ -218,13 +208,9 @@ pub(super) fn restitution_lowers_both(data: &Fig13Data) -> Claim {
         "section5.restitution_lowers_both",
         all(falls, |pairs| 2 * pairs.holding > pairs.tried),
         format!(
-            "of all pairs of ε the speed falls in {}, α̇_ss/t_c in {}; of single orbits the signs of both slopes ({}). Medians of these: steady speed/(ωΦ) {}; α̇_ss/t_c over its \
-             limit {}",
+            "of all pairs of ε the speed falls in {}, α̇_ss/t_c in {}; of single orbits the signs of both slopes count",
             falls[0].words(),
             falls[1].words(),
-            data.alike.inputs,
-            ends(data, |entry| Some(entry.median_speed_ratio)),
-            ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
     .single_orbits(Cases::of(draws.map(|draw| negative(draw.speed_ratio_slope) && negative(draw.stall_over_limit_slope))))
@@ -246,12 +232,9 @@ pub(super) fn simplistic(data: &Fig13Data) -> Claim {
         "section5.scaling_fails_for_restitution",
         mean.map(|rise| rise < 0.5 * predicted),
         format!(
-            "whether α̇_ss/t_c rises with ε by less than half of what the scaling has it rise by ({:.0} % over the range of ε): the mean by {:.0} %. Medians of single orbits, over the limit: \
-             {}. The interval between impacts is not w_A/g: the normal impulse (1 + ε)w_A per time equals the weight for any ε, so the factor 1 + ε \
-             cancels, and ε acts only through the phases of the impulse",
+            "over the range of ε the scaling has α̇_ss/t_c rise by {:.0} %, its mean changes by {:.0} %: the time between impacts is (1 + ε)w_A/g, so that the factor cancels",
             100.0 * predicted,
             100.0 * mean.unwrap_or(f64::NAN),
-            ends(data, |entry| entry.median_stall_over_limit),
         ),
     )
     .single_orbits(Cases::of(rises.map(|rise| rise.is_some_and(|rise| rise < 0.5 * predicted))))

@@ -2,15 +2,19 @@
 
 use bouncing_disk::core::numerics::elementary::ln;
 
+use super::data::{Draw, Fig13Data, Parameter, Sensitivity, SweepPoint};
 use super::sweeps::{
-    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, sweep, sweep_points, trend_change,
+    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, stall_over_limit, sweep,
+    sweep_points, trend_change,
 };
-use super::{Draw, Fig13Data, Parameter, Sensitivity};
 use crate::claims::{Cases, Claim};
 use crate::figures::numbers::{self, StraightLine};
 
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;
+
+/// Why α̇_ss/t_c can be above the limit.
+const NO_ACCELERATION: &str = "an initial slope of a fit that is no acceleration";
 
 /// A change over the range by more than this share is significant.
 const SIGNIFICANT: f64 = 0.3;
@@ -145,16 +149,6 @@ pub(super) fn stall_change(of: &Sensitivity) -> Option<f64> {
     of.stall_change
 }
 
-/// The medians over the motors that print alike of what each parameter changes.
-fn medians(data: &Fig13Data, of: Change) -> String {
-    let words = Parameter::ALL.into_iter().map(|parameter| {
-        let draws = data.alike.draws.iter();
-        let changes = draws.filter_map(|draw| draw.sensitivity(parameter).and_then(of));
-        format!("{} {:.2}", parameter.symbol(), numbers::median(changes).unwrap_or(f64::NAN))
-    });
-    words.collect::<Vec<_>>().join(", ")
-}
-
 /// What each parameter changes in the means that the figure draws, by the same measure as in a single orbit.
 fn mean_changes(data: &Fig13Data, of: Quantity, default: Option<f64>) -> Vec<(Parameter, f64)> {
     let change = |parameter: Parameter| {
@@ -180,6 +174,12 @@ fn mean_stall_changes(data: &Fig13Data) -> Vec<(Parameter, f64)> {
 fn change_words(changes: &[(Parameter, f64)]) -> String {
     let words = changes.iter().map(|(parameter, change)| format!("{} {change:.2}", parameter.symbol()));
     words.collect::<Vec<_>>().join(", ")
+}
+
+/// What ε changes, in words.
+fn of_restitution(changes: &[(Parameter, f64)]) -> String {
+    let own = changes.iter().find(|(parameter, _)| *parameter == Parameter::Restitution);
+    own.map_or_else(|| "none".to_owned(), |(_, change)| format!("{change:.2}"))
 }
 
 /// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
@@ -213,10 +213,9 @@ pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Pa
         key,
         are_largest(means.clone(), named),
         format!(
-            "{CHANGE}: {}; over the measured range of ε {}; medians of single orbits: {}",
+            "{CHANGE}: {}; over the measured range of ε it is {}",
             change_words(&means),
-            change_words(&printed),
-            medians(data, of)
+            of_restitution(&printed),
         ),
     )
     .by_definition(&[Cases::from(are_largest(printed, named)).sampled()])
@@ -224,7 +223,7 @@ pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Pa
 }
 
 /// How much a trend changes, in words.
-const CHANGE: &str = "change along the trend over the range, relative to the default motor; the ranges are ours, those of A the three printed amplitudes";
+const CHANGE: &str = "change along the trend over our ranges, relative to the default motor";
 
 /// That only θ and ε change both the steady speed and the stall torque.
 pub(super) fn both(data: &Fig13Data) -> Claim {
@@ -248,11 +247,11 @@ pub(super) fn both(data: &Fig13Data) -> Claim {
         "section5.both_sensitivity",
         holds(&speeds, &stalls),
         format!(
-            "whether θ and ε, and no other, change both by more than {SIGNIFICANT}; {CHANGE}: steady speed {}; α̇_ss/t_c {}; over the measured range of ε {}; {}",
+            "θ and ε, and no other, change both by more than {SIGNIFICANT}; {CHANGE}: steady speed {}; α̇_ss/t_c {}. Over the measured range of ε that changes them by {} and {}",
             change_words(&speeds),
             change_words(&stalls),
-            change_words(&printed[0]),
-            change_words(&printed[1])
+            of_restitution(&printed[0]),
+            of_restitution(&printed[1])
         ),
     )
     .by_definition(&[Cases::from(holds(&printed[0], &printed[1])).sampled()])
@@ -280,10 +279,36 @@ pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
         "section5.torque_limit",
         cases,
         format!(
-            "whether α̇_ss/t_c stays below μ a_e g/a_g², of single orbits whose transient is exponential rather than a linear rise to a constant, over ε from 0 on: {}. No motor \
-             accelerates faster than the limit, for the normal impulse per time is the weight; but where the speed rises in lines the fit makes more of α̇_ss/t_c than any acceleration",
+            "α̇_ss/t_c stays below μ a_e g/a_g² for {} of the single orbits with an exponential transient, over ε from 0 on; where the speed rises in lines the initial slope of the fit is no \
+             acceleration",
             cases.words(),
         ),
     )
-    .cause("an initial slope of a fit that is no acceleration")
+    .cause(NO_ACCELERATION)
+}
+
+/// Whether θ and ε leave the means of both below the maxima that ωΦ and μ set, wherever they are drawn.
+pub(super) fn only_reduce(data: &Fig13Data) -> Claim {
+    let points = [Parameter::PhaseLag, Parameter::Restitution].into_iter().flat_map(|parameter| {
+        let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+        points.iter().map(move |point| (parameter, point))
+    });
+    let points: Vec<(Parameter, &SweepPoint)> = points.collect();
+    let over = |(parameter, point): &(Parameter, &SweepPoint)| stall_over_limit(data, *parameter, point);
+    let fastest = extent(points.iter().map(|(_, point)| point.speed_ratio().abs())).1;
+    let above: Vec<_> = points.iter().filter(|of| over(of).is_some_and(|over| over > 1.0)).collect();
+    let places =
+        above.iter().map(|(parameter, point)| format!("{} = {:.2}", parameter.symbol(), point.value));
+    Claim::printed_statement(
+        "section5.only_reduce",
+        crate::claims::all(&points, |of| of.1.speed_ratio().abs() <= 1.0 && over(of).is_none_or(|over| over <= 1.0)),
+        format!(
+            "the means of {} motors with other θ and ε: speeds up to {fastest:.3} ωΦ; α̇_ss/t_c above μ a_e g/a_g² at {} of them, up to {:.2} of it{}",
+            points.len(),
+            above.len(),
+            extent(points.iter().filter_map(over)).1,
+            if above.is_empty() { String::new() } else { format!(": {}", places.collect::<Vec<_>>().join(", ")) },
+        ),
+    )
+    .cause(NO_ACCELERATION)
 }

@@ -2,7 +2,7 @@
 
 use bouncing_disk::core::numerics::elementary::{cos, ln};
 
-use super::{Fig13Data, Parameter, Sweep, SweepPoint};
+use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
 use crate::figures::numbers::StraightLine;
 pub(super) use crate::figures::numbers::extent;
 
@@ -19,6 +19,12 @@ pub(super) type Quantity = fn(&SweepPoint) -> Option<f64>;
 
 pub(super) fn speed(point: &SweepPoint) -> Option<f64> {
     Some(point.statistics.steady_speed_rad_per_s.mean)
+}
+
+/// How far α̇_ss/t_c is above the largest acceleration that friction gives, as a share of it.
+pub(super) fn stall_over_limit(data: &Fig13Data, parameter: Parameter, point: &SweepPoint) -> Option<f64> {
+    let limit = parameter.set(&data.motor, point.value).largest_acceleration();
+    Some(point.stall()?.abs() / limit)
 }
 
 pub(super) fn stall(point: &SweepPoint) -> Option<f64> {

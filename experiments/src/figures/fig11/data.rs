@@ -1,0 +1,316 @@
+//! The numbers of Fig. 11, and a user's own measurements.
+
+use bouncing_disk::core::numerics::elementary::ln;
+use bouncing_disk::estimate::Spread;
+use serde::{Deserialize, Serialize};
+
+use crate::claims::Cases;
+use crate::claims::paper::Preloads;
+use crate::experiment::ExperimentError;
+use crate::figures::motor_case::{MotorCase, MotorStatistics};
+use crate::figures::numbers::StraightLine;
+use crate::figures::stall::Stall;
+use crate::measured::{Column, Layout, Range, Series};
+
+/// The data of Fig. 11.
+#[derive(Debug, Serialize, Deserialize)]
+pub struct Fig11Data {
+    pub(super) motor: MotorCase,
+    pub(super) printed: Preloads,
+    /// Mass of the rotor, a solid steel ball.
+    pub(super) rotor_mass_kg: f64,
+    /// Members of an ensemble, by amplitude: the larger the amplitude, the fewer collisions a transient averages over, and the cheaper it is.
+    pub(super) members: [usize; 3],
+    pub(super) rises: f64,
+    pub(super) relaunch_perturbation: f64,
+    pub(super) preload_seed: u64,
+    /// By frequency, then amplitude.
+    pub(super) curves: Vec<Curve>,
+    /// Of each curve.
+    pub(super) trends: Vec<Trend>,
+    /// The motors on a low-period cycle, of all curves.
+    pub(super) holes: Holes,
+    /// α̇_ss/t_c over (μ a_e g/a_g²) S(0), the least and the most between the preloads of the trends; motors on a low-period cycle left out.
+    pub(super) estimate_over_balance: [f64; 2],
+    /// Its mean over these motors.
+    pub(super) mean_estimate_over_balance: f64,
+    /// What stalls the default motor at the lowest, the middle and the highest preload of the trends, by frequency.
+    pub(super) stalls: Vec<StallAt>,
+    /// The default motor at full preload with the printed and with a smaller ωΦ.
+    pub(super) reduced_twist: ReducedTwist,
+    /// The motor at the second frequency with θ and with θ + π.
+    pub(super) mirrored: Mirrored,
+    pub(super) end_of_bouncing: EndOfBouncing,
+    /// A user's own measurements.
+    #[serde(default, skip_serializing_if = "MeasuredMotors::is_empty")]
+    pub(super) measured: MeasuredMotors,
+}
+
+/// One amplitude at one frequency.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Curve {
+    pub(super) frequency_hz: f64,
+    pub(super) amplitude_m: f64,
+    pub(super) points: Vec<Point>,
+    /// Further motors above the preloads of the trends, which are not drawn: the statements about them shall rest on enough.
+    pub(super) further: Vec<Point>,
+}
+
+/// One preload.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct Point {
+    pub(super) preload_acceleration_m_per_s2: f64,
+    pub(super) preload_mn: f64,
+    pub(super) axial_forcing: f64,
+    pub(super) statistics: MotorStatistics,
+    /// S(0): the share of the normal impulse that pushes a rotor held at rest forwards, minus the rest.
+    pub(super) net_share_at_rest: f64,
+    /// Steady speed (rad/s) of one orbit that nothing perturbs.
+    pub(super) single_speed_rad_per_s: f64,
+    /// Its α̇_ss/t_c (rad/s²), if its speed settles.
+    pub(super) single_stall_rad_per_s2: Option<f64>,
+}
+
+/// The stall load at one preload.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct StallAt {
+    pub(super) frequency_hz: f64,
+    pub(super) preload_mn: f64,
+    pub(super) stall: Stall,
+}
+
+/// A motor whose stator twists less.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct ReducedTwist {
+    /// ωΦ (rad/s), printed and reduced.
+    pub(super) peak_angular_speeds_rad_per_s: [f64; 2],
+    pub(super) steady_speeds_rad_per_s: [Spread; 2],
+    pub(super) stall_accelerations_rad_per_s2: Option<[Spread; 2]>,
+    /// Single orbits that are slower with the reduced one.
+    pub(super) slower: Cases,
+}
+
+/// A motor and the same with the phase lag shifted by π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Mirrored {
+    pub(super) preload_mn: f64,
+    pub(super) phase_lags_rad: [f64; 2],
+    pub(super) steady_speeds_rad_per_s: [Spread; 2],
+}
+
+impl Fig11Data {
+    /// The range of preloads (mN) of the measured trends.
+    pub(super) fn trend_mn(&self) -> [f64; 2] {
+        trend_mn(&self.printed)
+    }
+
+    /// m a_g² (kg m²), which makes a torque of an angular acceleration.
+    pub(super) fn moment_of_inertia(&self) -> f64 {
+        self.rotor_mass_kg * self.motor.gyration_radius_m * self.motor.gyration_radius_m
+    }
+}
+
+/// The range of preloads (mN) of the measured trends.
+pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
+    printed.measured_range_n.map(|preload| 1e3 * preload)
+}
+
+/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Trend {
+    pub(super) frequency_hz: f64,
+    pub(super) amplitude_m: f64,
+    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration of single orbits over preload.
+    pub(super) median_speed_rad_per_s: f64,
+    pub(super) single_stall_per_preload_rad_per_s2_mn: f64,
+    /// How many single orbits inside have a speed, a torque or both on the trend. One without a stall torque is off it.
+    pub(super) speed: Cases,
+    pub(super) torque: Cases,
+    pub(super) both: Cases,
+    /// How many single orbits above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
+    pub(super) no_plateau: Cases,
+    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
+    pub(super) speed_exponent: Option<f64>,
+    pub(super) torque_exponent: Option<f64>,
+    /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
+    pub(super) high_torque_exponent: Option<f64>,
+    /// How many single orbits below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
+    pub(super) no_fall: Cases,
+    pub(super) no_rise_above: Cases,
+    /// Middle steady speed of the lowest and of the highest quarter of those beside the preloads of the trends, over that inside.
+    pub(super) outside_over_inside: [f64; 2],
+}
+
+/// The motors on a low-period cycle, and what those of a single flight do.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct Holes {
+    pub(super) motors: usize,
+    pub(super) low_period: usize,
+    pub(super) one_flight: usize,
+    /// Smallest and largest fraction of Γ of the motors on a cycle of one flight, and the difference.
+    pub(super) one_flight_fractions: Option<[f64; 2]>,
+    pub(super) one_flight_window: Option<f64>,
+    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
+    pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
+    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
+}
+
+/// What bouncing rotors do at Γ < 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct EndOfBouncing {
+    pub(super) seed: u64,
+    /// What still prints as the ε of Table III.
+    pub(super) restitutions: [f64; 2],
+    /// The largest launch speed (g/ω): A ω²/g of the default motor.
+    pub(super) largest_launch_speed: f64,
+    /// How many come to rest for good.
+    pub(super) at_rest: Cases,
+    /// The most impacts that one of these needed.
+    pub(super) most_impacts: usize,
+    /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
+    pub(super) threshold_restitution: f64,
+    pub(super) coexisting: Coexisting,
+}
+
+/// A rotor that is launched on the period-1 orbit below Γ = 1/π.
+#[derive(Debug, Serialize, Deserialize)]
+pub(super) struct Coexisting {
+    pub(super) restitution: f64,
+    pub(super) axial_forcing: f64,
+    /// After so many impacts ...
+    pub(super) impacts: usize,
+    /// ... it still bounces.
+    pub(super) bounces: bool,
+}
+
+/// A measured motor.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct MeasuredMotor {
+    /// The frequency of the panel.
+    pub(super) panel_frequency_hz: f64,
+    pub(super) frequency_hz: f64,
+    pub(super) preload_mn: f64,
+    pub(super) steady_speed_rad_per_s: f64,
+    pub(super) stall_torque_n_m: f64,
+    /// The torque over m a_g².
+    pub(super) stall_acceleration_rad_per_s2: f64,
+}
+
+/// The power of the preload to which the stall torque is proportional.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct MeasuredExponent {
+    pub(super) panel_frequency_hz: f64,
+    pub(super) value: f64,
+    pub(super) standard_error: f64,
+    pub(super) explained: f64,
+    pub(super) points: usize,
+}
+
+/// What was measured and fitted.
+#[derive(Debug, Default, Serialize, Deserialize)]
+pub(super) struct MeasuredMotors {
+    pub(super) points: Vec<MeasuredMotor>,
+    pub(super) exponents: Vec<MeasuredExponent>,
+}
+
+/// The file.
+pub(super) const LAYOUT: Layout = Layout {
+    file: "fig11.csv",
+    columns: &[
+        Column::value("frequency_hz", Range::Positive),
+        Column::value("preload_n", Range::Positive),
+        Column::value("steady_speed_rad_per_s", Range::Signed),
+        Column::value("stall_torque_n_m", Range::Positive),
+    ],
+    least_rows: 1,
+};
+
+/// A measured frequency that differs by less than this share from that of a panel belongs there: a motor's resonance
+/// moves by a few percent.
+pub(super) const SAME_FREQUENCY_WITHIN: f64 = 0.05;
+
+/// Sorts the points into the panels and fits the stall torques of each within the preloads of the trends, as those of
+/// the model are.
+pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<MeasuredMotors, ExperimentError> {
+    let frequencies = data.printed.frequencies_hz;
+    let mut points = Vec::new();
+    for (row, [frequency_hz, preload_n, speed, torque]) in series.rows::<4>().enumerate() {
+        let near = |panel: &f64| (frequency_hz - panel).abs() <= SAME_FREQUENCY_WITHIN * panel;
+        let panel_frequency_hz = frequencies.into_iter().find(near).ok_or_else(|| {
+            let legal = frequencies.map(|frequency| frequency.to_string()).join(" or ");
+            series.illegal(row, 0, &format!("within {} % of {legal}", 100.0 * SAME_FREQUENCY_WITHIN))
+        })?;
+        points.push(MeasuredMotor {
+            panel_frequency_hz,
+            frequency_hz,
+            preload_mn: 1e3 * preload_n,
+            steady_speed_rad_per_s: speed,
+            stall_torque_n_m: torque,
+            stall_acceleration_rad_per_s2: torque / data.moment_of_inertia(),
+        });
+    }
+    let [from, to] = data.trend_mn();
+    let exponents = frequencies.into_iter().filter_map(|panel_frequency_hz| {
+        let logarithms: Vec<(f64, f64)> = points
+            .iter()
+            .filter(|point| point.panel_frequency_hz.total_cmp(&panel_frequency_hz).is_eq())
+            .filter(|point| (from..=to).contains(&point.preload_mn))
+            .map(|point| (ln(point.preload_mn), ln(point.stall_torque_n_m)))
+            .collect();
+        StraightLine::through(&logarithms).map(|line| MeasuredExponent {
+            panel_frequency_hz,
+            value: line.slope,
+            standard_error: line.slope_error,
+            explained: line.explained,
+            points: logarithms.len(),
+        })
+    });
+    let exponents = exponents.collect();
+    Ok(MeasuredMotors { points, exponents })
+}
+
+impl MeasuredMotors {
+    pub(super) fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// The points of a panel.
+    pub(super) fn at(&self, frequency_hz: f64) -> Vec<MeasuredMotor> {
+        let wanted = |point: &&MeasuredMotor| point.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
+        self.points.iter().filter(wanted).copied().collect()
+    }
+
+    /// The words in the panel of the torques, if an exponent could be fitted.
+    pub(super) fn label(&self, frequency_hz: f64) -> Option<String> {
+        let wanted = |fit: &&MeasuredExponent| fit.panel_frequency_hz.total_cmp(&frequency_hz).is_eq();
+        let fit = self.exponents.iter().find(wanted)?;
+        Some(format!(r"measured: exponent ${:.2} \pm {:.2}$", fit.value, fit.standard_error))
+    }
+
+    /// What the caption says; nothing when there are no measurements.
+    pub(super) fn caption(&self, data: &Fig11Data) -> String {
+        if self.is_empty() {
+            return String::new();
+        }
+        let [from, to] = data.trend_mn();
+        let words = data.printed.frequencies_hz.map(|frequency| {
+            let khz = frequency / 1e3;
+            let fit = self.exponents.iter().find(|fit| fit.panel_frequency_hz.total_cmp(&frequency).is_eq());
+            fit.map_or_else(
+                || format!("{khz} kHz: fewer than three points at different preloads"),
+                |fit| {
+                    format!(
+                        "{khz} kHz: {:.3} ± {:.3} (R² = {:.4}, {} points)",
+                        fit.value, fit.standard_error, fit.explained, fit.points
+                    )
+                },
+            )
+        });
+        format!(
+            " Crosses: measurements read from {}; exponent of their stall torque against preload from {from} to {to} mN: {}.",
+            LAYOUT.file,
+            words.join("; ")
+        )
+    }
+}
