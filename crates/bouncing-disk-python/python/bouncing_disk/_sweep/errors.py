@@ -1,4 +1,4 @@
-"""The exceptions and warnings of sweeps. Each carries what is needed to see why, and pickles."""
+"""The exceptions and warnings of sweeps. Each carries the details needed to see why, and can be pickled."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
 
     Attributes:
         failures: the points, in the order of the grid.
-        result: what was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up
+        result: the computed results, with ``result.failed`` for the missing ones; ``None`` if the sweep was given up
             because more points failed than ``max_failures``.
     """
 
@@ -87,12 +87,12 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
 
 
 class SweepClusterError(BouncingDiskError, RuntimeError):
-    """A cluster cannot be used: its workers would not compute what this process would.
+    """A cluster cannot be used: its workers might compute other results than this process.
 
     Attributes:
         kind: why: ``"versions"`` if this package or NumPy have other versions there or are missing,
             ``"closed"`` if the client is.
-        workers: the versions that each worker has which differs, by its address: of ``"bouncing-disk"`` and
+        workers: the versions of each differing worker, by its address: of ``"bouncing-disk"`` and
             ``"numpy"``.
     """
 
@@ -107,8 +107,8 @@ class SweepFolderWarning(UserWarning):
 
 
 class SweepFunctionError(BouncingDiskError, TypeError):
-    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has
-    no array.
+    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns no
+    array.
 
     Attributes:
         function: its name.
