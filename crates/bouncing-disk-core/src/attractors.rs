@@ -1,4 +1,4 @@
-//! Attractors: on which motions the disk ends, from which starts, and how sure that is.
+//! Attractors: the motions on which the disk ends, from which starts, and how certain that is.
 //!
 //! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so that starts in
 //! that region find every attractor that is not too small. A start counts as caught by a periodic orbit within its
@@ -17,8 +17,9 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! [`verdicts`] says of single orbits whether they rest, repeat or are chaotic; [`BasinEntropy`] and [`BoundaryScaling`]
-//! measure basins. A [`BasinRun`] can be stopped, stored and resumed. How it is decided: docs/numerics/dynamics.md.
+//! [`verdicts`] tells whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
+//! [`BoundaryScaling`] measure basins. A [`BasinRun`] can be stopped, stored and resumed. How it is decided:
+//! docs/numerics/dynamics.md.
 
 pub(crate) mod attraction;
 pub(crate) mod basin;

@@ -1,7 +1,8 @@
 //! Chaos: Lyapunov exponents, the manifolds of saddles, and the crises in which a chaotic attractor ends.
 //!
-//! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; both together
-//! sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis where the stable and
+//! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; both
+//! exponents sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis
+//! where the stable and
 //! the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181, 1983); beyond it the disk stays
 //! for a mean time that falls as a power of the distance.
 //!

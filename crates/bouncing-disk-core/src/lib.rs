@@ -20,8 +20,8 @@
 //! # }
 //! ```
 //!
-//! The names at the root are those of one disk on one platform. All that is done with them is in chapters, each with
-//! an example and its equation on the first page:
+//! The names at the root describe one disk on one platform. Everything else is in chapters, whose first pages
+//! each have an example and an equation:
 //!
 //! | chapter | about |
 //! | --- | --- |
@@ -29,7 +29,7 @@
 //! | [`chatter`] | infinitely many impacts that end at rest |
 //! | [`map`] | from impact to impact; laws of restitution |
 //! | [`orbits`] | periodic orbits, their branches, the doubling cascade |
-//! | [`attractors`] | what the disk ends on: attractors, basins, verdicts |
+//! | [`attractors`] | the disk's final motion: attractors, basins, verdicts |
 //! | [`chaos`] | Lyapunov exponents, manifolds, crises |
 //! | [`mod@sweep`] | many orbits at once |
 //! | [`run`] | progress of long calls, and how to stop them |
@@ -40,10 +40,10 @@
 //! | `parallel` | yes | grids and sweeps over the threads of rayon's pool, with the same bits |
 //! | `serde` | yes | `Serialize` for results, `Deserialize` for settings and for runs that can be resumed |
 //!
-//! Deserialisation passes the same checks as construction: a value outside its range, a missing key of a required value
-//! and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number. With `serde_json`,
-//! switch on its feature `float_roundtrip`: without it a third of all numbers change in the last bit when they are read,
-//! and a resumed run no longer gives the same results.
+//! Deserialising runs the same checks as construction: a value outside its range, a missing key of a required
+//! value and an unknown key are errors. An infinite error bound is `null` in JSON, which has no such number.
+//! With `serde_json`, switch on its feature `float_roundtrip`: without it a third of all numbers change in
+//! the last bit when they are read, and a resumed run no longer gives the same results.
 
 pub mod attractors;
 pub mod chaos;

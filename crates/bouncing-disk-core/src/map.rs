@@ -1,9 +1,9 @@
 //! The impact map: from one impact to the next, with its derivative, its inverse and the law of restitution.
 //!
-//! The disk leaves with the speed -r w' after it has come with the velocity w', and the next impact is the first zero
-//! of the gap of its flight. The map contracts areas of (phase, velocity) by r^2. [`ImpactMap`](crate::ImpactMap) steps,
-//! [`Orbit`](crate::Orbit) follows all events, chattering included. Other laws of restitution than a constant
-//! are [`RestitutionLaw`]s (docs/numerics/restitution.md).
+//! A disk that arrives with the velocity w' leaves with the speed -r w', and the next impact is the first
+//! zero of the gap of its flight. The map contracts areas of (phase, velocity) by r^2.
+//! [`ImpactMap`](crate::ImpactMap) steps, [`Orbit`](crate::Orbit) follows all events, chattering included.
+//! Laws of restitution other than a constant are [`RestitutionLaw`]s (docs/numerics/restitution.md).
 //!
 //! ```
 //! use bouncing_disk_core::{ImpactMap, Vibration};

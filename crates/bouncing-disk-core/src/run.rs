@@ -1,42 +1,43 @@
-//! Long calls: how far they are, how to stop them, and how a loop of your own counts its work.
+//! Long calls: their progress, how to stop them, and how a loop of your own counts its work.
 //!
 //! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] if nobody looks;
-//! it hears of every thread at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored and resumed is a type
-//! of its own: [`SweepRun`](crate::sweep::SweepRun), [`BasinRun`](crate::attractors::BasinRun).
+//! every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored and
+//! resumed is a type of its own: [`SweepRun`](crate::sweep::SweepRun),
+//! [`BasinRun`](crate::attractors::BasinRun).
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 
 use crate::numerics::error::Error;
 
-/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and some
-/// ten without any optimisation, so that an observer hears of every thread far more often than every 50 ms.
+/// Work between two calls of an observer from one thread, counted in flights: about a millisecond, and
+/// about ten without optimisation, so that every thread calls an observer far more often than every 50 ms.
 ///
 /// Work is counted and not timed because nothing on the way to a result looks at a clock. In lockstep the
 /// lanes of a batch count whether they are in use or not, and a batch that is compared with many known orbits
 /// counts as more flights.
 pub const FLIGHTS_BETWEEN_CALLS: u64 = 1 << 13;
 
-/// How far a call is: items that are finished, and all of them.
+/// The progress of a call: finished items and all items.
 ///
-/// What an item is, a row of a grid, an orbit, an impact, stands with each call that takes an [`Observer`].
+/// Each call that takes an [`Observer`] documents its items: rows of a grid, orbits, impacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Progress {
-    /// Items that are finished, also those of earlier calls of a run that goes on.
+    /// Finished items, including those of earlier calls of a resumed run.
     pub done: u64,
-    /// All items, or as many as there are at most where their number shows only at the end.
+    /// All items, or their largest possible number where it is known only at the end.
     pub total: u64,
 }
 
 impl Progress {
-    /// The finished share, in [0, 1]; of nothing everything is finished.
+    /// The finished share, in [0, 1]; 1 without items.
     #[must_use]
     pub fn fraction(&self) -> f64 {
         if self.total == 0 { 1.0 } else { self.done.min(self.total) as f64 / self.total as f64 }
     }
 }
 
-/// Sees how far a long call is, and may stop it.
+/// Sees the progress of a long call, and may stop it.
 ///
 /// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] if nobody
 /// looks. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
@@ -97,8 +98,8 @@ impl Observer for Unobserved {
 /// A call that is observed: counts the finished items of all threads, and remembers that the observer has
 /// broken.
 ///
-/// The long calls of this crate and of the model count with it; so may a loop of your own around single
-/// flights.
+/// The long calls of this crate and of the model count with it; a loop of your own around single
+/// flights may do so too.
 ///
 /// ```
 /// use bouncing_disk_core::run::Watch;
@@ -155,7 +156,7 @@ impl<'o> Watch<'o> {
         self.done.store(items, Ordering::Relaxed);
     }
 
-    /// How far the call is.
+    /// The progress of the call.
     #[must_use]
     pub fn progress(&self) -> Progress {
         Progress { done: self.done.load(Ordering::Relaxed), total: self.total }
@@ -185,7 +186,7 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Tells the observer that all is done; its answer does not matter any more.
+    /// Tells the observer that all is done; its answer no longer matters.
     pub fn end(&self) {
         let Progress { total, .. } = self.progress();
         // Whatever it says, there is nothing left to stop.

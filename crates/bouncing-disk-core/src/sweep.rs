@@ -1,4 +1,5 @@
-//! Many orbits at once: orbit diagrams, survival times, or whatever a visitor of their events collects.
+//! Many orbits at once: orbit diagrams, survival times, or anything that a visitor collects from their
+//! events.
 //!
 //! The events are those of each orbit by itself, to the bit, for any number of threads; the flights are computed some
 //! at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
@@ -15,7 +16,8 @@
 //! # Ok::<(), bouncing_disk_core::Error>(())
 //! ```
 //!
-//! A [`SweepRun`] can be stopped, stored and resumed. What the orbits end on is in [`attractors`](crate::attractors).
+//! A [`SweepRun`] can be stopped, stored and resumed. The final motions of orbits are in
+//! [`attractors`](crate::attractors).
 
 mod events;
 pub(crate) mod lockstep;

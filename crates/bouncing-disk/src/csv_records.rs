@@ -1,4 +1,4 @@
-//! The records of a file of separated values and the lines they are on, whatever the columns mean.
+//! The records of a file of separated values with their line numbers, whatever the columns mean.
 //!
 //! Accepted besides the plain form: a byte-order mark, line ends of either kind, blank lines, lines that
 //! begin with `#`, `%` or `//`, blanks and one pair of double quotes around a field.
@@ -28,7 +28,7 @@ pub enum RecordFault {
 ///
 /// # Errors
 ///
-/// [`RecordFault::NotText`] says where the first byte is that is none of UTF-8.
+/// [`RecordFault::NotText`] locates the first byte that is not UTF-8.
 pub fn text(bytes: &[u8]) -> Result<&str, RecordFault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
@@ -41,7 +41,7 @@ pub fn text(bytes: &[u8]) -> Result<&str, RecordFault> {
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 
-/// The lines of a file that are neither blank nor a remark, with their numbers.
+/// The lines of a file that are neither blank nor comments, with their numbers.
 pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let is_remark =
         |line: &str| ["#", "%", "//", "\"#"].iter().any(|mark| line.trim_start().starts_with(mark));
@@ -87,18 +87,18 @@ pub fn plain(field: &str) -> &str {
     unquoted.unwrap_or(field).trim()
 }
 
-/// Why a field states no number that can be used.
+/// Why a field holds no usable number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NumberFault {
     /// It is not written as a number; "inf" and "NaN" are not.
     #[error("not a number")]
     NotANumber,
-    /// It is written as one, but so large that it is no finite double, or so small that 0 is the nearest.
+    /// It is written as one, but too large for a finite double, or so small that 0 is the nearest.
     #[error("a number that is too large or too small for a double")]
     NoSuchDouble,
 }
 
-/// The finite number that a [`plain`] field states. The sign of a zero means nothing: it is positive.
+/// The finite number that a [`plain`] field states. A zero is positive, whatever its sign.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Numbers as people write them: they come with six significant digits, or with as many as the precision asks for: `{:.3}` prints three.
+//! Numbers as people write them: with six significant digits, or as many as the precision says: `{:.3}`
+//! prints three.
 
 use std::fmt::{self, Display, Formatter};
 

@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-/// What can go wrong in the model. Every variant carries the numbers that are needed to see why.
+/// What can go wrong in the model. Every variant carries the numbers needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
 /// ones of a range, such as counts, without a fraction.
@@ -33,17 +33,17 @@ pub enum Error {
         /// The largest duration in radians.
         limit: f64,
     },
-    /// Rotors that are to share one vertical motion differ in something that it depends on.
+    /// Rotors that are to share one vertical motion differ in something on which it depends.
     #[error("rotors that share one vertical motion differ in {field}: {one:?} and {other:?}")]
     NotShared {
-        /// What has to be the same.
+        /// The quantity that must be equal.
         field: &'static str,
         /// Its value for the first rotor.
         one: f64,
         /// Its value for another one.
         other: f64,
     },
-    /// A motor does not turn where it is asked for something that only one that turns has.
+    /// A quantity of a turning motor was requested, but the motor does not turn.
     #[error(
         "the motor does not turn: its mean speed is {speed:?} rad/s with a standard error of {standard_error:?} rad/s"
     )]
@@ -53,7 +53,7 @@ pub enum Error {
         /// Its standard error (rad/s).
         standard_error: f64,
     },
-    /// A mean speed is not known as well as was asked for when all impacts that were allowed had been spent.
+    /// A mean speed did not reach the requested accuracy within the allowed impacts.
     #[error(
         "the mean speed, {speed:?} rad/s with a standard error of {standard_error:?} rad/s, has not reached the requested error: allow more impacts, or a larger error"
     )]
@@ -69,7 +69,7 @@ pub enum Error {
         /// Load torque in units of m g a_e.
         load: f64,
     },
-    /// What was given as a periodic orbit is none of this system.
+    /// The given orbit is not a periodic orbit of this system.
     #[error(
         "impact {impact} does not lead to the next impact of the orbit: it misses it by {distance:?} (rad, or relative speed)"
     )]
@@ -90,13 +90,13 @@ pub enum Error {
         /// How many are needed.
         needed: usize,
     },
-    /// A parameter that is needed, and has no default, is not there.
+    /// A required parameter without a default is missing.
     #[error("{field} is not given")]
     NotGiven {
         /// The name of the parameter.
         field: &'static str,
     },
-    /// One of two parameters is needed, and neither is there.
+    /// One of two parameters is needed, and neither is given.
     #[error("neither {one} nor {other} is given; one of them is needed")]
     NeitherGiven {
         /// The name of the first.
@@ -104,7 +104,7 @@ pub enum Error {
         /// The name of the second.
         other: &'static str,
     },
-    /// Two parameters that say the same thing, perhaps differently.
+    /// Two parameters that state the same quantity, perhaps differently.
     #[error("both {one} and {other} are given, which exclude each other; leave one of them out")]
     BothGiven {
         /// The name of the first.

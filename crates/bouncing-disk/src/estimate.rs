@@ -19,7 +19,7 @@
 //!
 //! [`TransientFit`] fits run-ups, `ParameterFit` (feature `fit`) finds the parameters of a motor that explain
 //! them, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
-//! model are in [`motor`](crate::motor). Where the intervals come from: docs/numerics/motors.md.
+//! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics/motors.md.
 
 pub(crate) mod braking_fit;
 pub(crate) mod ensemble;

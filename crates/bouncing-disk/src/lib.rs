@@ -2,7 +2,7 @@
 //! ultrasonic motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
 //!
 //! A [`System`] is a [`Disk`] on a [`Platform`], in SI units. [`Engine`] computes its motion event by event.
-//! A [`Motor`] is a system by its data sheet.
+//! A [`Motor`] is a system described by its data sheet.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -16,8 +16,8 @@
 //! # }
 //! ```
 //!
-//! The names at the root are those of one disk on one platform. All that is done with them is in chapters,
-//! each with an example and its equation on the first page:
+//! The names at the root describe one disk on one platform. Everything else is in chapters, whose first
+//! pages each have an example and an equation:
 //!
 //! | chapter | about |
 //! | --- | --- |
@@ -32,14 +32,15 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` for results; `Deserialize` for what users write by hand and runs resume |
+//! | `serde` | yes | `Serialize` for results; `Deserialize` for input that users write and for runs to resume
+//! |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
 //! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
-//! | `csv` | no | measured speeds from comma-separated files, sweeps as such |
+//! | `csv` | no | measured speeds from comma-separated files, sweeps written as such |
 //!
-//! Deserialisation passes the same checks as construction: a value outside its range, a missing key of a
+//! Deserialising runs the same checks as construction: a value outside its range, a missing key of a
 //! required value and an unknown key are errors. An infinite error bound, or an undefined efficiency, is
 //! `null` in JSON, which has no such number. The feature `json` switches on `float_roundtrip` of
 //! `serde_json`; without either a third of all numbers change in the last bit when they are read as JSON.
@@ -68,7 +69,7 @@ pub mod store;
 mod testing;
 pub mod toss;
 
-/// The math core: the vertical motion, its impact map and what is done with it.
+/// The math core: the vertical motion, its impact map and their analysis.
 pub use bouncing_disk_core as core;
 
 pub use bouncing_disk_core::{Observer, Progress, Unobserved};

@@ -3,7 +3,7 @@
 //! In flight the disk falls and its spin is constant, except under a load. An impact turns the relative axial
 //! velocity w_A into -r w_A and gives the disk the angular impulse -sgn(w_T) min(mu a_e F, m a_g^2 |w_T|)
 //! against the slip w_T, where F = m (1 + r) |w_A| (Eqs. 5 to 10 of Liu, Friend and Yeo). In contact the disk
-//! sticks or slides by Coulomb's law (Eqs. 4 and 12). No event is missed: the first impact has a proof, and
+//! sticks or slides by Coulomb's law (Eqs. 4 and 12). No event is missed: the first impact is proven, and
 //! the infinitely many impacts of a chattering sequence are summed.
 //!
 //! ```
@@ -20,8 +20,9 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] says which event may follow which. The tosses
-//! made of such motions are in [`toss`](crate::toss). How chattering is summed: docs/numerics/chattering.md.
+//! [`SiState`] and [`SiEnergy`] are in SI units; [`Transition`] lists which event may follow which. The
+//! tosses made of such motions are in [`toss`](crate::toss). How chattering is summed:
+//! docs/numerics/chattering.md.
 
 pub(crate) mod arc;
 pub(crate) mod chatter;

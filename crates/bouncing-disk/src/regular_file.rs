@@ -1,10 +1,10 @@
-//! Reads files that somebody else may have put in their place.
+//! Reads files that somebody else may have replaced.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// What is there is no regular file. To open a named pipe waits for a writer, and a device may never end.
+/// Not a regular file. Opening a named pipe waits for a writer, and a device may never end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it is {found}, not a regular file")]
 pub struct NotRegular {
@@ -12,7 +12,7 @@ pub struct NotRegular {
     pub found: &'static str,
 }
 
-/// A file is larger than is read.
+/// A file is too large to read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("it has {bytes} bytes; at most {largest} are read")]
 pub struct TooLarge {
@@ -24,12 +24,12 @@ pub struct TooLarge {
 
 /// The content of a regular file, or of one that a symbolic link leads to, of at most `largest` bytes.
 ///
-/// What kind of file it is, is asked before it is opened. Somebody who puts a pipe in its place between the
-/// two makes this wait; the standard library has no portable way to open without waiting.
+/// The kind of file is checked before opening. Somebody who replaces it by a pipe in between makes this
+/// wait; the standard library has no portable way to open without waiting.
 ///
 /// # Errors
 ///
-/// What the system reports; with [`NotRegular`] or [`TooLarge`] inside where the file is one of these.
+/// Those of the system; with [`NotRegular`] or [`TooLarge`] inside if the file is one of these.
 pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     must_be_regular(fs::metadata(path)?.file_type())?;
     let file = File::open(path)?;
@@ -41,11 +41,11 @@ pub fn read(path: &Path, largest: u64) -> io::Result<Vec<u8>> {
     limited(file, largest)
 }
 
-/// All that a reader gives, if it is at most `largest` bytes.
+/// The whole content of a reader, if it is at most `largest` bytes.
 ///
 /// # Errors
 ///
-/// What the reader reports; with [`TooLarge`] inside where it gives more.
+/// Those of the reader; with [`TooLarge`] inside if it gives more.
 pub fn limited(reader: impl Read, largest: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     // A file may grow while it is read, and some file systems state no length.

@@ -1,4 +1,4 @@
-//! Files: where one comes from, and the journal from which a long computation resumes.
+//! Files: their origin, and the journal from which a long computation resumes.
 //!
 //! A [`Provenance`] states program, version, format, parameters, seed and chatter policy, but neither time
 //! nor machine, so that the same computation writes the same bytes. A [`Journal`] has it in its first line

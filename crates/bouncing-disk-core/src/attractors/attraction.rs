@@ -237,17 +237,18 @@ impl PeriodicOrbit {
     /// The radius (rad) within which a start counts as caught by this orbit: the [proven](Self::proven_radius) one,
     /// or a larger one that samples support.
     ///
-    /// Of an orbit of at most eight impacts `samples` starts on circles of 0.1, 0.05, ... rad about each impact must stay
-    /// within four radii and end nearer than they began; where that holds at 0.1 rad, wider circles are tried, each 1.15
-    /// times the last and with four times as many starts, that must come within 0.1 rad, and 0.7 times the widest counts.
-    /// Of all others, as of an orbit with strong shear that traps no circle, it is half the radius of circles of 0.05, 0.025,
-    /// ... rad from which 16 starts come back eight times nearer, however far they stray, or nearer without straying.
+    /// For an orbit of at most eight impacts, `samples` starts on circles of 0.1, 0.05, ... rad about each
+    /// impact must stay within four radii and end nearer than they began; where that holds at 0.1 rad, wider
+    /// circles are tried, each 1.15 times the last and with four times as many starts, which must come within
+    /// 0.1 rad; 0.7 times the widest counts. For all others, and for an orbit whose strong shear traps no
+    /// circle, it is half the radius of circles of 0.05, 0.025, ... rad from which 16 starts come back eight
+    /// times nearer, however far they stray, or nearer without straying.
     ///
     /// The items of `observer` are the starts, as many as there are at most.
     ///
     /// # Errors
-    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of [`Self::proven_radius`] where
-    /// samples find none, either.
+    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of
+    /// [`Self::proven_radius`] where samples find no radius either.
     pub fn trapping_radius(
         &self,
         map: &ImpactMap,

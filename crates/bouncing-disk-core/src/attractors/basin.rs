@@ -126,7 +126,7 @@ impl Grid {
         Ok(Self { phase, speed })
     }
 
-    /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: of whole periods nothing is left to round.
+    /// Impact phase (rad) of the cells of a column, in [0, 2 pi]: whole periods leave nothing to round.
     #[must_use]
     pub fn impact_angle(&self, column: usize) -> f64 {
         let cycles = self.phase.centre(column);
@@ -231,8 +231,8 @@ impl Basins {
         Ok(())
     }
 
-    /// The labels of whole rows, one row at least, that were found in another way or come back from a program
-    /// that has them as an array: what measures a boundary asks for nothing else.
+    /// The labels of at least one whole row, found in another way or returned from a program that has them as
+    /// an array: measuring a boundary needs nothing else.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{ATTACHED, Basins, FIRST_ORBIT};
@@ -253,8 +253,8 @@ impl Basins {
     /// The basins of grids that lie on one another, from the slowest starts on: their rows one after the other.
     ///
     /// # Errors
-    /// [`Error::Unfitting`] if they have not all as many columns, or there are none; [`Error::TooLarge`] for more
-    /// than [`MAX_CELLS`] cells.
+    /// [`Error::Unfitting`] if their numbers of columns differ, or there are no basins; [`Error::TooLarge`]
+    /// for more than [`MAX_CELLS`] cells.
     pub fn stacked(parts: impl IntoIterator<Item = Self>) -> Result<Self, Error> {
         let mut parts = parts.into_iter();
         let Some(mut whole) = parts.next() else {
@@ -312,7 +312,7 @@ impl Basins {
     }
 
     /// How many cells have this label, with the interval that a sample of as many starts leaves for the share.
-    /// Of [`UNDECIDED`] these are the cells that nothing is known of.
+    /// For [`UNDECIDED`] these are the cells of which nothing is known.
     ///
     /// The cells of a grid are more even than a random sample: the error of the grid is about half the share of
     /// the cells at a boundary at most, and mostly far less.

@@ -1,4 +1,5 @@
-//! The attractors of a map without being told, and basins from them (docs/numerics/dynamics.md, "Attractors").
+//! The attractors of a map, found without known orbits, and their basins (docs/numerics/dynamics.md,
+//! "Attractors").
 
 mod basins;
 pub(crate) mod cells;
@@ -22,7 +23,7 @@ use settings::AttractorSearch;
 /// Most attractors but for the disk at rest: as many as labels tell apart.
 const MOST_ATTRACTORS: usize = 250;
 
-/// What a disk does that has come to rest on the platform.
+/// What a disk does after it has come to rest on the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAfterRest"))]
@@ -30,10 +31,10 @@ const MOST_ATTRACTORS: usize = 250;
 pub enum AfterRest {
     /// It stays for ever: the platform never falls away (P <= 1).
     StaysForEver,
-    /// It separates, in always the same way, and comes to rest again.
+    /// It separates, always in the same way, and comes to rest again.
     RestsAgain(RestCycle),
-    /// It separates and never comes to rest again: the rest is no attractor but lies in the basin of the one
-    /// with this number in [`Attractors::all`], and so do all starts that come to rest.
+    /// It separates and never comes to rest again: the rest is not an attractor but lies in the basin of the
+    /// one with this number in [`Attractors::all`], and so do all starts that come to rest.
     LeadsTo(usize),
 }
 
@@ -69,9 +70,9 @@ impl AfterRest {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedRecurrence"))]
 pub struct Recurrence {
-    /// The cells that it has visited in the second half of its impacts.
+    /// The cells that it visited in the second half of its impacts.
     pub cells: VisitedCells,
-    /// Impacts that it was followed for without coming to rest.
+    /// Impacts for which it was followed without coming to rest.
     pub impacts: u64,
     /// Its last impact.
     pub state: ImpactState,
@@ -98,15 +99,14 @@ impl Recurrence {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedKind"))]
 #[non_exhaustive]
 pub enum AttractorKind {
-    /// The disk comes to rest on the platform. Every map has starts that do; the others are told apart by
-    /// what follows.
+    /// The disk comes to rest on the platform. Every map has such starts; maps differ in what follows.
     Rest(AfterRest),
     /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
     /// none, as next to a graze.
     Periodic(KnownOrbit),
     /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits are born: it
-    /// attracts from one side, or rounding decides whether it does. Starts come nearer to it without end in sight
-    /// and stay undecided in basins.
+    /// attracts from one side, or rounding decides whether it does. Starts approach it ever more slowly and
+    /// stay undecided in basins.
     Marginal(PeriodicOrbit),
     /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)).
     Chaotic {
@@ -117,7 +117,7 @@ pub enum AttractorKind {
         /// Where it has been.
         recurrence: Recurrence,
     },
-    /// A set that orbits stay on and of which nothing else is certain: a period longer than the longest one, or
+    /// A set on which orbits stay, with nothing else certain: a period longer than the longest one, or
     /// a motion without period whose perturbations neither grow nor shrink.
     Unclassified {
         /// Why it is neither periodic nor chaotic.
@@ -145,7 +145,7 @@ impl AttractorKind {
         Ok(())
     }
 
-    /// Where an attractor has been that is known by its cells.
+    /// Where an attractor that is known by its cells has been.
     #[must_use]
     pub const fn recurrence(&self) -> Option<&Recurrence> {
         match self {
@@ -154,8 +154,8 @@ impl AttractorKind {
         }
     }
 
-    /// The cycle of a disk that comes to rest again and again: [`RestCycle::is_exact`] says whether its numbers are
-    /// those of exact arithmetic or rounding has chosen them.
+    /// The cycle of a disk that comes to rest again and again: [`RestCycle::is_exact`] tells whether its
+    /// numbers are those of exact arithmetic or chosen by rounding.
     #[must_use]
     pub const fn rest_cycle(&self) -> Option<&RestCycle> {
         match self {
@@ -164,7 +164,7 @@ impl AttractorKind {
         }
     }
 
-    /// Whether the motion lasts: not that of a disk which rests and never does so again.
+    /// Whether the motion lasts: it does not if the disk rests and never does so again.
     #[must_use]
     pub const fn lasts(&self) -> bool {
         !matches!(self, Self::Rest(AfterRest::LeadsTo(_)))
@@ -214,7 +214,7 @@ impl core::fmt::Display for AttractorKind {
 pub struct Attractor {
     /// What it is.
     pub kind: AttractorKind,
-    /// How many of the starts ended on it: none where it was a candidate. Its interval is that of the basin's
+    /// How many of the starts ended on it: 0 if it was only a candidate. Its interval is that of the basin's
     /// share of the trapping region.
     pub starts: Fraction,
 }
@@ -284,7 +284,7 @@ impl Attractors {
         &self.map
     }
 
-    /// How they were looked for.
+    /// How they were searched for.
     #[must_use]
     pub const fn search(&self) -> &AttractorSearch {
         &self.search
@@ -301,7 +301,7 @@ impl Attractors {
         self.all.iter().enumerate().filter(|(_, attractor)| attractor.kind.lasts())
     }
 
-    /// The starts that ended on none of them: whose period was seen and not found again.
+    /// The starts that ended on none of them: their period was seen but not found again.
     #[must_use]
     pub fn undecided(&self) -> Fraction {
         let starts = u64::from(self.search.starts());
@@ -342,17 +342,17 @@ impl ImpactMap {
     /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no attractor
     /// can leave, so that no window can miss one. Each is followed until it rests, or is seen to come ever
     /// nearer to a periodic orbit, which is then refined; of those that do neither, one is followed for
-    /// long, and the others that come back to the cells that it has visited are on the same attractor.
+    /// long, and others that return to the cells it has visited are on the same attractor.
     /// Periodic orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
-    /// finds are there in any case, however small their basins.
+    /// finds are included in any case, however small their basins.
     ///
-    /// What is not proven: an attractor whose basin no start has hit is missed, and its share is then below the
-    /// upper end of the [interval](Fraction::interval) of none of the starts; and an orbit that has not come to
-    /// rest for [`AttractorSearch::impacts`] may yet.
+    /// Two things are not proven. An attractor whose basin no start has hit is missed; its share is then
+    /// below the upper end of the [interval](Fraction::interval) of zero starts. And an orbit that has not
+    /// come to rest within [`AttractorSearch::impacts`] may still do so.
     ///
-    /// The items of `observer` are the starts, each of which counts when it has been looked at and when its
+    /// The items of `observer` are the starts, each counted when it has been examined and when its
     /// attractor is known.
     ///
     /// ```

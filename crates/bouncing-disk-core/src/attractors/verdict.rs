@@ -28,7 +28,7 @@ const TOGETHER: usize = 1 << 14;
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedVerdict"))]
 #[non_exhaustive]
 pub enum Verdict {
-    /// The orbit has come so near to an attracting periodic orbit that it was seen to come nearer still. The
+    /// The orbit came so near to an attracting periodic orbit that it was seen to converge to it. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
     /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no impact of it chatters
     /// to rest.
@@ -43,29 +43,29 @@ pub enum Verdict {
         state: ImpactState,
         /// How near the followed orbit was to it (rad; a radian counts as much as the speed P).
         distance: f64,
-        /// Impacts after which that was seen.
+        /// Impacts after which this was seen.
         after: u64,
         /// How often the disk came to rest on the way, 0 or 1: the basin of a start with a rest is that of
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
     /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
-    /// the exponent can explain ([`LyapunovEstimate::grows`]), over so many impacts that dissipation has had
-    /// its effect ([`ImpactMap::transient_impacts`]). Over a finite number of impacts nobody can tell an
-    /// attractor from a longer transient.
+    /// the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
+    /// ([`ImpactMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
+    /// longer transient.
     Chaotic {
         /// The largest exponent per impact.
         exponent: f64,
         /// Its standard error: scatter, drift and rounding.
         standard_error: f64,
-        /// Impacts that it was measured over, after the transient.
+        /// Impacts over which it was measured, after the transient.
         impacts: u64,
         /// Periods of the platform that these took.
         platform_periods: u64,
         /// How often the disk came to rest before, 0 or 1.
         rests: u64,
     },
-    /// The disk comes to rest on the platform, separates, and comes to rest again: as it separates in always
+    /// The disk comes to rest on the platform, separates, and comes to rest again: as it always separates in
     /// the same way, this repeats for ever, and no perturbation survives the rest.
     Chattering {
         /// What repeats.
@@ -80,7 +80,7 @@ pub enum Verdict {
         /// Impacts before, without those that are summed.
         after: u64,
     },
-    /// The impacts that were allowed tell nothing for certain.
+    /// The allowed number of impacts decides nothing for certain.
     Undecided {
         /// Why.
         reason: UndecidedReason,
@@ -117,12 +117,12 @@ pub enum CycleTrust {
     /// Rounding stays far below what would change a flight.
     Exact,
     /// The round is so long that rounding has grown to the size of the motion: another program finds another
-    /// cycle. What is true of all of them are statistics, such as the growth between two rests.
+    /// cycle. All of them share only statistics, such as the growth between two rests.
     ChosenByRounding {
         /// The mean logarithmic growth of a small perturbation per flight, over the flights from the first
         /// impact of the round to the rest; `None` where one of them grazes.
         exponent: Option<f64>,
-        /// Its standard error; `None` of fewer than 16 flights.
+        /// Its standard error; `None` for fewer than 16 flights.
         standard_error: Option<f64>,
     },
 }
@@ -133,7 +133,7 @@ pub enum CycleTrust {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedReason"))]
 #[non_exhaustive]
 pub enum UndecidedReason {
-    /// The exponent is no farther from zero than neutral motion and its error explain
+    /// The exponent is no farther from zero than neutral motion and its error can explain
     /// ([`LyapunovEstimate::threshold`]), and no period up to the longest one was proved.
     ExponentNearZero {
         /// The largest exponent per impact.
@@ -169,7 +169,7 @@ pub enum UndecidedReason {
         exponent: f64,
         /// Its standard error.
         standard_error: f64,
-        /// Impacts, with those of the transient, that it would take ([`ImpactMap::transient_impacts`]).
+        /// Impacts needed, with those of the transient ([`ImpactMap::transient_impacts`]).
         needed: f64,
     },
     /// An impact has no speed, or one so small that the derivative exceeds what a double holds.
@@ -365,9 +365,9 @@ pub fn verdicts(
     Ok(all)
 }
 
-/// [`verdicts`] of `count` orbits of which neither starts nor verdicts are kept: `start` makes that of an index
-/// when it is needed, and `each` takes the verdicts in their order, `None` where there is no start. The memory
-/// does not grow with their number. The items of the observer are the orbits.
+/// [`verdicts`] of `count` orbits without keeping starts or verdicts: `start` makes the start of an index
+/// when it is needed, and `each` takes the verdicts in order, `None` where there is no start. Memory does not
+/// grow with their number. The items of the observer are the orbits.
 ///
 /// # Errors
 /// Those of [`verdicts`] and of `start`; [`Error::Stopped`] if the observer breaks.
@@ -414,7 +414,7 @@ const FEWEST_IMPACTS: f64 = 64.0;
 
 /// How long an orbit is followed for its verdict, and how.
 ///
-/// An orbit that repeats itself or rests is decided as soon as that is seen. The others are followed for
+/// An orbit that repeats or rests is decided as soon as this is seen. The others are followed for
 /// `transient` + `impacts` impacts; after a rest on a platform that falls away this begins anew, once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -422,14 +422,13 @@ const FEWEST_IMPACTS: f64 = 64.0;
 pub struct VerdictSettings {
     /// Impacts before the exponent is measured. Default 2,000.
     pub transient: u64,
-    /// Impacts that the exponent is measured over, at least 64. Default 100,000.
+    /// Impacts over which the exponent is measured, at least 64. Default 100,000.
     pub impacts: u64,
-    /// The longest period that is looked for, in impacts, in [1, 4096]. Default 256. The proof of a period
+    /// The longest period searched for, in impacts, in [1, 4096]. Default 256. The proof of a period
     /// makes some fifty times as many flights at most, and 8,192 more, between two calls of an observer.
     pub longest_period: usize,
     /// How near an impact must come to an earlier one for a period to be tried (rad, and relative speed), in
-    /// (0, 0.01]. Default 1e-7. It decides how soon a period is found; whether there is one is proved from
-    /// there.
+    /// (0, 0.01]. Default 1e-7. It decides how soon a period is found; its existence is then proved.
     pub tolerance: f64,
 }
 

@@ -28,7 +28,7 @@ pub struct CrisisSearch {
 
 impl CrisisSearch {
     /// A search at this restitution in (0, 1) between two values of Gamma, `low` < `high`: below the crisis
-    /// and beyond it. At each forcing 64 orbits are followed, for 2e6 impacts together.
+    /// and beyond it. At each forcing 64 orbits are followed, for 2e6 impacts in all.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for any of them.
@@ -37,8 +37,8 @@ impl CrisisSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with so many orbits in [16, 1e6] that are followed for so many impacts in [1e4, 1e12], all
-    /// orbits together, and each of them for 200 at least. More impacts make the bracket narrower.
+    /// The same with `samples` orbits in [16, 1e6], followed for `impacts` in [1e4, 1e12] in all, and each
+    /// of them for at least 200. More impacts make the bracket narrower.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -75,30 +75,31 @@ impl CrisisSearch {
 pub struct Crisis {
     /// Coefficient of restitution.
     pub restitution: f64,
-    /// Gamma of the tangency; without one the middle of the bracket.
+    /// Gamma of the tangency, or without one the middle of the bracket.
     pub forcing: f64,
     /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from above to
     /// what the last flights along the saddle changed and the rounding.
     pub forcing_error: f64,
-    /// The values of Gamma between which the crisis lies by the lives of orbits: at the second one came to rest,
-    /// which is certain; if it lay below the first, a rest would have been seen between them in 95 of 100 searches, as
-    /// long as lives go on rising as steeply at most as those that were measured.
+    /// The values of Gamma between which the lives of orbits place the crisis. At the second an orbit came to
+    /// rest, which is certain; if the crisis lay below the first, 95 of 100 searches would have seen a rest
+    /// between them, provided that lives rise no more steeply than those measured.
     pub bracket: (f64, f64),
     /// An impact on the attractor next to the lower end of the bracket.
     pub attractor: ImpactState,
-    /// What the disk does after it came to rest just beyond the crisis.
+    /// What the disk does after a rest just beyond the crisis.
     pub after_rest: LifeAfterRest,
     /// The tangency of manifolds that is the reason, or why none is known.
     pub tangency: Result<Tangency, NoTangency>,
 }
 
-/// What a disk does after it came to rest beyond a crisis, where it separates always in the same state: at each of 16
-/// forcings from the crisis to the upper end of its bracket, beyond a tangency to a sixteenth of that.
+/// What a disk does after a rest beyond a crisis, from which it always separates in the same state: at each
+/// of 16 forcings from the crisis to the upper end of its bracket, with a tangency over a sixteenth of that.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
-    /// At every one it rests again after so many impacts at most, far fewer than lives on the attractor have, and so
-    /// for ever: a boundary crisis, in which the attractor is lost. It is 0 where the platform never falls away.
+    /// At every one it rests again after at most `impacts`, far fewer than lives on the attractor last, and
+    /// so for ever: a boundary crisis, in which the attractor is lost. It is 0 where the platform never falls
+    /// away.
     Short {
         /// Impacts from one rest to the next.
         impacts: u64,
@@ -142,7 +143,7 @@ impl Crisis {
     /// The exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, after Grebogi, Ott and
     /// Yorke: 1/2 + ln|a|/|ln|b|| with the multipliers a and b (|a| > 1 > |b|) per impact of the saddle on
     /// the attractor where the saddles are two, ln|b|/ln (a b)^2 with those of the saddle where it is one.
-    /// `None` without a tangency and where a multiplier does not tell.
+    /// `None` without a tangency and where the multipliers do not determine it.
     #[must_use]
     pub fn life_exponent(&self) -> Option<f64> {
         let tangency = self.tangency.as_ref().ok()?;
@@ -154,7 +155,7 @@ impl Crisis {
     }
 }
 
-/// Why no tangency is known that is the reason of a crisis.
+/// Why no tangency is known as the cause of a crisis.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -164,11 +165,11 @@ pub enum NoTangency {
         "the orbits that came to rest just beyond it ({orbits}) passed no common saddle of at most 12 impacts"
     )]
     NoSaddle {
-        /// The orbits that were looked at.
+        /// The orbits examined.
         orbits: usize,
     },
     /// The unstable manifold has no fold next to the stable one: the attractor touches another saddle, or its
-    /// edge is no fold.
+    /// edge is not a fold.
     #[error("no fold of the unstable manifold lies next to the saddle")]
     NoFold,
     /// The tangency was not found to the rounding.
@@ -179,7 +180,7 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch where the attractor lives on, or is gone, or no orbit about it is lost: inside of the
+    /// The manifolds touch where the attractor lives on, or is gone, or no orbit near it is lost: inside the
     /// attractor, or later than those of another saddle.
     #[error("the manifolds touch at Gamma = {forcing} instead")]
     Elsewhere {
@@ -227,7 +228,7 @@ pub enum NoCrisis {
         /// The impacts of the first orbit that comes to rest.
         life: u64,
     },
-    /// What is lost is not chaotic: a periodic orbit that ends.
+    /// The lost attractor is not chaotic but a periodic orbit that ends.
     #[error(
         "the attractor that disappears at Gamma = {forcing} is not chaotic: its largest exponent is {exponent:.4} per impact"
     )]
@@ -237,7 +238,7 @@ pub enum NoCrisis {
         /// Its largest Lyapunov exponent.
         exponent: f64,
     },
-    /// Orbits do not live shorter farther away: it is not a crisis.
+    /// Lives do not shorten farther away: it is not a crisis.
     #[error(
         "lifetimes do not shorten beyond Gamma = {forcing}: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
@@ -249,12 +250,12 @@ pub enum NoCrisis {
         /// Mean life 64 times as far away.
         far: f64,
     },
-    /// Orbits begin to come to rest, but not since the manifolds of the saddles that were given touch.
+    /// Orbits begin to come to rest, but not because the manifolds of the given saddles touch.
     #[error("orbits begin to come to rest between Gamma = {} and {}; of these saddles {reason}", bracket.0, bracket.1)]
     OtherReason {
         /// Where the crisis lies (see [`Crisis::bracket`]).
         bracket: (f64, f64),
-        /// What there is of the saddles.
+        /// Why the saddles give no tangency.
         reason: NoTangency,
     },
 }
@@ -274,14 +275,14 @@ impl CrisisSearch {
     /// The crisis in which a chaotic attractor begins to lose orbits to rest.
     ///
     /// Orbits on the attractor are followed as Gamma rises, in steps that are halved where one of them comes
-    /// to rest, to a bracket. Then the saddle that those pass which come to rest just beyond it is looked for,
-    /// and the tangency of its stable manifold with an unstable one. It refines the result if it lies within
-    /// the bracket.
+    /// to rest, to a bracket. Then follows a search for the saddle passed by the orbits that come to rest
+    /// just beyond it, and for the tangency of its stable manifold with an unstable one. The tangency refines
+    /// the result if it lies within the bracket.
     ///
-    /// Without `saddles` the attractor is that which the period-1 orbit leads to at the lower end of the
-    /// range, or at its birth. With them it is that which the unstable manifold of the first one leads to, a
-    /// saddle on the attractor or at its edge, and the stable manifold is that of the second one, which may
-    /// be the same. They are orbits at any forcings, from which they are followed.
+    /// Without `saddles` the attractor is the one to which the period-1 orbit leads at the lower end of the
+    /// range, or at its birth. With them it is the one to which the unstable manifold of the first leads, a
+    /// saddle on the attractor or at its edge; the stable manifold is that of the second, which may be the
+    /// same. They may be given at any forcings, from which they are followed.
     ///
     /// The items of the observer are impacts, at most.
     ///
@@ -297,8 +298,8 @@ impl CrisisSearch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if one of `saddles` is no saddle; [`Error::Stopped`] if the observer breaks; those of
-    /// [`Vibration::first_impact`].
+    /// [`Error::OutOfRange`] if one of `saddles` is not a saddle; [`Error::Stopped`] if the observer breaks;
+    /// those of [`Vibration::first_impact`].
     pub fn crisis(
         &self,
         saddles: Option<(&PeriodicOrbit, &PeriodicOrbit)>,

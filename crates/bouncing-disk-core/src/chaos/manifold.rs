@@ -17,9 +17,9 @@ use saddle::Saddle;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum ManifoldKind {
-    /// What tends to the saddle: it grows by [`ImpactMap::step_back`].
+    /// The states that tend to the saddle: it grows by [`ImpactMap::step_back`].
     Stable,
-    /// What comes from the saddle: it grows by [`ImpactMap::step`].
+    /// The states that come from the saddle: it grows by [`ImpactMap::step`].
     Unstable,
 }
 
@@ -61,7 +61,7 @@ impl ManifoldSettings {
     /// The most points of a branch.
     pub const MAX_POINTS: usize = 10_000_000;
 
-    /// Each branch up to this `arclength` in (0, 1e6] and so many points in [16, 1e7]. Neighbours are at most
+    /// Each branch up to this `arclength` in (0, 1e6] and `max_points` in [16, 1e7]. Neighbours are at most
     /// 0.05 apart and the polygon turns by at most 0.2 rad; there are at most 200 generations.
     ///
     /// # Errors
@@ -82,7 +82,7 @@ impl ManifoldSettings {
         settings.check().map(|()| settings)
     }
 
-    /// The same with at most so many generations in [1, 10,000]: how often the first piece is mapped.
+    /// The same with at most `max_generations` in [1, 10,000]: how often the first piece is mapped.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -91,11 +91,11 @@ impl ManifoldSettings {
         settings.check().map(|()| settings)
     }
 
-    /// The same with the largest own speed |P cos tau - r v| after an impact (units of g/omega) that a stable
-    /// manifold is followed to, finite and >= 0, in place of [`ImpactMap::launch_speed_bound`]; what is less
-    /// than this bound counts as the bound.
+    /// The same with the largest own speed |P cos tau - r v| after an impact (units of g/omega) to which a
+    /// stable manifold is followed, finite and >= 0, in place of [`ImpactMap::launch_speed_bound`]; smaller
+    /// values count as that bound.
     ///
-    /// Nothing is lost that lies within: a disk that was faster than the bound was faster still before.
+    /// No state within it is lost: a disk that was faster than the bound was faster still before.
     ///
     /// # Errors
     /// [`Error::OutOfRange`].
@@ -130,7 +130,7 @@ pub enum PieceEnd {
     Graze,
     /// Beyond it the disk is proven to chatter to rest.
     Rest,
-    /// Beyond it the disk was faster than the settings ask for.
+    /// Beyond it the disk was faster than the settings allow.
     TooFast,
     /// The branch is cut off here: see its [`ManifoldEnd`].
     Cut,
@@ -153,13 +153,13 @@ pub struct ManifoldPiece {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum ManifoldEnd {
-    /// It is as long as was asked for.
+    /// It is as long as requested.
     Arclength,
     /// It has as many points as were allowed, or would need more at once.
     Points,
     /// Its first piece was mapped as often as was allowed.
     Generations,
-    /// It ends in an attracting orbit: the last generation was too short to be seen, and shrinking.
+    /// It ends in an attracting orbit: the last generation was too short to resolve, and shrinking.
     Attracted,
     /// Every point of the last generation came to rest or was too fast.
     Lost,
@@ -175,7 +175,7 @@ pub struct ManifoldBranch {
     pub side: Side,
     /// Its pieces in the order in which they grow from the saddle.
     pub pieces: Vec<ManifoldPiece>,
-    /// Their length together (see [`ManifoldSettings`]).
+    /// Their total length (see [`ManifoldSettings`]).
     pub arclength: f64,
     /// How often the first piece was mapped.
     pub generations: u32,
@@ -208,8 +208,8 @@ impl ImpactMap {
     ///
     /// Every branch grows from a short straight piece next to the saddle, which is mapped again and again.
     /// Points are inserted where neighbours part or the polygon turns; the curve is broken where the map
-    /// jumps ([`PieceEnd`]). A point that is inserted is mapped all the way from the first piece, so that no
-    /// error of interpolation grows.
+    /// jumps ([`PieceEnd`]). An inserted point is mapped all the way from the first piece, so that no
+    /// interpolation error grows.
     ///
     /// The items of `observer` are the points that are allowed, of all branches.
     ///
@@ -232,8 +232,8 @@ impl ImpactMap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if the orbit is no saddle, or for a stable manifold and restitution 0;
-    /// [`Error::NotSettled`] if it is no orbit of this map; those of
+    /// [`Error::OutOfRange`] if the orbit is not a saddle, or for a stable manifold and restitution 0;
+    /// [`Error::NotSettled`] if it is not an orbit of this map; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn manifold(
         &self,

@@ -1,7 +1,7 @@
 //! Chattering: infinitely many impacts in a finite time, and the two ways to end it.
 //!
-//! The sum of such a sequence, time and all, is [`Accumulation`]; what else is summed over its impacts (the rotary
-//! impulses, the losses) is in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
+//! The summed duration of such a sequence is [`Accumulation`]; the other sums over its impacts (rotary
+//! impulses, losses) are in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
 //!
 //! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
 //! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
@@ -73,7 +73,7 @@ impl Accumulation {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChatterImpact {
-    /// Time since the impact that the sequence started from, in radians.
+    /// Time since the impact from which the sequence started, in radians.
     pub time: f64,
     /// Impact speed |w_A| in units of g/omega.
     pub speed: f64,

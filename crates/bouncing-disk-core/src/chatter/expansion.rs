@@ -1,5 +1,5 @@
 //! The expansion of a chatter in its launch speed: its flights, their sum to the fourth order, and the error bound
-//! of the sum. What is made of it is in `accumulation.rs`.
+//! of the sum. It is used in `accumulation.rs`.
 
 /// Largest expansion parameter of the series; its majorant needs it below 1/16.
 const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;

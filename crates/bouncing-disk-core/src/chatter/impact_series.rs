@@ -1,7 +1,8 @@
 //! A chatter in closed form: every impact, and every sum over impacts, as a power series in r^n.
 //!
-//! The accumulation point stays where it is from impact to impact, and next to it the remaining time R has a
-//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y = r^n.
+//! The accumulation point is the same from impact to impact, and near it the remaining time R has a
+//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
+//! = r^n.
 //! A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
 //! coefficients and the sums that do not cancel are derived in docs/numerics/chattering.md.
 
@@ -112,8 +113,8 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
 /// A chattering sequence in closed form: see [`crate::ImpactMap::chatter_series`].
 ///
 /// Its impacts are numbered from 1; number 0 is the launch that it starts from. The flight that ends with impact n + 1
-/// and what this impact does are power series in r^n. They all contain 1 - r, which is left out of the coefficients, so
-/// that they do not vanish where r is next to 1: such a series gives a quantity per 1 - r.
+/// and what this impact does are power series in r^n. All contain the factor 1 - r, which is left out of the
+/// coefficients so that they do not vanish near r = 1: such a series gives a quantity per 1 - r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChatterSeries {
     restitution: f64,
@@ -264,8 +265,8 @@ impl<'a> Shape<'a> {
 }
 
 impl ChatterSeries {
-    /// Whether a chatter after a launch with `speed` has too many impacts for [`crate::ImpactMap::chatter_impacts`], or too slow
-    /// ones for their sums one by one.
+    /// Whether a chatter after a launch with `speed` has too many impacts for
+    /// [`crate::ImpactMap::chatter_impacts`], or impacts too slow to sum one by one.
     #[must_use]
     #[inline]
     pub fn is_needed(speed: f64, restitution: f64) -> bool {
@@ -333,7 +334,7 @@ impl ChatterSeries {
         }
     }
 
-    /// r^n after so many impacts, 0 after all of them (`None`).
+    /// r^n after n impacts, 0 after all of them (`None`).
     #[must_use]
     pub fn share(&self, impacts: Option<u64>) -> f64 {
         impacts.map_or(0.0, |impacts| self.share_after(impacts).0)
@@ -393,7 +394,8 @@ impl ChatterSeries {
         Some(impacts)
     }
 
-    /// The first n >= `from` at which `start` less what `series` falls by from impact `from` to impact n is negative.
+    /// The first n >= `from` at which `start` less the fall of `series` from impact `from` to impact n is
+    /// negative.
     #[must_use]
     pub fn first_negative(&self, from: u64, start: f64, series: &PowerSeries) -> Option<u64> {
         if start < 0.0 {
@@ -424,13 +426,13 @@ impl ChatterSeries {
 
 /// Consecutive impacts of a chatter, and sums over them.
 ///
-/// Every sum is made of positive terms as far as its series are: nothing cancels, however few the impacts are or many.
+/// The terms of a sum are positive where those of its series are: nothing cancels, for few impacts or many.
 #[derive(Debug, Clone, Copy)]
 pub struct ImpactRange<'a> {
     series: &'a ChatterSeries,
     /// r^n at the launch before the first of them.
     first: f64,
-    /// What is left of it after the last one as a share q, and 1 - q.
+    /// The share q of it left after the last one, and 1 - q.
     ratio: f64,
     lost: f64,
     /// [`geometric_sums`] of q.
@@ -456,8 +458,8 @@ impl ImpactRange<'_> {
         (1.0 - self.series.restitution) * self.sum(&one.times(other))
     }
 
-    /// The sum of a `quantity` (per 1 - r) times what `series` has fallen by from before the first impact to after the
-    /// one summed.
+    /// The sum of a `quantity` (per 1 - r) times the fall of `series` from before the first impact to after
+    /// the one summed.
     #[must_use]
     pub fn moment(&self, quantity: &PowerSeries, series: &PowerSeries) -> f64 {
         let (restitution, own) = (self.series.restitution, &self.series.sums);

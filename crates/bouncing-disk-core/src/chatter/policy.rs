@@ -10,17 +10,17 @@ use crate::numerics::stored::read_checked;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum ChatterPolicy {
-    /// The sequence is summed in closed form and the disk attaches at the accumulation point; only where a bound
-    /// shows that the platform pulls back all the way there.
+    /// The sequence is summed in closed form and the disk attaches at the accumulation point, provided that a
+    /// bound shows a pull to the platform all the way there.
     #[default]
     Complete,
-    /// The disk is put on the platform as soon as a rule says so: what simulations that follow impact by impact must do, the
-    /// paper's among them (Sec. IV A).
+    /// The disk is put on the platform as soon as a rule says so, as in all simulations impact by impact, the
+    /// paper's included (Sec. IV A).
     Cut(ChatterCut),
 }
 
-/// When a disk that is followed impact by impact is put on the platform: as soon as an impact is slower than a smallest
-/// speed, or after so many consecutive flights that are shorter than a short one.
+/// When a disk that is followed impact by impact is put on the platform: as soon as an impact is slower than
+/// a smallest speed, or after a number of consecutive short flights.
 ///
 /// A cut that never applies leaves a chattering disk bouncing until its speed underflows.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 //!
 //! The pull on a disk on the platform is a = 1 - P sin tau. It grows from pi/2 to 3 pi/2 and shrinks from there to the
 //! separation, where it is zero (P > 1) or least. G, the integral of the pull from a phase to the next separation, is the
-//! impulse that is left to stop the disk. A launch is certain to end at rest if its speed is below a share of G that the
-//! next launch respects again (docs/numerics/chattering.md, "The proof of rest").
+//! impulse that is left to stop the disk. A launch is certain to end at rest if its speed is below a share of
+//! G that the next launch again satisfies (docs/numerics/chattering.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 
@@ -30,7 +30,7 @@ pub(crate) struct RestProof {
     restitution: f64,
     /// 1 - r, made smaller by the slack.
     loss: f64,
-    /// Whether every disk comes to rest: each flight returns less than it got even if the pull changes as much as it can.
+    /// Whether every disk comes to rest: each flight returns less speed than it got however the pull changes.
     always: bool,
 }
 

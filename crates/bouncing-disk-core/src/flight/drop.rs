@@ -1,6 +1,6 @@
 //! The first impact of a disk that starts in the air.
 //!
-//! Until the first crest that finds the disk below it the gap is followed in the form
+//! Up to the first crest that rises above the disk, the gap is followed in the form
 //!
 //! ```text
 //! gap(t) = gap_0 + v t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]
@@ -42,7 +42,7 @@ const SLOWEST_BRIEF: f64 = 1.0e-200;
 const PATIENCE: u32 = 40;
 const MAX_EVALUATIONS: u32 = 200;
 
-/// Checks that a disk may start in the air at `gap` with `relative_velocity`: the ranges of
+/// Checks that a disk may start in the air at `gap` with `relative_velocity`, within the ranges of
 /// [`Vibration::first_impact_of_drop`].
 ///
 /// # Errors
@@ -60,8 +60,9 @@ pub fn check_drop(gap: f64, relative_velocity: f64) -> Result<(), Error> {
 }
 
 impl Vibration {
-    /// The first impact of a disk that at `phase` is `gap` above the platform, a normal number up to 1e17 (units of g/omega^2), and
-    /// moves with `relative_velocity` in [-1e9, 1e9] (disk minus platform, units of g/omega, of either sign).
+    /// The first impact of a disk that at `phase` is `gap` above the platform (a normal number up to 1e17, in
+    /// units of g/omega^2) and moves with `relative_velocity` in [-1e9, 1e9] (disk minus platform, units of
+    /// g/omega, of either sign).
     ///
     /// The guarantee is that of [`Self::first_impact`]; here the first piece may be convex and entered falling. A short
     /// flight has relative accuracy, however small the gap or fast the disk.

@@ -10,8 +10,8 @@
 //! Three facts make the first zero h > 0 certain and its cost independent of the length of the flight (proofs in
 //! docs/numerics/solver.md):
 //!
-//! 1. *One crest decides.* At a crest of the platform (phase pi/2) the disk is hit at the latest if it is below
-//!    the crest. So the impact lies before the first crest after the launch that finds the disk below it, or,
+//! 1. *One crest decides.* A disk below a crest of the platform (phase pi/2) is hit by that crest at the
+//!    latest. So the impact lies before the first crest after the launch that rises above the disk, or,
 //!    if the disk rises above the crests, before the first crest after it has come down to their height, a
 //!    moment known in closed form. Either window is shorter than one period.
 //! 2. *The curvature of the gap, P sin(tau + h) - 1, changes sign at two phases known in closed form.* A window

@@ -14,7 +14,7 @@ impl Vibration {
     /// The graze margin of a flight: the smallest local minimum of the gap strictly between `launch` and `impact`, the
     /// result of [`Self::first_impact`], in units of g/omega^2. Infinite if the gap has no minimum on the way.
     ///
-    /// Small against P, it says that a slightly different launch would have met the platform earlier. It is
+    /// If it is small against P, a slightly different launch would have met the platform earlier. It is
     /// computed apart from the impact because an orbit does not need it.
     ///
     /// The gap has at most one minimum in each interval in which the platform falls away faster than the disk. The

@@ -20,7 +20,8 @@ impl Launch {
     /// A launch at `phase` with `relative_speed` >= 0 (disk minus platform, in units of g/omega).
     ///
     /// Speed zero means "from rest on the platform": where the platform falls away, P sin tau >= 1, the disk
-    /// separates; elsewhere the flight is refused ([`Error::NoLiftOff`]), since a launch knows no platform.
+    /// separates; elsewhere the flight is refused ([`Error::NoLiftOff`]), not the launch, which has no
+    /// platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a negative or non-finite speed.
@@ -63,7 +64,7 @@ pub struct Impact {
     pub periods: u64,
     /// The rest of the duration in radians, in [0, 2 pi).
     pub remainder: f64,
-    /// How often the phase passed 0 (mod 2 pi) during the flight: what a period counter advances by.
+    /// How often the phase passed 0 (mod 2 pi) during the flight: the advance of a period counter.
     pub turns: u64,
     /// Phase of the impact.
     pub phase: Phase,

@@ -28,7 +28,7 @@ const MAX_ITERATIONS: usize = 300;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ReferenceImpact {
-    /// Duration of the flight in radians. Its rounding is that of one double, also for a long flight.
+    /// Duration of the flight in radians. It is rounded to one double, even for a long flight.
     pub duration: f64,
     /// Phase of the impact in radians, in [0, 2 pi).
     pub impact_phase: f64,

@@ -1,4 +1,4 @@
-//! What an impact map says of the chatter that follows a launch.
+//! The chatter that follows a launch of an impact map.
 
 use crate::chatter::accumulation::{Accumulation, ChatterImpact};
 use crate::chatter::impact_series::ChatterSeries;
@@ -14,10 +14,10 @@ impl ImpactMap {
         Launch::known(impact.phase(), speed)
     }
 
-    /// The accumulation point of the chatter that follows a launch, or `None` unless a bound shows that the disk chatters to
-    /// rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau that P and the carried pair give. Next to
-    /// weightlessness one rounding of P or of the phase is another pull, and the duration another one: that is the
-    /// conditioning of the problem and not counted in the bound.
+    /// The accumulation point of the chatter that follows a launch, or `None` unless a bound shows that the
+    /// disk chatters to rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau given by P
+    /// and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull and the
+    /// duration: that is the conditioning of the problem and is not part of the bound.
     ///
     /// The accumulation point lies before the next separation. A chatter that ends before it has changed the phase has the
     /// duration 0.
@@ -46,14 +46,14 @@ impl ImpactMap {
     /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0, until they
     /// carry less than 1e-17 of the first one's impulse or are launched with less than the smallest normal number.
     ///
-    /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
-    /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
+    /// They are computed lazily, and there are 39/(1 - r) of them: near r = 1 that may take for ever.
+    /// [`Self::chatter_series`] has every one of them, and their sums, at once.
     pub fn chatter_impacts(&self, launch: Launch) -> impl Iterator<Item = ChatterImpact> + use<> {
         self.vibration().chatter_impacts(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// Whether the disk is certain to chatter to rest after a launch before the platform falls away: proven long before
-    /// [`Self::accumulation`] can say where.
+    /// Whether the disk is certain to chatter to rest after a launch before the platform falls away: proven
+    /// long before [`Self::accumulation`] can tell where.
     #[must_use]
     #[inline]
     pub fn chatters_to_rest(&self, launch: Launch) -> bool {

@@ -188,7 +188,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     /// The restitution of an impact with this relative axial speed >= 0 (units of g/omega).
     ///
     /// # Errors
-    /// [`Error::IllegalRestitution`] if the law gives a number outside [0, 1], or none.
+    /// [`Error::IllegalRestitution`] if the law gives a number outside [0, 1], or NaN.
     #[inline(always)]
     pub fn restitution_at(&self, impact_speed: f64) -> Result<f64, Error> {
         restitution_of(&self.restitution, impact_speed)
@@ -213,8 +213,8 @@ impl<L: RestitutionLaw> ImpactMap<L> {
         self.vibration.impact_after(state.phase, self.rebound_speed(state.velocity)?)
     }
 
-    /// The impact that is so many [steps](Self::step) after the one in `state`: the same bits as one step after the
-    /// other, and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
+    /// The impact a number of [steps](Self::step) after the one in `state`: the same bits as step by step,
+    /// and faster where the compiler would pass the state through memory. As there, no policy ends a chatter.
     /// The items of `observer` are the impacts.
     ///
     /// ```
@@ -307,7 +307,7 @@ impl<L: RestitutionLaw> ImpactMap<L> {
     ///
     /// The closed form of [`ChatterPolicy::Complete`] holds for a constant restitution: under another law it
     /// is an error of the first event, and so is a restitution outside its range. [`ChatterPolicy::Cut`] ends
-    /// a chatter under every law; what it leaves out is the `error_bound` of the [`Attachment`].
+    /// a chatter under every law; its error is the `error_bound` of the [`Attachment`].
     #[must_use]
     pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> Orbit<L> {
         Orbit::after_impact(self.clone(), policy, state)
@@ -356,7 +356,7 @@ pub struct Attachment {
     /// unless the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where
     /// there is none.
     pub accumulation: Accumulation,
-    /// Launch speed after the last impact, in units of g/omega: what the chatter started from.
+    /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
     pub last_speed: f64,
     /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to there;
     /// `None` if the disk rests for ever (P <= 1).
@@ -555,7 +555,7 @@ impl<L: RestitutionLaw> Orbit<L> {
     ///
     /// # Errors
     /// Those of [`Vibration::first_impact`]; [`Error::IllegalRestitution`] in place of the impact whose
-    /// restitution the law does not give; [`Error::NoClosedForm`]. The orbit has ended after one.
+    /// restitution the law does not give; [`Error::NoClosedForm`]. An error ends the orbit.
     // By a call, a motor's transient takes 2 % longer.
     #[inline(always)]
     pub fn advance(&mut self) -> Result<Option<OrbitEvent>, Error> {

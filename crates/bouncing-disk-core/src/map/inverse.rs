@@ -14,7 +14,7 @@ fn mirrored(phase: Phase) -> Phase {
 }
 
 impl ImpactMap {
-    /// The impact before the one in `state`: the only one that [`Self::step`] takes there.
+    /// The impact before the one in `state`: the only one that [`Self::step`] maps to it.
     ///
     /// Backwards in time the platform vibrates as it does forwards, but from the phase pi - tau, and the disk
     /// leaves it with the speed |v|. The first impact of that flight is the last one before; the speed with
@@ -23,8 +23,8 @@ impl ImpactMap {
     /// impact, and speeds grow on the way back.
     ///
     /// It jumps where the flight grazes the platform on its way, as [`Self::step`] does. An impact without
-    /// speed is the graze of a flight where the platform falls away faster than the disk, and nothing that a
-    /// flight ends with elsewhere; one that is returned was followed by a launch without speed.
+    /// speed can only be the graze of a flight where the platform falls away faster than the disk; if one is
+    /// returned, it was followed by a launch without speed.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, ImpactState, Vibration};

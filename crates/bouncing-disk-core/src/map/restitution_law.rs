@@ -1,5 +1,5 @@
-//! Laws of restitution: which share of its speed an impact leaves to the disk, and what users implement for
-//! one of their own. Derived in docs/numerics/restitution.md.
+//! Laws of restitution: the share of its speed that an impact leaves the disk, and the trait for laws of
+//! your own. Derived in docs/numerics/restitution.md.
 
 use core::fmt::{self, Debug, Display};
 
@@ -7,10 +7,10 @@ use crate::numerics::error::{Error, within};
 
 pub(crate) mod kuwabara_kono;
 
-/// A law of restitution: which share of the relative axial speed an impact leaves.
+/// A law of restitution: the share of the relative axial speed that an impact leaves.
 ///
-/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::map::KuwabaraKono) that of viscoelastic bodies. A law of
-/// one's own needs two methods:
+/// [`Constant`] is the paper's, [`KuwabaraKono`](crate::map::KuwabaraKono) that of viscoelastic bodies. A law
+/// of your own needs two methods:
 ///
 /// ```
 /// use bouncing_disk_core::map::RestitutionLaw;
@@ -70,7 +70,7 @@ pub trait RestitutionLaw: Clone + Debug {
     }
 }
 
-/// What only this crate can name: nobody else overrides a method that asks for it.
+/// Only this crate can name it: nobody else overrides a method that takes it.
 #[derive(Debug, Clone, Copy)]
 pub struct Internal;
 

@@ -1,4 +1,4 @@
-//! Bounds on the speeds that last: no periodic orbit and no attractor is faster. Proven in
+//! Bounds on sustained speeds: no periodic orbit and no attractor is faster. Proven in
 //! docs/numerics/dynamics.md, "Bounded speeds".
 
 use crate::flight::platform::phase::Phase;
@@ -17,8 +17,8 @@ impl ImpactMap {
     ///
     /// M = q + r sqrt(q (q + 4/(1 + r))), q = P/(1 - r),
     ///
-    /// and whatever |u| exceeds it by is multiplied by r at most in every impact: a disk that is slower stays
-    /// so, a periodic orbit cannot be faster, and every other orbit becomes so up to an excess that dies out.
+    /// and any excess of |u| over M shrinks by at least the factor r in every impact: a slower disk stays
+    /// slower, a periodic orbit cannot be faster, and every other orbit tends to M or below.
     /// A disk at rest leaves the platform with at most P <= M.
     ///
     /// The number is rounded upwards. It is P where the restitution is 0, and grows like 2 P/(1 - r) towards
@@ -57,8 +57,8 @@ impl ImpactMap {
     /// [`Self::launch_speed_bound`] M, or 0 where that is negative (a platform that falls faster than any disk
     /// is not hit), as the disk lands at the platform's height there. Rounded upwards.
     ///
-    /// The impacts within it are the trapping region: whatever starts there stays, every periodic orbit and
-    /// every attractor lies in it, and every other orbit enters it up to an excess that dies out.
+    /// The impacts within it are the trapping region: an orbit that starts there stays, every periodic
+    /// orbit and every attractor lies in it, and every other orbit enters it up to an excess that dies out.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Phase, Vibration};

@@ -11,9 +11,9 @@ const FEWEST_BATCHES: usize = 16;
 /// Numbers that a standard error needs at least.
 pub const FEWEST_NUMBERS: u64 = FEWEST_BATCHES as u64;
 
-/// The mean of numbers that come one after the other, with a standard error that holds what may be wrong
-/// with it: the scatter of correlated numbers (batch means, as long as the correlation dies out within a
-/// sixteenth of the sequence), a drift (the two halves of the sequence differ), and rounding.
+/// The mean of a stream of numbers, with a standard error that covers the scatter of correlated numbers
+/// (batch means, if the correlation dies out within a sixteenth of the sequence), a drift (the two
+/// halves of the sequence differ), and rounding.
 ///
 /// Between 64 and 128 sums of batches are kept, however many numbers come.
 ///
@@ -57,7 +57,7 @@ fn joined(sums: &[f64]) -> Vec<f64> {
 }
 
 impl BatchMeans {
-    /// No numbers yet, each of which may be off by `resolution` >= 0, all of them to the same side.
+    /// No numbers yet; each may be off by `resolution` >= 0, all to the same side.
     #[must_use]
     pub const fn with_resolution(resolution: f64) -> Self {
         Self { sums: Vec::new(), length: 1, open: (0.0, 0), resolution, largest: 0.0 }
@@ -89,23 +89,23 @@ impl BatchMeans {
         self.sums.len() as u64 * self.length + self.open.1
     }
 
-    /// Their mean; `None` of none.
+    /// Their mean; `None` without numbers.
     #[must_use]
     pub fn mean(&self) -> Option<f64> {
         let sum = self.sums.iter().sum::<f64>() + self.open.0;
         (self.count() > 0).then(|| sum / self.count() as f64)
     }
 
-    /// The standard error of the mean; `None` of fewer than [`FEWEST_NUMBERS`].
+    /// The standard error of the mean; `None` for fewer than [`FEWEST_NUMBERS`].
     ///
     /// It is the largest of these (docs/numerics/dynamics.md, "The standard error"):
-    /// - what batches of this length, of twice and four times this length and so on give, down to 16 of them:
-    ///   batches that are shorter than the correlation give less;
-    /// - half of the difference of the means of the two halves: what is left of a transient that ends in the
+    /// - the errors by batches of this length, twice and four times this length and so on, down to 16
+    ///   batches: those shorter than the correlation give less;
+    /// - half of the difference of the means of the two halves: the rest of a transient that ends in the
     ///   first one, and of any drift;
     /// - the resolution of a number, and the rounding of the sums.
     ///
-    /// Of numbers without correlation it is therefore too large by a fifth or so.
+    /// For uncorrelated numbers it is therefore too large by about a fifth.
     #[must_use]
     pub fn standard_error(&self) -> Option<f64> {
         if self.sums.len() < FEWEST_BATCHES {

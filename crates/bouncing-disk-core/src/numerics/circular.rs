@@ -1,4 +1,4 @@
-//! How far angles extend on a circle, whose end is its beginning, and where on it they are concentrated.
+//! How far angles extend on a circle, and where on it they are concentrated.
 
 use core::f64::consts::PI;
 
@@ -19,9 +19,8 @@ pub fn occupied_arc(phases: impl IntoIterator<Item = f64>) -> Option<f64> {
     Some(1.0 - largest)
 }
 
-/// How many groups the `phases` form of which each is more than `apart` from the next one round the circle:
-/// the number of different phases where they are known as well as that. One for phases with no such gap
-/// between them, 0 for none.
+/// The number of groups of `phases` that lie more than `apart` from the next group round the circle: the
+/// number of distinct phases at that resolution. 1 for phases without such a gap, 0 without phases.
 ///
 /// Phases are in periods; 0 and 1 are the same.
 ///
@@ -47,7 +46,7 @@ pub fn distance(one: f64, other: f64) -> f64 {
     apart.min(1.0 - apart)
 }
 
-/// First trigonometric moment of weights at phases: where they are concentrated, and how much.
+/// First trigonometric moment of weights at phases: where and how strongly they are concentrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedConcentration"))]

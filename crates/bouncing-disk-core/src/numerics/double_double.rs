@@ -14,7 +14,7 @@ mod decimal;
 /// The unevaluated sum of two doubles, of which the first is the nearest double of the sum: 106 bits.
 ///
 /// Products and quotients are exact to 2^-100 relative where no part underflows: for magnitudes from 1e-250
-/// to 1e290. What overflows is no number, as in doubles.
+/// to 1e290. Overflow gives no finite number.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::double_double::DoubleDouble;
@@ -117,13 +117,13 @@ impl DoubleDouble {
         self.high
     }
 
-    /// What the nearest double leaves.
+    /// The remainder beyond the nearest double.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// Whether it is a number, and not infinite.
+    /// Whether it is finite: neither NaN nor infinite.
     #[must_use]
     pub const fn is_finite(self) -> bool {
         self.high.is_finite() && self.low.is_finite()
@@ -135,7 +135,7 @@ impl DoubleDouble {
         if self.high < 0.0 { -self } else { self }
     }
 
-    /// The square root; not a number for one below zero.
+    /// The square root; NaN below zero.
     #[must_use]
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
@@ -149,8 +149,8 @@ impl DoubleDouble {
         Self { high, low }
     }
 
-    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 and as much as the angle's own rounding; not a
-    /// number beyond.
+    /// Sine and cosine of an angle below 2^26 rad, to 2e-32 and as much as the angle's own rounding; NaN
+    /// beyond.
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
         if self.high.abs() >= LARGEST_ANGLE || !self.is_finite() {

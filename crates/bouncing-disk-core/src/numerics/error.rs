@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-/// What can go wrong in the math core. Every variant carries the numbers that are needed to see why.
+/// What can go wrong in the math core. Every variant carries the numbers needed to see why.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
 /// ones of a range, such as counts, without a fraction.
@@ -59,7 +59,7 @@ pub enum Error {
         /// Size of the last residual.
         residual: f64,
     },
-    /// A periodic orbit is not proven to attract: it does not, or rounding leaves it open.
+    /// A periodic orbit is not proven to attract: it does not, or rounding leaves this undecided.
     #[error(
         "the orbit does not attract: largest multiplier {spectral_radius:?}, its trace known to {trace_error:?}"
     )]
@@ -85,8 +85,8 @@ pub enum Error {
         /// Its phase in radians.
         phase: f64,
     },
-    /// The solution that an iteration settled on takes no period of the platform: its impacts are the repetition of one
-    /// instant within rounding, not a periodic orbit.
+    /// The solution that an iteration settled on lasts no period of the platform: its impacts repeat one
+    /// instant within rounding and are not a periodic orbit.
     #[error(
         "the solution of {impacts} impacts takes no period of the platform (fastest impact {speed:?} g/omega)"
     )]
@@ -129,13 +129,13 @@ pub enum Error {
         /// What was meant.
         expected: &'static str,
     },
-    /// A text is no decimal number.
+    /// A text is not a decimal number.
     #[error("byte {at} is not part of a decimal number")]
     NoDecimal {
         /// Where in the text, counted from 0.
         at: usize,
     },
-    /// A law of restitution gives a number outside [0, 1], or none.
+    /// A law of restitution gives a number outside [0, 1], or NaN.
     #[error(
         "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
     )]
@@ -148,7 +148,7 @@ pub enum Error {
     /// A chatter has a closed form for a constant restitution only: another law of restitution needs a cut.
     #[error("a chatter has a closed form for a constant restitution only: end it by `ChatterPolicy::Cut`")]
     NoClosedForm,
-    /// The observer of a long call has stopped it. What was finished is not lost where a run owns it.
+    /// The observer of a long call has stopped it. Finished items are kept if a run owns them.
     #[error("stopped after {done} of {total} items")]
     Stopped {
         /// Finished items.
@@ -156,7 +156,7 @@ pub enum Error {
         /// All items.
         total: u64,
     },
-    /// A stored run does not fit together, or not to what it is to go on with.
+    /// A stored run is inconsistent, or does not fit the input with which it is resumed.
     #[error("{what}: {found}; legal is {expected}")]
     Unfitting {
         /// What does not fit.
@@ -166,12 +166,12 @@ pub enum Error {
         /// The only or the largest number that fits.
         expected: u64,
     },
-    /// More was asked for than the limit allows or, where `count` is within it, than there is memory for.
+    /// More was requested than the limit allows or, where `count` is within it, than memory can hold.
     #[error("not enough memory for {count} {what}: at most {limit}")]
     TooLarge {
-        /// What was asked for.
+        /// What was requested.
         what: &'static str,
-        /// How many of it.
+        /// The requested number.
         count: u64,
         /// The largest number.
         limit: u64,

@@ -1,10 +1,10 @@
-//! How many of so many: a share with the interval that a sample leaves for the true one.
+//! k of n: a share with the interval that a sample leaves for the true one.
 
 use crate::numerics::error::{Error, within};
 use crate::numerics::statistics::NORMAL_975;
 use crate::numerics::stored::read_checked;
 
-/// How many of a sample have a property; by default none of nothing.
+/// How many members of a sample have a property; by default 0 of 0.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::fraction::Fraction;
@@ -26,10 +26,10 @@ pub struct Fraction {
 read_checked!(Fraction as UncheckedFraction { count: u64, of: u64 } => Fraction::new);
 
 impl Fraction {
-    /// `count` members of a sample of `of`, of which there may be none.
+    /// `count` members of a sample of `of`, which may be 0.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than the sample has.
+    /// [`Error::OutOfRange`] for more members than the sample has.
     pub fn new(count: u64, of: u64) -> Result<Self, Error> {
         within("members with a property", count as f64, 0.0, of as f64, "at most the size of the sample")?;
         Ok(Self { count, of: of.max(count) })
@@ -53,7 +53,7 @@ impl Fraction {
         if self.of == 0 { 0.0 } else { self.count as f64 / self.of as f64 }
     }
 
-    /// [`Self::wilson`] of 95 %.
+    /// The 95 % interval by [`Self::wilson`].
     #[must_use]
     pub fn interval(&self) -> (f64, f64) {
         self.wilson(NORMAL_975)
@@ -64,7 +64,7 @@ impl Fraction {
     ///
     /// (f + z^2/2n +- z sqrt(f (1 - f)/n + z^2/4n^2))/(1 + z^2/n).
     ///
-    /// Of an empty sample nothing is known: [0, 1]; so it is for a `z` that is no number. The sign of `z` does
+    /// An empty sample gives [0, 1], and so does a `z` that is NaN. The sign of `z` does
     /// not matter. Points of an even grid or sequence are more even than a random sample, and their interval
     /// is too wide rather than too narrow.
     #[must_use]

@@ -1,4 +1,4 @@
-//! Power laws y = c x^exponent fitted to numbers with known errors, and why there is none.
+//! Power laws y = c x^exponent fitted to numbers with known errors, or the reason why there is none.
 
 use crate::numerics::elementary::{exp, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
@@ -48,8 +48,8 @@ pub struct PowerLaw {
     pub range: (f64, f64),
     /// How many points there are.
     pub points: usize,
-    /// Root mean square distance of the points from the law in units of their errors (about 1 if these are
-    /// all there is).
+    /// Root mean square distance of the points from the law in units of their errors (about 1 if these
+    /// explain it all).
     pub scatter: f64,
 }
 
@@ -89,7 +89,7 @@ pub enum NoPowerLaw {
     TooFewPoints {
         /// How many there are.
         found: usize,
-        /// How many it takes.
+        /// How many are needed.
         needed: usize,
     },
     /// The points cover too little.
@@ -97,10 +97,10 @@ pub enum NoPowerLaw {
     TooNarrow {
         /// The largest x over the smallest.
         factor: f64,
-        /// What it takes.
+        /// The factor needed.
         needed: f64,
     },
-    /// The points lie on a curve: a parabola in the logarithms has a square that is significant.
+    /// The points lie on a curve: a parabola in the logarithms has a significant square term.
     #[error(
         "exponent {lower:.3} in the lower half and {upper:.3} in the upper: a bend of {sigmas:.1} standard errors"
     )]
@@ -125,7 +125,7 @@ pub enum NoPowerLaw {
 /// Fewest points of a power law.
 pub const FEWEST_POINTS: usize = 6;
 
-/// The least that the largest x is over the smallest one.
+/// The least ratio of the largest x to the smallest one.
 pub const LEAST_FACTOR: f64 = 10.0;
 
 /// Standard errors that the square of a parabola may be from 0.

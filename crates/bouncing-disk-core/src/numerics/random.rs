@@ -22,8 +22,8 @@ impl SplitMix64 {
 
     /// The seed of one of many streams that belong together, which are numbered from 0.
     ///
-    /// Streams whose seeds are counted up from another seed would be shared with the next one but for the first: means over
-    /// streams of `seed` and of `seed + 1` would be nearly the same, and no check of each other.
+    /// If streams had seeds counted up from `seed`, all but one would be shared with those of `seed + 1`:
+    /// means over both would be nearly the same, and no check of each other.
     ///
     /// ```
     /// use bouncing_disk_core::numerics::random::SplitMix64;

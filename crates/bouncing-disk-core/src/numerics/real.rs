@@ -1,4 +1,4 @@
-//! Real numbers of more than one precision: what an algorithm needs that is to run in doubles and in
+//! Real numbers of more than one precision: the operations of algorithms that run in doubles and in
 //! double-doubles.
 
 use core::fmt::{Debug, Display};

@@ -1,7 +1,7 @@
 //! Roots and minima of functions of one variable inside a bracket.
 
 /// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings: the
-/// middle of the last bracket. The answer is not asked for at the ends, which count as true and false.
+/// middle of the last bracket. `is_below` is not called at the ends, which count as true and false.
 ///
 /// # Errors
 /// Those of `is_below`.
@@ -15,8 +15,8 @@ pub fn bisection<E>(
     Ok(0.5 * (low + high))
 }
 
-/// As [`bisection`], but gives the last bracket: of its two ends `is_below` is true at the first and false at
-/// the second, if it is so at `low` and `high`.
+/// As [`bisection`], but gives the last bracket: `is_below` is true at its first end and false at its second,
+/// if it is so at `low` and `high`.
 ///
 /// # Errors
 /// Those of `is_below`.
@@ -121,8 +121,8 @@ pub fn falling_root(
 }
 
 /// The minimum of a function that has one between `low` and `high`, by the golden section: each of `steps` narrows the bracket by the
-/// factor 0.618, and its middle is returned. The place of a smooth minimum is in the values of a function to half of their
-/// digits only.
+/// factor 0.618, and its middle is returned. The values of a function determine the place of a smooth minimum
+/// to half of their digits only.
 ///
 /// # Errors
 /// Those of `function`.

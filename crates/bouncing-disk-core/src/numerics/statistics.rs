@@ -1,7 +1,7 @@
 //! Summaries of a sample of numbers.
 
-/// The 97.5 % quantile of the normal distribution: so many standard errors on either side of a mean make its
-/// 95 % interval.
+/// The 97.5 % quantile of the normal distribution: this many standard errors on either side of a mean make
+/// its 95 % interval.
 pub const NORMAL_975: f64 = 1.959_963_984_540_054;
 
 /// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
@@ -25,7 +25,7 @@ const fn power_of_two(exponent: i64) -> f64 {
     f64::from_bits(((1_023 + exponent) as u64) << 52)
 }
 
-/// The mean of finite numbers, whose sum may exceed what a double holds; not a number of none.
+/// The mean of finite numbers, whose sum may exceed what a double holds; NaN without numbers.
 #[must_use]
 pub fn mean(values: &[f64]) -> f64 {
     let scale = summing_scale(values);
@@ -33,8 +33,8 @@ pub fn mean(values: &[f64]) -> f64 {
     sum / values.len() as f64 / scale
 }
 
-/// The standard deviation (with n - 1) of finite numbers about their [`mean`]; zero of one or none, infinite
-/// where no double holds it.
+/// The standard deviation (with n - 1) of finite numbers about their [`mean`]; zero for fewer than two
+/// numbers, infinite where no double holds it.
 #[must_use]
 pub fn standard_deviation(values: &[f64]) -> f64 {
     let n = values.len() as f64;
@@ -49,14 +49,14 @@ pub fn standard_deviation(values: &[f64]) -> f64 {
     (squares / (n - 1.0)).sqrt() / scale
 }
 
-/// The middle of some numbers, or the upper one of two in the middle; `None` of none.
+/// The middle of some numbers, or the upper one of two in the middle; `None` without numbers.
 pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
     let mut values: Vec<f64> = values.into_iter().collect();
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied()
 }
 
-/// The smallest and the largest of some numbers; infinity and minus infinity of none.
+/// The smallest and the largest of some numbers; infinity and minus infinity without numbers.
 pub fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     let start = (f64::INFINITY, f64::NEG_INFINITY);
     values.into_iter().fold(start, |(low, high), value| (low.min(value), high.max(value)))

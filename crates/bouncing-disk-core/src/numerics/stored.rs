@@ -75,7 +75,8 @@ macro_rules! read_checked {
 pub(crate) use read_checked;
 
 /// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats that
-/// people read (RON, TOML) have no `null`: only JSON and binary formats such as CBOR are promised both ways.
+/// people read (RON, TOML) have no `null`: reading back is guaranteed only for JSON and binary formats such
+/// as CBOR.
 ///
 /// # Errors
 /// Those of the format.
@@ -84,7 +85,7 @@ pub fn infinite_if_none<'de, D: serde::Deserializer<'de>>(from: D) -> Result<f64
     or_else(from, f64::INFINITY)
 }
 
-/// Reads a number that may be none (0/0). JSON holds nothing in its place.
+/// Reads a number that may be NaN (0/0). JSON holds `null` in its place.
 ///
 /// # Errors
 /// Those of the format.

@@ -32,13 +32,13 @@ pub struct CascadeDoubling<R = f64> {
     pub axial_forcing: R,
     /// How far rounding may have moved the forcing.
     pub forcing_error: f64,
-    /// The multiplier that the search left, -1 but for rounding: this grows 6.6 times from one doubling to
-    /// the next.
+    /// The multiplier that the search reached, -1 but for rounding, which grows 6.6 times from one
+    /// doubling to the next.
     pub multiplier: R,
     /// The largest distance (rad) of an impact of the orbit from the one half a period later; 0 for n = 1.
     pub width: R,
-    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite where none
-    /// dips.
+    /// How near a flight of the orbit comes to an earlier impact, in units of g/omega^2; infinite if none
+    /// comes near.
     pub graze_margin: f64,
 }
 
@@ -56,12 +56,12 @@ impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
 /// The first `count` <= [`MAX_DOUBLINGS`] period doublings of the orbit with one impact per period of the
 /// platform, for `restitution` in (0, 1), to as many digits as its kind of number has.
 ///
-/// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at most 1.5e-13
-/// at the thirteenth. What rounding leaves of the digits grows 6.6 times in the multiplier and 1.4 times in
-/// the forcing from one doubling to the next (docs/numerics/dynamics.md); the distances of the doublings
+/// In doubles every forcing is the one of a multiplier of -1, within [`CascadeDoubling::forcing_error`]: at
+/// most 1.5e-13 at the thirteenth. The rounding error grows 6.6 times in the multiplier and 1.4 times in the
+/// forcing from one doubling to the next (docs/numerics/dynamics.md); the distances of the doublings
 /// shrink 4.67 times, so that ratios of distances have six digits at the twelfth.
-/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) has sixteen more; read a decimal restitution
-/// from a text then, as the double `0.1` is no tenth.
+/// [`DoubleDouble`](crate::numerics::double_double::DoubleDouble) has sixteen more; then read a decimal
+/// restitution from a text, as the double `0.1` is not a tenth.
 ///
 /// The items of `observer` are the doublings.
 ///

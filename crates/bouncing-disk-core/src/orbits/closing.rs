@@ -1,5 +1,5 @@
-//! The equations of a closed sequence of flights and of their derivatives by one parameter. They do not ask
-//! whether an earlier impact forestalls a flight, and so are smooth through a graze
+//! The equations of a closed sequence of flights and of their derivatives by one parameter. They ignore
+//! earlier impacts that would end a flight, and so are smooth through a graze
 //! (docs/numerics/dynamics.md, "Branches").
 
 use core::f64::consts::{PI, TAU};

@@ -18,7 +18,7 @@ use walker::Walker;
 /// quotient with pi.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
-/// In what, how far and how finely an orbit is continued.
+/// The parameter, range and resolution of a continuation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedContinuation"))]
@@ -65,8 +65,8 @@ impl Continuation {
         settings.check().map(|()| settings)
     }
 
-    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most so many
-    /// points in [2, 1e6].
+    /// The same with another first step and largest step (arclength, in [1e-9, 1]), and at most
+    /// `max_points` in [2, 1e6].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for any of them, and for a first step above the largest.
@@ -178,8 +178,8 @@ pub enum BifurcationKind {
         /// Which impact.
         impact: usize,
     },
-    /// The second half of the orbit becomes the repetition of the first: it is born here, by the doubling of
-    /// that one.
+    /// The second half of the orbit becomes a repetition of the first: the orbit is born here, by a doubling
+    /// of its half.
     Birth,
 }
 
@@ -190,8 +190,9 @@ pub enum BifurcationKind {
 pub struct Bifurcation {
     /// What happens.
     pub kind: BifurcationKind,
-    /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have the signs of an
-    /// orbit, as far as they are known: rounding decides which impact the map finds first, and the last of
+    /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have
+    /// the signs of an orbit, to their accuracy: rounding decides which impact the map finds first, and the
+    /// last of
     /// [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its period, with
     /// half the impacts.
     pub point: BranchPoint,
@@ -211,8 +212,7 @@ pub enum BranchEnd {
     Closed,
     /// There are as many points as were allowed.
     PointLimit(usize),
-    /// Newton's method does not find a next point even at this arclength: rounding, or what the equations do
-    /// not tell.
+    /// Newton's method finds no next point even at this arclength: by rounding, or for an unknown reason.
     StepTooSmall(f64),
 }
 
@@ -260,7 +260,7 @@ impl Branch {
     /// The items of `observer` are the points that are allowed.
     ///
     /// # Errors
-    /// [`Error::NotOfKind`] if there is no such bifurcation or it is no doubling; [`Error::NoBranch`] if
+    /// [`Error::NotOfKind`] if there is no such bifurcation or it is not a doubling; [`Error::NoBranch`] if
     /// no doubled orbit is found; those of [`ImpactMap::continued`].
     pub fn switched(
         &self,
@@ -289,7 +289,7 @@ impl ImpactMap {
     /// pseudo-arclength: through folds, and along unstable parts, until it ends ([`BranchEnd`]).
     ///
     /// Doublings, folds, and where the orbit ceases to exist are located to the rounding. Two of one kind
-    /// within one step are not seen: [`Continuation::with_steps`].
+    /// within one step are missed: see [`Continuation::with_steps`].
     ///
     /// The items of `observer` are the points that are allowed.
     ///
@@ -307,7 +307,8 @@ impl ImpactMap {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] if the parameter of this map is outside of the range, or the restitution is 0;
-    /// [`Error::NoBranch`] if `orbit` is no orbit of this map, or not an isolated one: start beside a fold or a birth, not on it.
+    /// [`Error::NoBranch`] if `orbit` is not an orbit of this map, or not an isolated one: start beside a
+    /// fold or a birth, not on it.
     pub fn continued(
         &self,
         orbit: &PeriodicOrbit,

@@ -98,8 +98,9 @@ impl Multipliers {
         }
     }
 
-    /// The largest Lyapunov exponent per impact of an orbit of so many impacts that has these multipliers: the logarithm of
-    /// [`Self::spectral_radius`] over their number; minus infinity where both multipliers are zero.
+    /// The largest Lyapunov exponent per impact of an orbit of `impacts` with these multipliers: the
+    /// logarithm of [`Self::spectral_radius`] over their number; minus infinity where both multipliers are
+    /// zero.
     ///
     /// ```
     /// use bouncing_disk_core::orbits::Multipliers;
@@ -140,9 +141,9 @@ pub struct PeriodicOrbit {
     /// The derivative of the map around the orbit, from its first impact.
     pub monodromy: DMat2,
     /// How far rounding of the map's parameters, by a unit in the last place, and of the solution may have
-    /// moved the impacts (rad, and relative speed); next to a fold two orbits within it are one.
+    /// moved the impacts (rad, and relative speed); near a fold two orbits within it count as one.
     pub position_error: f64,
-    /// How far it may have moved the trace of the derivative.
+    /// How far this rounding may have moved the trace of the derivative.
     pub trace_error: f64,
 }
 
@@ -213,8 +214,8 @@ impl PeriodicOrbit {
         Self { states, platform_periods, monodromy, position_error, trace_error }
     }
 
-    /// Whether the orbit attracts, where rounding leaves no doubt of it. With the trace T and the determinant D < 1 both
-    /// multipliers lie inside the unit circle if |T| < 1 + D.
+    /// Whether the orbit attracts, as far as rounding can tell. With the trace T and the determinant D < 1
+    /// both multipliers lie inside the unit circle if |T| < 1 + D.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::Stability;
@@ -249,8 +250,8 @@ impl PeriodicOrbit {
         Multipliers::of(self.monodromy)
     }
 
-    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D, at a double
-    /// root like its square root.
+    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D,
+    /// at a double root by its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
         let (trace, determinant) = (self.trace(), self.monodromy.determinant());
@@ -297,8 +298,8 @@ impl ImpactMap {
     /// The period-1 orbit with one impact every `platform_periods` >= 1 periods, in closed form:
     /// cos tau = k (1 - r)/((1 + r) Gamma), impact speed 2 pi k/(1 + r); `None` below its threshold.
     ///
-    /// Of the two phases the one in [0, pi/2] is returned: the other is always a saddle. Whether an earlier
-    /// impact forestalls the orbit is not checked: [`Self::refine`] does.
+    /// Of the two phases the one in [0, pi/2] is returned: the other is always a saddle. [`Self::refine`],
+    /// not this function, checks that no earlier impact prevents the orbit.
     #[must_use]
     pub fn period_one(&self, platform_periods: u64) -> Option<ImpactState> {
         let k = platform_periods as f64;
@@ -316,7 +317,7 @@ impl ImpactMap {
     ///
     /// A flight of k periods ends at the phase, and so at the height and the speed of the platform, at which
     /// it began. On it gravity changes the velocity by 2 pi k: the launch speed u and the impact speed w,
-    /// both relative to the platform, are u + w = 2 pi k, and the impact makes u = r w.
+    /// both relative to the platform, satisfy u + w = 2 pi k and, by the impact, u = r w.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Vibration};
@@ -491,8 +492,8 @@ impl ImpactMap {
     /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
     /// shows no period.
     ///
-    /// The items of `observer` are the impacts of the transient, of the search of the period and of the
-    /// refinement, as many as there are at most.
+    /// The items of `observer` are the impacts of the transient, of the search for the period and of
+    /// the refinement, counted at their maximum.
     ///
     /// # Errors
     /// Those of [`Self::refine`] and [`Self::period_of`].

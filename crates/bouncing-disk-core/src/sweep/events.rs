@@ -19,7 +19,7 @@ pub enum SweepEvent {
     Attachment(Attachment),
 }
 
-/// An impact of a sweep: what [`Impact`] says, but for the flight before it, of which the lockstep keeps less.
+/// An impact of a sweep: an [`Impact`] with less of the flight before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SweepImpact {

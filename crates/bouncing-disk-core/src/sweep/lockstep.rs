@@ -1,4 +1,5 @@
-//! Many flights at once, bit for bit those of one at a time: an implementation detail of what is done with many orbits.
+//! Many flights at once, bit for bit those of one at a time: an implementation detail of computations with
+//! many orbits.
 
 pub(crate) mod flights;
 pub(crate) mod lanes;

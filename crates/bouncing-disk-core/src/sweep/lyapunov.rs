@@ -70,19 +70,19 @@ impl TangentGrowth {
         DVec2::new(self.tangent.0, self.tangent.1)
     }
 
-    /// Impacts that it was followed through.
+    /// Impacts through which it was followed.
     #[must_use]
     pub const fn impacts(&self) -> usize {
         self.impacts
     }
 
-    /// Whether no derivative was without bound (a graze) or without effect so far.
+    /// Whether no derivative so far was unbounded (a graze) or zero.
     #[must_use]
     pub const fn is_bounded(&self) -> bool {
         self.bounded
     }
 
-    /// The mean logarithmic growth per impact; `None` before the first impact and from a graze on.
+    /// The mean logarithmic growth per impact; `None` before the first impact and after a graze.
     #[must_use]
     pub fn exponent(&self) -> Option<f64> {
         (self.bounded && self.impacts > 0).then(|| self.sum / self.impacts as f64)
@@ -114,9 +114,9 @@ const DISSIPATION_TIMES: f64 = 10.0;
 pub struct LyapunovEstimate {
     /// The mean logarithmic growth of a small perturbation per impact.
     pub exponent: f64,
-    /// Its standard error, which holds scatter, drift and rounding ([`BatchMeans`]).
+    /// Its standard error, which covers scatter, drift and rounding ([`BatchMeans`]).
     pub standard_error: f64,
-    /// Impacts that it was measured over.
+    /// Impacts over which it was measured.
     pub impacts: u64,
 }
 
@@ -136,7 +136,7 @@ impl LyapunovEstimate {
         BatchMeans::with_resolution(GROWTH_RESOLUTION)
     }
 
-    /// The estimate from such a mean; `None` of fewer than 16 growths or where one was without bound.
+    /// The estimate from such a mean; `None` for fewer than 16 growths or if one was unbounded.
     #[must_use]
     pub fn of(growths: &BatchMeans) -> Option<Self> {
         let (exponent, standard_error) = (growths.mean()?, growths.standard_error()?);
@@ -144,8 +144,8 @@ impl LyapunovEstimate {
         known.then_some(Self { exponent, standard_error, impacts: growths.count() })
     }
 
-    /// The exponent from which on the perturbation has grown by more than neutral motion, the escape from a
-    /// periodic orbit and three standard errors explain: (-ln(2^-52) + 2 ln n)/n + 3 errors over n impacts.
+    /// The exponent above which neutral motion, the escape from a periodic orbit and three standard errors
+    /// cannot explain the growth: (-ln(2^-52) + 2 ln n)/n + 3 errors over n impacts.
     #[must_use]
     pub fn threshold(&self) -> f64 {
         let impacts = self.impacts as f64;
@@ -166,8 +166,8 @@ impl LyapunovEstimate {
 }
 
 impl ImpactMap {
-    /// Impacts after which an orbit may be taken for one that stays as it is: an area of states shrinks to
-    /// restitution^2 of itself with each, to e^-10 over these.
+    /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
+    /// restitution^2, all of these by e^-10.
     #[must_use]
     pub fn transient_impacts(&self) -> f64 {
         DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))

@@ -28,15 +28,15 @@ pub struct OrbitBatch {
 }
 
 impl OrbitBatch {
-    /// Orbits that start with the impact in a state of their own, each of its own map, with the best instructions of this
+    /// Orbits that each start with an impact of a map of their own, with the best instructions of this
     /// processor.
     pub fn new(starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>) -> Self {
         Self::with_instruction_set(starts, InstructionSet::best())
     }
 
     #[doc(hidden)]
-    /// [`Self::new`] with other instructions; the states do not depend on them. What the processor does not have is
-    /// replaced by the next lower set.
+    /// [`Self::new`] with other instructions; the states do not depend on them. A set that the processor
+    /// lacks is replaced by the next lower one.
     pub fn with_instruction_set(
         starts: impl IntoIterator<Item = (ImpactMap, ImpactState)>,
         set: InstructionSet,
@@ -83,8 +83,8 @@ impl OrbitBatch {
     /// Takes every orbit to its next impact.
     ///
     /// # Errors
-    /// The error of the first orbit that has none (see [`ImpactMap::step`]); that orbit stays where it is, the others
-    /// go on.
+    /// The error of the first orbit without a next impact (see [`ImpactMap::step`]); that orbit stays where
+    /// it is, the others advance.
     pub fn step(&mut self) -> Result<(), Error> {
         let (mut first, mut failed) = (None, Vec::new());
         self.scheduler.fly(&mut self.batches, self.len, |index, error| {

@@ -1,4 +1,4 @@
-//! Orbit diagrams and survival times: what is asked of many orbits at once.
+//! Orbit diagrams and survival times of many orbits at once.
 
 use core::ops::ControlFlow;
 
@@ -11,8 +11,8 @@ use crate::run::Observer;
 /// Most impacts that [`orbit_diagram`] records, of all orbits together.
 pub const MAX_RECORDED: u64 = 1 << 31;
 
-/// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes to rest is followed
-/// for as many. That an orbit has `most` impacts therefore means that it did not come to rest in as many.
+/// How many impacts each orbit has before the disk comes to rest, at most `most`: an orbit that never comes
+/// to rest is followed for `most` impacts. The result `most` therefore means that it did not come to rest.
 ///
 /// The items of `observer` are the orbits. [`SweepRun::advance_survival_times`] keeps the finished ones of
 /// a call that is stopped.
@@ -26,7 +26,7 @@ pub fn survival_times(orbits: &[Orbit], most: usize, observer: &dyn Observer) ->
 }
 
 impl SweepRun<usize> {
-    /// Goes on with the [`survival_times`] of the orbits that are not finished.
+    /// Continues the [`survival_times`] of the orbits that are not finished.
     ///
     /// # Errors
     /// Those of [`Self::advance`].
@@ -54,8 +54,9 @@ impl SweepRun<usize> {
     }
 }
 
-/// The columns of a bifurcation diagram: of each orbit the `recorded` impacts that follow the first `transient` ones. A disk
-/// that comes to rest goes on with its next separation; one that rests for ever has fewer impacts.
+/// The columns of a bifurcation diagram: for each orbit the `recorded` impacts after the first `transient`
+/// ones. A disk that comes to rest continues with its next separation; one that rests for ever has fewer
+/// impacts.
 ///
 /// The items of `observer` are the orbits. [`SweepRun::advance_orbit_diagram`] keeps the finished ones of a
 /// call that is stopped.
@@ -75,7 +76,7 @@ pub fn orbit_diagram(
 }
 
 impl SweepRun<Vec<ImpactState>> {
-    /// Goes on with the [`orbit_diagram`] of the orbits that are not finished.
+    /// Continues the [`orbit_diagram`] of the orbits that are not finished.
     ///
     /// # Errors
     /// Those of [`Self::advance`], and [`Error::TooLarge`] as for [`orbit_diagram`].

@@ -12,7 +12,7 @@ use crate::sweep::lockstep::lanes::InstructionSet;
 
 /// The results of a list of items, as far as they are finished, in the order of the items.
 ///
-/// Deserialised ones have rising indices of existing items.
+/// Deserialising checks that the indices rise and belong to existing items.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedResults<T>"))]
@@ -45,7 +45,7 @@ impl<T> PartialResults<T> {
         Ok(())
     }
 
-    /// No result of so many items.
+    /// No results yet, for `total` items.
     #[must_use]
     pub const fn new(total: usize) -> Self {
         Self { total, finished: Vec::new() }
@@ -94,8 +94,7 @@ impl<T> PartialResults<T> {
         Ok((0..self.total).filter(|index| finished.next_if_eq(index).is_none()).collect())
     }
 
-    /// Adds what has been finished: items that exist. Of an item that was finished before the first result
-    /// stays.
+    /// Adds results of existing items. An item that was already finished keeps its first result.
     pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
         let (total, last) = (self.total, self.finished.len().saturating_sub(1));
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
@@ -125,11 +124,11 @@ impl<T> PartialResults<T> {
     }
 }
 
-/// A sweep over a list of orbits under way: the results of those that are finished.
+/// A sweep in progress over a list of orbits: the results of those that are finished.
 ///
-/// A run that is stopped, written, read and resumed gives the results of one [`sweep`]
-/// without a stop, bit for bit, for any number of threads. The orbits themselves and what is asked of them
-/// are not stored: whoever goes on brings the same ones.
+/// A run that is stopped, written, read and resumed gives the results of one uninterrupted [`sweep`], bit
+/// for bit, for any number of threads. The orbits and the visitor are not stored: whoever resumes supplies
+/// the same ones.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::{SweepRun, orbit_diagram};
@@ -163,7 +162,7 @@ impl<T> From<PartialResults<T>> for SweepRun<T> {
 }
 
 impl<T> SweepRun<T> {
-    /// A run over so many orbits, none of them finished.
+    /// A run over `orbits` orbits, none of them finished.
     #[must_use]
     pub const fn new(orbits: usize) -> Self {
         Self { results: PartialResults::new(orbits) }
@@ -198,10 +197,9 @@ impl<T> SweepRun<T> {
 }
 
 impl<T: Send> SweepRun<T> {
-    /// Follows the orbits that are not finished, as [`sweep`] does. What an earlier call has
-    /// finished stays; so it does when this call returns an error. The items of the observer are orbits;
-    /// those under way are begun again by the next call, so that a call which is stopped before any is
-    /// finished has been in vain.
+    /// Follows the orbits that are not finished, as [`sweep`] does. Finished ones stay, also when this
+    /// call returns an error. The items of the observer are orbits; those under way are restarted by the
+    /// next call, so that a call stopped before any is finished achieves nothing.
     ///
     /// # Errors
     /// [`Error::Stopped`] if the observer breaks; [`Error::Unfitting`] for another number of orbits than the
@@ -250,16 +248,16 @@ impl<T: Send> SweepRun<T> {
     }
 }
 
-/// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns what the visitors
-/// made of them, in the order of the orbits.
+/// Follows many independent orbits, each until its visitor has seen enough or it ends, and returns the
+/// visitors' results in the order of the orbits.
 ///
 /// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
 /// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel` the
 /// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
 /// change a bit.
 ///
-/// An orbit that its visitor never breaks off and that never ends is followed for ever, or until the observer
-/// of [`sweep`] breaks.
+/// An endless orbit that its visitor never breaks off is followed for ever, or until the observer of
+/// [`sweep`] breaks.
 ///
 /// The items of `observer` are the orbits. A [`SweepRun`] keeps the finished ones of a call that is
 /// stopped.

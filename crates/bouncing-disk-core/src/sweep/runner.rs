@@ -1,4 +1,4 @@
-//! Orbits in lanes: whoever has a free lane takes the next orbit that waits.
+//! Orbits in lanes: a free lane takes the next waiting orbit.
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicUsize, Ordering};

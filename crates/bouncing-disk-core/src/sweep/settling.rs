@@ -1,4 +1,4 @@
-//! Whether an orbit is still on its way to what it repeats.
+//! Whether an orbit is still settling.
 
 /// Changes from round to round that are rounding, relative to the largest value.
 const ROUNDING: f64 = 1.0e-12;
@@ -10,11 +10,12 @@ const LARGEST_GROWTH: f64 = 1.05;
 const FEWEST_ROUNDS: usize = 4;
 
 /// Whether the values, one of each impact, are still on their way to values that repeat: every `period` impacts, for some period
-/// up to `longest_period`, each has moved on in the same direction as before and hardly further than before, and by more than
-/// `tolerance` in all.
+/// up to `longest_period`, each has moved in the same direction as before, hardly further than before, and by
+/// more than `tolerance` in all.
 ///
-/// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to settle, and what is
-/// recorded after a fixed number of them is a transient; so is the spin of a disk that slides in each impact. Values that
+/// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to
+/// settle, and a record after a fixed number of them is a transient; so is the spin of a disk that slides in
+/// each impact. Values that
 /// repeat, those of chaos and those that spiral in are not on their way in this sense; the latter settle as fast as the impacts
 /// lose energy.
 ///
@@ -48,8 +49,8 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
     })
 }
 
-/// The smallest period up to `longest_period` after which all values are the same again, within `tolerance`; `None` also where
-/// there are not four rounds of it.
+/// The smallest period up to `longest_period` after which all values are the same again, within `tolerance`;
+/// `None` also with fewer than four rounds of it.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::repeats_every;

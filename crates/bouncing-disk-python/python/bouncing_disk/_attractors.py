@@ -51,10 +51,10 @@ class Attractor(Result):
             error, else NaN.
         share: the share of the starts that ended on it.
         interval: its 95 % interval.
-        lasts: whether the motion lasts: not that of a disk which rests and never does so again.
-        leads_to: the number of the attractor that a rest leads to.
+        lasts: whether the motion lasts: false if the disk rests once and never again.
+        leads_to: the number of the attractor to which a rest leads.
         meaning: what it is, in words.
-        is_exact: false of a disk that comes to rest again and again in a cycle which rounding has chosen.
+        is_exact: false for a disk that comes to rest again and again in a cycle chosen by rounding.
     """
 
     kind: str
@@ -77,7 +77,7 @@ class Basins(Result):
 
     Attributes:
         impact_map: the map.
-        labels: what becomes of the start in each cell's centre; rows by rising speed, shape (speeds, phases).
+        labels: the fate of the start in each cell's centre; rows by rising speed, shape (speeds, phases).
         phase: impact phase of the cells' centres, in periods, shape (phases,).
         speed: normalised impact speed of the cells' centres, shape (speeds,).
         phase_range, speed_range: ends of the axes: ``(*phase_range, *speed_range)`` is the ``extent`` of a
@@ -154,14 +154,14 @@ def attractors(
     cells: Int = 256,
     progress: Progress = None,
 ) -> Attractors:
-    """The attractors of a map, without being told.
+    """The attractors of a map, found without known orbits.
 
     Args:
         starts: starts, spread evenly over all impacts that an attractor can have, in [0, 2^18].
-        transient: impacts that are not looked at, at least 1.
-        impacts: impacts over which one orbit of each attractor is followed that is not periodic, at least 64.
+        transient: impacts that are skipped, at least 1.
+        impacts: impacts over which one orbit of each aperiodic attractor is followed, at least 64.
         longest_period: the longest period, in impacts, in [1, 4096].
-        cells: cells along each axis by which attractors are told apart that are not periodic, in [8, 4096].
+        cells: cells along each axis of the grid that distinguishes aperiodic attractors, in [8, 4096].
 
     >>> import bouncing_disk as bd
     >>> found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
@@ -213,7 +213,7 @@ def basins(
 
 @dataclass(frozen=True, eq=False)
 class BasinEntropy(Result):
-    """How uncertain the end of a start is that is known up to a box of cells; in natural units.
+    """How uncertain the fate of a start known only up to a box of cells is; in natural units.
 
     Attributes:
         box_side: cells along each side of a box.
@@ -223,7 +223,7 @@ class BasinEntropy(Result):
         labels: labels that occur in the boxes.
         entropy: the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: at most
             the logarithm of the number of labels.
-        boundary_entropy: the same mean over the boxes with more than one label; None if there is none.
+        boundary_entropy: the same mean over the boxes with more than one label; None if there is no such box.
     """
 
     box_side: int
@@ -236,10 +236,10 @@ class BasinEntropy(Result):
 
 
 def basin_entropy(basins: Basins, *, box_side: Int = 5) -> BasinEntropy:
-    """The entropy of basins: how uncertain the end of a start is that is known up to a box of cells.
+    """The entropy of basins: how uncertain the fate of a start known only up to a box of cells is.
 
-    A. Daza and others, Sci. Rep. 6, 31416 (2016). A boundary entropy above ln 2 says that the boundary is not
-    smooth, where boxes are small beside the basins; a smaller one says nothing.
+    A. Daza and others, Sci. Rep. 6, 31416 (2016). A boundary entropy above ln 2 shows that the boundary is
+    not smooth, if boxes are small beside the basins; a smaller one shows nothing.
 
     Args:
         basins: as of :func:`basins` and :meth:`Attractors.basins`; undecided cells count as a basin of their
@@ -264,7 +264,7 @@ class BoundaryScaling(Result):
         distance: the distances, in cells, shape (n,).
         uncertain: cells with another label than their own in the square up to this distance along both axes,
             shape (n,).
-        cells: cells that were looked at, the same at each distance.
+        cells: cells that were examined, the same at each distance.
         fit: ``"power-law"``; ``"no-power-law"``, where the slopes from one distance to the next differ by
             more than 0.05 and a fifth of their mean, as on a grid that is too coarse; or ``"too-few"``, where
             cells are uncertain at fewer than three distances.
@@ -272,8 +272,8 @@ class BoundaryScaling(Result):
             without a power law.
         dimension: the boundary's dimension, 2 less the exponent: 1 of a smooth curve, up to 2; NaN without a
             power law.
-        slopes: the smallest and the largest slope from one distance to the next, in the logarithms; NaN of
-            too few.
+        slopes: the smallest and the largest slope from one distance to the next, in the logarithms; NaN
+            with too few.
     """
 
     distance: IntArray
@@ -328,18 +328,18 @@ class BasinFractions(Stored):
     Attributes:
         restitution: coefficient of restitution.
         axial_forcing: axial forcing parameter Gamma, in the order in which they were followed, shape (n,).
-        attractors: what there is at each forcing: a tuple of n :class:`Attractors`.
+        attractors: the attractors at each forcing: a tuple of n :class:`Attractors`.
         followed: which of the m attractors each of those at a forcing is: a tuple of n int64 arrays.
         appears: the first forcing at which each attractor was found, by its number, shape (m,): it appears
             between this one and the one before.
         vanishes: the last forcing at which each was found, by its number, shape (m,): it vanishes between
             this one and the next.
         share: share of the starts that end on each attractor at each forcing, shape (m, n); NaN where it is
-            not there. The starts are spread over all impacts that an attractor can have at this forcing.
+            absent. The starts are spread over all impacts that an attractor can have at this forcing.
         share_low: low end of its 95 % interval, shape (m, n).
         share_high: high end of its 95 % interval, shape (m, n).
         moved: how far each attractor is from where it was at the forcing before (rad; a radian counts as much
-            as the peak velocity of the platform), shape (m, n); NaN where it appears or is not there, and of
+            as the peak velocity of the platform), shape (m, n); NaN where it appears or is absent, and for
             the disk at rest.
     """
 
@@ -366,8 +366,8 @@ class BasinFractions(Stored):
         cells: Int = 256,
         progress: Progress = None,
     ) -> BasinFractions:
-        """These with the attractors at more forcings, which follow those that are there: the very same as if all
-        had been given at once.
+        """Adds the attractors at more forcings after the present ones: the same result as if all had been given
+        at once.
 
         Args:
             axial_forcing: more values of Gamma, shape (k,).
@@ -392,11 +392,11 @@ def basin_fractions_over(
     cells: Int = 256,
     progress: Progress = None,
 ) -> BasinFractions:
-    """The attractors at each of some forcings, which is which, and the shares of their basins.
+    """The attractors at each of some forcings, matched from one to the next, and the shares of their basins.
 
     Each attractor is the one of the forcing before that is nearest to it, if it is within `reach`; one
-    without such a neighbour appears, and one that is nobody's vanishes. An orbit that doubles its period goes
-    on as the doubled one.
+    without such a neighbour appears, and one that none continues vanishes. An orbit that doubles its period
+    continues as the doubled one.
 
     Args:
         restitution: coefficient of restitution, in [0, 1).
@@ -405,7 +405,7 @@ def basin_fractions_over(
         reach: how far an attractor may be from where it was at the forcing before (rad), in [0, 100].
         starts, transient, impacts, longest_period, cells: as of :func:`attractors`.
 
-    The period-1 orbit appears at Gamma = 1/3; beside it there is the disk at rest:
+    The period-1 orbit appears at Gamma = 1/3, beside the disk at rest:
 
     >>> import bouncing_disk as bd
     >>> found = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], starts=200)

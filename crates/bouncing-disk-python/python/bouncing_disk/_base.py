@@ -1,4 +1,4 @@
-"""What parameters and results have in common, and the types of arguments: for `import *` by the chapters."""
+"""The common parts of parameters and results, and the types of arguments: for `import *` by the chapters."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
@@ -48,7 +48,7 @@ Kept = TypeVar("Kept", bound="Stored")
 
 
 class Parameters:
-    """What is made of keywords, checked as it is made, and never changes."""
+    """An immutable object made of keywords, which are checked as it is made."""
 
     _given: dict[str, float]
     _native: Any
@@ -125,7 +125,7 @@ def _refused(constant: str) -> float:
 
 
 def readable(text: str) -> str:
-    """The text, unless half of a pair of surrogates is in it, which no reader takes."""
+    """The text, unless it contains half of a pair of surrogates, which no reader accepts."""
     if not isinstance(text, str):
         raise TypeError(f"must be a text, and is {type(text).__name__}")
     try:
@@ -169,7 +169,7 @@ def _shown(value: Any) -> str:
 
 
 class Result:
-    """What all results have in common: fields that compare by their values, arrays among them."""
+    """The base of all results: fields that compare by their values, arrays among them."""
 
     __dataclass_fields__: ClassVar[dict[str, Any]]
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -187,7 +187,7 @@ class Result:
 
 
 class Stored(Result):
-    """A result that later calls go on from: the library holds it, stores it as JSON, and compares it."""
+    """A result from which later calls continue: the library holds it, stores it as JSON, and compares it."""
 
     _native: Any
 

@@ -1,4 +1,4 @@
-"""What orbits do in the long run: diagrams, lives, exponents, verdicts, manifolds and crises."""
+"""The long-term behaviour of orbits: diagrams, lives, exponents, verdicts, manifolds and crises."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
@@ -67,7 +67,7 @@ class OrbitDiagram(Result):
         return speed
 
     def column(self) -> IntArray:
-        """Of which orbit each impact is, shape (m,): ``axial_forcing[diagram.column()]`` is the abscissa of a plot."""
+        """The orbit of each impact, shape (m,): ``axial_forcing[diagram.column()]`` is the abscissa of a plot."""
         return np.repeat(np.arange(len(self.axial_forcing), dtype=np.int64), np.diff(self.offsets))
 
     def of(self, orbit: int) -> tuple[FloatArray, FloatArray]:
@@ -97,7 +97,7 @@ def orbit_diagram(
         impact_phase: phase of the first impact (rad), shape (n,).
         normalised_speed: normalised speed of the first impact, not negative, shape (n,).
         transient: impacts of each orbit that are not recorded.
-        recorded: impacts of each orbit that are; of a disk that rests for ever fewer.
+        recorded: impacts of each orbit that are; fewer if the disk rests for ever.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -120,11 +120,11 @@ def survival_times(
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> IntArray:
-    """How many impacts each orbit has before the disk comes to rest, at most so many.
+    """How many impacts each orbit has before the disk comes to rest, up to a limit.
 
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        most: impacts after which an orbit is left.
+        most: impacts after which an orbit is no longer followed.
         chatter: how a chatter ends; ``None`` sums it.
 
     Returns:
@@ -153,7 +153,7 @@ def lyapunov_exponents(
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         transient: impacts before the exponent is measured.
-        impacts: impacts that it is measured over.
+        impacts: impacts over which it is measured.
 
     Returns:
         Mean logarithmic growth per impact; NaN where the disk comes to rest or grazes the platform.
@@ -169,16 +169,16 @@ def lyapunov_exponents(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class LyapunovSpectra(Result):
-    """Both Lyapunov exponents per impact of many orbits; NaN where there are none.
+    """Both Lyapunov exponents per impact of many orbits; NaN where they are undefined.
 
     Attributes:
         axial_forcing, restitution: the parameters of each orbit, shape (n,).
         outcome: A place in :attr:`OUTCOMES`, shape (n,).
         largest, standard_error: the largest exponent, and its standard error by batch means, shape (n,).
         second: the other exponent; minus infinity for restitution 0, shape (n,).
-        exact_sum: what the sum of both must be over these very impacts, shape (n,).
-        impacts: impacts that were measured over; up to the rest or the graze, with those of the transient,
-            where there is one, shape (n,).
+        exact_sum: the exact sum of both over these impacts, shape (n,).
+        impacts: measured impacts; those up to a rest or a graze, with the transient, if there is one,
+            shape (n,).
         phase: phase (rad) of the impact that grazes the platform, shape (n,).
     """
 
@@ -214,7 +214,7 @@ def lyapunov_spectra(
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         transient: impacts before the exponents are measured.
-        impacts: impacts that they are measured over, at least 16.
+        impacts: impacts over which they are measured, at least 16.
 
     >>> import bouncing_disk as bd
     >>> spectra = bd.lyapunov_spectra(axial_forcing=[0.2, 0.55], restitution=0.5, impact_phase=1.2, normalised_speed=1.3)
@@ -228,7 +228,7 @@ def lyapunov_spectra(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Verdicts(Result):
-    """What many orbits do for good, and the evidence; numbers that a verdict does not have are 0 or NaN.
+    """What many orbits do for good, and the evidence; numbers missing from a verdict are 0 or NaN.
 
     Attributes:
         axial_forcing, restitution: the parameters of each orbit, shape (n,).
@@ -242,8 +242,8 @@ class Verdicts(Result):
             was measured, shape (n,).
         rounding_error: how far rounding may have carried the impacts of a chattering round (rad and g/omega),
             shape (n,).
-        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one that is
-            stayed at, shape (n, 2).
+        multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one on
+            which the orbit stays, shape (n, 2).
     """
 
     KINDS: ClassVar[tuple[str, ...]] = ("periodic", "chaotic", "chattering", "at-rest", "undecided")
@@ -296,8 +296,8 @@ def verdicts(
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
         transient: impacts before the exponent is measured.
-        impacts: impacts that the exponent is measured over, at least 64.
-        longest_period: the longest period that is looked for, in impacts, in [1, 4096].
+        impacts: impacts over which the exponent is measured, at least 64.
+        longest_period: the longest period searched for, in impacts, in [1, 4096].
         tolerance: how near an impact must come to an earlier one for a period to be tried, in (0, 0.01].
 
     >>> import bouncing_disk as bd
@@ -323,7 +323,7 @@ class Manifold(Result):
         impact_phase: phase of each impact (rad), in [0, 2 pi): between neighbours it may pass 2 pi, shape
             (m,).
         axial_impact_velocity: its relative velocity, not positive, in units of g/omega, shape (m,).
-        piece_branch: of which branch each piece is, shape (p,).
+        piece_branch: the branch of each piece, shape (p,).
         piece_start, piece_end: why it does not begin earlier, and why it ends: places in :attr:`PIECE_ENDS`,
             shape (p,).
         branch_impact: at which impact of the saddle each branch begins, shape (b,).
@@ -387,14 +387,14 @@ def manifold(
 
     Args:
         orbit: A saddle of this map: one real multiplier inside of the unit circle and one outside.
-        kind: which one: what comes from the saddle, or what tends to it.
+        kind: which one: the states that come from the saddle, or those that tend to it.
         arclength: length of each branch, in (0, 1e6].
         max_points: the most points of a branch, in [16, 1e7].
         chord: the largest distance between neighbours, in [1e-6, 1].
         turn: the largest turn of the polygon (rad), in [0.001, 1].
         max_generations: how often the first piece is mapped at most, in [1, 10000].
-        launch_speed: the largest own speed after an impact (units of g/omega) that a stable manifold is
-            followed to.
+        launch_speed: the largest own speed after an impact (units of g/omega) to which a stable
+            manifold is followed.
 
     >>> import bouncing_disk as bd
     >>> bouncing = bd.ImpactMap(axial_forcing=0.45, restitution=0.5)
@@ -416,8 +416,8 @@ class CrisisLives(Result):
         impacts: mean life in impacts; infinity where no orbit ended, shape (n,).
         relative_error: its standard error relative to it; infinity where no orbit ended, shape (n,).
         ended, orbits: orbits that came to rest, and all of them, shape (n,).
-        exponent, exponent_error: the mean life goes as ``beyond**exponent``; NaN if it follows no power law.
-        no_power_law: why it follows none.
+        exponent, exponent_error: the mean life varies as ``beyond**exponent``; NaN without a power law.
+        no_power_law: why there is none.
     """
 
     beyond: FloatArray
@@ -440,12 +440,12 @@ class Crisis(Stored):
         restitution: coefficient of restitution.
         axial_forcing: axial forcing parameter Gamma of the tangency; without one the middle of the bracket.
         forcing_error: the error of that: half of the bracket, or its part below the tangency.
-        bracket: the values of Gamma between which the crisis lies by the lives of orbits, the first one in 95
+        bracket: the values of Gamma between which the lives of orbits place the crisis; the first holds in 95
             of 100 searches.
-        is_boundary_crisis: whether the disk soon rests again after it came to rest, and so for ever: the
-            attractor is lost. Otherwise it lives on after a rest, which has become a part of the attractor.
-            None where it depends on the forcing.
-        no_tangency: why no tangency is known that is the reason; None where one is.
+        is_boundary_crisis: whether the disk soon rests again after a rest, and so for ever: the attractor
+            is lost. Otherwise it lives on after a rest, which has become part of the attractor. None if
+            this depends on the forcing.
+        no_tangency: why no tangency is known as the cause; None if one is.
         inside: the saddle on the attractor, at the crisis; None without a tangency, as all below.
         touched: the saddle whose stable manifold is touched, at the crisis.
         impact_phase: phases of the impacts of the orbit of tangency (rad), shape (n,).
@@ -455,7 +455,7 @@ class Crisis(Stored):
             1].
         curvature: how the escaping share of the first piece opens: sqrt(8 (Gamma - Gamma_c)/abs(curvature)).
         life_exponent: the exponent of the mean life beyond the crisis, (Gamma - Gamma_c)^-exponent, by the
-            multipliers of the saddles; None where they do not tell.
+            multipliers of the saddles; None where they do not determine it.
     """
 
     restitution: float
@@ -501,13 +501,13 @@ def crisis(
     Orbits on the attractor are followed to a bracket; a tangency of manifolds within it refines the result.
 
     Args:
-        inside: A saddle on the attractor, or at its edge. By default the attractor is the one that the
-            period-1 orbit leads to, and the saddles are looked for.
+        inside: A saddle on the attractor, or at its edge. By default the attractor is the one to which
+            the period-1 orbit leads, and the saddles are searched for.
         touched: the saddle whose stable manifold is touched; by default the same.
         restitution: coefficient of restitution, in (0, 1).
         axial_forcing: Gamma below the crisis and beyond it.
         samples: orbits that are followed at each forcing, in [16, 1e6].
-        impacts: impacts of all of them together, in [1e4, 1e12]; 200 at least of each. More make the bracket
+        impacts: impacts of all of them together, in [1e4, 1e12]; at least 200 each. More make the bracket
             narrower.
 
     Raises:

@@ -1,4 +1,4 @@
-"""The exceptions. Each carries the numbers that are needed to see why, and pickles."""
+"""The exceptions. Each carries the numbers needed to see why, and can be pickled."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ __all__ = [
 
 
 class BouncingDiskError(Exception):
-    """What all exceptions of this package are.
+    """The base class of all exceptions of this package.
 
     The first argument is the message; all others are attributes.
     """
@@ -28,7 +28,7 @@ class OutOfRangeError(BouncingDiskError, ValueError):
 
     Attributes:
         field: the name of the argument, or a path into it, such as ``disk.restitution`` in a dictionary.
-        value: the value that was given; of a list that is too short or too long its length.
+        value: the value that was given; the length of a list that is too short or too long.
         range: the legal range, in words and in the unit of the value.
 
     >>> import bouncing_disk as bd
@@ -47,11 +47,11 @@ class OutOfRangeError(BouncingDiskError, ValueError):
 
 
 class TooLargeError(BouncingDiskError, ValueError):
-    """More was asked for than the limit allows or than there is memory for.
+    """More was requested than the limit allows or than memory can hold.
 
     Attributes:
-        what: what was asked for.
-        count: how many of it.
+        what: what was requested.
+        count: the requested number.
         limit: the largest number.
     """
 
@@ -68,8 +68,8 @@ class InvalidError(BouncingDiskError, ValueError):
     Attributes:
         kind: what is wrong, such as ``"not-given"``, ``"both-given"``, ``"text"``, or
             ``"out-of-range-together"`` for what follows from several arguments, each of them legal by itself.
-        details: its names and numbers: of a text its ``line`` and ``column``, of what follows from several
-            arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.
+        details: its names and numbers: for a text its ``line`` and ``column``, for what follows from
+            several arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.
 
     >>> import bouncing_disk as bd
     >>> try:
@@ -86,7 +86,7 @@ class InvalidError(BouncingDiskError, ValueError):
 
 
 class FitRefusedError(BouncingDiskError, ValueError):
-    """A curve gives no fit that could be trusted; the message says why."""
+    """A curve gives no trustworthy fit; the message says why."""
 
 
 class ComputationError(BouncingDiskError, RuntimeError):

@@ -1,4 +1,4 @@
-"""Speed transients of motors, and what measured ones say: fits of rises, of braking and of parameters."""
+"""Speed transients of motors, and fits of measured ones: of rises, of braking and of parameters."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
@@ -110,7 +110,7 @@ def transients(
     """The transients of many motors, each with its own phase and seed.
 
     Args:
-        systems: the motors; one is that of all members.
+        systems: the motors; a single one serves all members.
         phases: phase of the stator at the start of each (rad), shape (m,).
         seeds: seeds of the perturbations.
         duration, intervals, relaunch_perturbation, chatter: as of :func:`transient`, the same for all.
@@ -126,7 +126,7 @@ def transients(
 class Spread(NamedTuple):
     """A mean of many values, with their standard deviation and the standard error of the mean.
 
-    One value alone tells neither: both are NaN then.
+    For a single value both errors are NaN.
     """
 
     mean: float
@@ -253,7 +253,7 @@ class TransientFit:
         exponential: the exponential rise.
         ramp: the ramp, where one fits.
         form: ``"exponential"`` or ``"ramp"``: which fits better.
-        start_time: first time that was fitted (s); rows before it have one speed. 0 for a start from rest.
+        start_time: first fitted time (s); rows before it have one speed. 0 for a start from rest.
         zero_time: time at which the fitted exponential is at rest (s): the switch-on and its dead time, if
             the motor rises from rest.
         duration: last time (s).
@@ -308,11 +308,11 @@ def fit_transients(
 
 @dataclass(frozen=True)
 class BrakingFit:
-    """The straight line of a rotor that slows down, and the friction that it means.
+    """The straight line of a rotor that slows down, and the friction that follows.
 
     Attributes:
-        friction: coefficient of friction mu (Eq. 17). Its interval is that of the deceleration: what is
-            uncertain of the rotor is not in it.
+        friction: coefficient of friction mu (Eq. 17). Its interval is that of the deceleration, without
+            the uncertainty of the rotor.
         deceleration: angular deceleration (rad/s^2), positive whichever way the rotor turns.
         sliding_until: last time of the sliding part (s).
         points: points of the sliding part.
@@ -374,12 +374,12 @@ def read_speeds(
     """Measured speeds from a file of separated values, as instruments write them.
 
     The first line that names the columns is the header; units are in the names, in the row below, or given here. Remarks,
-    semicolons, tabs and decimal commas are legal; what is not clear is refused with its line and field.
+    semicolons, tabs and decimal commas are legal; anything ambiguous is refused with its line and field.
 
     Args:
         path: the file: times, speeds and, for repeated runs, a number of the run (``member``).
         time_column, speed_column: the names of the columns, if they are not known ones; other columns are
-            then passed over.
+            then ignored.
         time_unit: the unit of the times.
         speed_unit: the unit of the speeds.
 
@@ -391,7 +391,7 @@ def read_speeds(
 
 @dataclass(frozen=True, eq=False)
 class ParameterFit(Result):
-    """Parameters of a motor that were fitted to its transients.
+    """Parameters of a motor fitted to its transients.
 
     Attributes:
         nominal: the values of the data sheet (SI).
@@ -399,7 +399,7 @@ class ParameterFit(Result):
         undetermined: directions that they do not determine, as changes of each parameter, and the standard
             error along each.
         motor: the motor with the fitted parameters.
-        misfit: sum of the weighted squares that is left.
+        misfit: remaining sum of the weighted squares.
         degrees_of_freedom: its expectation.
         evaluations: how often all motors have been computed.
     """

@@ -42,7 +42,7 @@ __all__ = [
 
 @dataclass(frozen=True, eq=False)
 class MotorReport(Result):
-    """What a data sheet says before anything turns.
+    """The consequences of a data sheet, before any run.
 
     Attributes:
         axial_forcing: axial forcing parameter Gamma.
@@ -50,7 +50,7 @@ class MotorReport(Result):
         peak_acceleration: the stator's largest acceleration in units of the preload acceleration.
         regime: ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``,
             ``"chaotic"`` or ``"undecided"``.
-        regime_impacts: impacts of a round, or that were looked at.
+        regime_impacts: impacts of a round, or those examined.
         regime_platform_periods: periods of the stator in a round, or between two rests on average; NaN where
             nothing repeats.
         regime_rests: rests that were seen in long chattering.
@@ -59,8 +59,8 @@ class MotorReport(Result):
         largest_torque: the largest mean torque of friction (N m).
         static_deflection: static deflection of the preload's spring (m).
         preload_change_bound: bound on the relative change of the preload in a flight.
-        warnings: what is unlikely to be meant.
-        text: all of it, to be printed.
+        warnings: values that are unlikely to be intended.
+        text: all of it as printed text.
     """
 
     axial_forcing: float
@@ -102,8 +102,8 @@ class Motor(Parameters):
         contact_radius: effective contact radius a_e (m), positive.
         gyration_radius: radius of gyration a_g (m), positive; that of a solid disc where a rotor radius is
             given.
-        preload_force: all of the force that presses the rotor onto the stator (N), positive.
-        preload_acceleration: that force by the mass (m/s^2), positive.
+        preload_force: the total force that presses the rotor onto the stator (N), positive.
+        preload_acceleration: that force over the mass (m/s^2), positive.
         spring_constant: constant of the spring that makes the preload (N/m), positive.
         friction: coefficient of friction mu, not negative.
         restitution: coefficient of restitution, in [0, 1).
@@ -169,7 +169,7 @@ class Motor(Parameters):
         """The same motor with other values in its data sheet.
 
         Args:
-            **changes: arguments of :class:`Motor`; None takes a value out. A number takes the place of its
+            **changes: arguments of :class:`Motor`; None removes a value. A number replaces its
                 alternative, so that a motor with a ``preload_acceleration`` gets a ``preload_force`` by
                 naming the force alone.
 
@@ -186,11 +186,11 @@ class Motor(Parameters):
         return Motor._of({**kept, **changes})
 
     def warnings(self) -> tuple[str, ...]:
-        """What is unlikely to be meant in the data sheet, in words."""
+        """Values in the data sheet that are unlikely to be intended, in words."""
         return tuple(self._native.warnings())
 
     def report(self, *, progress: Progress = None) -> MotorReport:
-        """What the data sheet says before anything turns: forcing, regime, largest torque."""
+        """The consequences of the data sheet, before any run: forcing, regime, largest torque."""
         return native.report(locals())
 
     @staticmethod
@@ -232,7 +232,7 @@ class Motor(Parameters):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OperatingPoint(Result):
-    """How a motor runs under a load; ``..._error`` are standard errors, and what there is none of is NaN.
+    """How a motor runs under a load; ``..._error`` are standard errors, and undefined numbers are NaN.
 
     Attributes:
         load_torque: load torque (N m).
@@ -243,10 +243,9 @@ class OperatingPoint(Result):
             and in friction (W).
         efficiency, efficiency_error: mechanical power over the power put in.
         perturbation_power: power that the perturbations of the relaunches put in (W).
-        energy_residual: what the energy balance leaves, relative.
-        averaged_time, start_up: time that was averaged over, of all members together, and that was left out,
-            of each (s).
-        acceleration: acceleration that a motor tends to which its load overpowers (rad/s^2), else NaN.
+        energy_residual: relative residual of the energy balance.
+        averaged_time, start_up: averaged time, of all members together, and time left out, of each (s).
+        acceleration: acceleration (rad/s^2) to which a motor tends if its load overpowers it, else NaN.
         impacts: impacts of all members.
         status: ``"steady"``, ``"unsettled"`` or ``"runaway"``.
         shortfall: what an unsettled one lacks.
@@ -290,9 +289,9 @@ def operating_point(
 
     Args:
         load_torque: load torque (N m); by default that of the data sheet.
-        relative_error: standard error of the mean speed that is asked for, relative to the speed without
-            load, in [1e-6, 0.5].
-        members: vertical motions that are averaged over, in [4, 4096].
+        relative_error: requested standard error of the mean speed, relative to the speed without load,
+            in [1e-6, 0.5].
+        members: vertical motions to average over, in [4, 4096].
         most_impacts: most impacts of all members together, in [1, 1e15].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
@@ -400,16 +399,16 @@ def stall_load(
 
 @dataclass(frozen=True)
 class InputSpread:
-    """How far a speed (rad/s) or a stall load (N m) lies apart over the tolerances of a motor's inputs.
+    """The spread of a speed (rad/s) or a stall load (N m) over the tolerances of a motor's inputs.
 
     Attributes:
         mean, mean_error: the mean over the draws and its standard error.
-        standard_deviation, standard_deviation_error: the standard deviation over the draws, without what
-            statistical errors add, and its standard error.
+        standard_deviation, standard_deviation_error: the standard deviation over the draws, without
+            their statistical errors, and its standard error.
         from_to: the least and the largest draw: a further one lies between them with the chance (n - 1)/(n +
             1) of n draws.
-        draws, without: draws that have the number, and that have none.
-        unsettled: draws of which the start-up leaves more than the standard deviation.
+        draws, without: draws with the number, and without it.
+        unsettled: draws in which the rest of the start-up exceeds the standard deviation.
         trapped: draws that are in a low-period trap.
     """
 
@@ -438,13 +437,13 @@ def input_spreads(
     seed: Int = 1,
     progress: Progress = None,
 ) -> list[InputSpread | None]:
-    """How far the speeds or the stall load of a motor lie apart over what its inputs are known to.
+    """The spread of the speeds or the stall load of a motor over the tolerances of its inputs.
 
-    The errors of the other calls hold at exactly the inputs given. The response of a motor to preload and amplitude is rough:
-    here stands what a designer can count on.
+    The errors of the other calls hold at exactly the given inputs. The response of a motor to preload and amplitude is rough:
+    a designer can rely on this spread.
 
     Args:
-        load_torques: load torques (N m) of the speeds; by default the stall load is asked for, shape (n,).
+        load_torques: load torques (N m) of the speeds; by default the spread is that of the stall load, shape (n,).
         tolerance: relative tolerance of preload and amplitude, in [0, 0.5].
         perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
         draws: motors that are drawn, in [8, 10000].
@@ -463,7 +462,7 @@ class BestPhaseLag:
     Attributes:
         phase_lag, phase_lag_error: the lag and its standard error (rad).
         speed, speed_error: the mean speed there and its standard error (rad/s).
-        good_from_to: the lags (rad) at which 99 % of that speed is left.
+        good_from_to: the range of lags (rad) with at least 99 % of that speed.
     """
 
     phase_lag: float
@@ -524,8 +523,8 @@ def motor_map(
 ) -> MotorMap:
     """Speed, power and efficiency of a motor over one or two parameters of its data sheet.
 
-    Cells that share a vertical motion are computed on one orbit. A parameter takes the place of its alternative: a
-    sweep over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
+    Cells that share a vertical motion are computed on one orbit. A parameter replaces its alternative: a sweep
+    over ``preload_force`` of a motor with a ``preload_acceleration`` has the force alone.
 
     Args:
         axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
@@ -550,10 +549,10 @@ class LowPeriodTraps(Result):
 
     Attributes:
         preload_acceleration: preload as an acceleration (m/s^2), shape (n,).
-        axial_forcing: axial forcing parameter Gamma: with the restitution all that decides, shape (n,).
+        axial_forcing: axial forcing parameter Gamma, which with the restitution alone decides, shape (n,).
         is_trap: whether the perturbed motor repeats the short round, shape (n,).
-        impacts, platform_periods, long_flights: what the round from one separation to the next has without
-            perturbation, if it has at most eight long flights; 0 where there is none, shape (n,).
+        impacts, platform_periods, long_flights: those of the unperturbed round from one separation to the
+            next, if it has at most eight long flights; 0 without such a round, shape (n,).
         relaunches, returns: perturbed relaunches that were tried, and how many of them led through such a
             round, shape (n,).
         mean_platform_periods: mean number of the stator's periods from one perturbed relaunch to the next;
@@ -576,11 +575,11 @@ def low_period_traps(
 ) -> LowPeriodTraps:
     """Which preloads trap a motor in a short round of flights and rest, with a speed of its own.
 
-    Judged from the vertical motion alone, which is all that decides.
+    It is judged from the vertical motion, which alone decides.
 
     Args:
-        preload_accelerations: preloads as accelerations (m/s^2), positive; they take the place of that of the
-            data sheet, shape (n,).
+        preload_accelerations: preloads as accelerations (m/s^2), positive; they replace that of the data
+            sheet, shape (n,).
 
     A flight of twelve and a half periods lands softly, which is where Gamma is 12.51:
 
@@ -603,9 +602,9 @@ class NearestTrap(Result):
             its near edge; 0 for a motor in the trap.
         preload_acceleration, amplitude, drive_frequency: each of these (m/s^2, m, Hz) at the near edge, if
             the others are kept.
-        forcing_from_to: from where to where in Gamma the trap reaches, as far as it was scanned.
+        forcing_from_to: the range of Gamma of the trap, as far as it was scanned.
         forcing_step: step of the scan in Gamma: traps that are narrower may have been missed.
-        impacts, platform_periods, long_flights: what the round in the middle of the trap has.
+        impacts, platform_periods, long_flights: those of the round in the middle of the trap.
         return_share: the share of perturbed relaunches there that return to the round, in [0, 1].
     """
 
@@ -626,14 +625,14 @@ def nearest_trap(
 ) -> NearestTrap | None:
     """The low-period trap that is nearest to a motor.
 
-    Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
-    amplitude or of frequency: its near edge is given for each of them, the others kept.
+    Only Gamma and the restitution decide, so that a change of preload, of amplitude or of frequency
+    reaches the same trap: its near edge is given for each of them, with the others kept.
 
     Args:
-        relative_range: the largest relative change of preload or amplitude that is looked at, in (0, 1].
+        relative_range: the largest relative change of preload or amplitude to search, in (0, 1].
 
     Returns:
-        None if there is none within the range that is at least 0.05 % wide.
+        None if no trap within the range is at least 0.05 % wide.
 
     >>> import bouncing_disk as bd
     >>> trap = bd.nearest_trap(bd.Motor.paper_70_khz())
@@ -649,11 +648,12 @@ class LocalSensitivities(Result):
 
     Attributes:
         parameters: the parameters.
-        derivative, standard_error: d ln(quantity)/d ln(parameter); of the phase lag d ln(quantity)/d theta
-            (1/rad), of the load torque d ln(quantity) over its change in units of mu m g a_e, shape (n,).
+        derivative, standard_error: d ln(quantity)/d ln(parameter); for the phase lag d ln(quantity)/d
+            theta (1/rad), for the load torque d ln(quantity) over its change in units of mu m g a_e, shape
+            (n,).
         method: ``"shared-motion"``, by a difference of rotors on the same vertical motions, or
             ``"regression"``, by a line through motors with different ones.
-        traps: motors of a regression that were left out, since they are in a low-period trap, shape (n,).
+        traps: motors left out of a regression because they are in a low-period trap, shape (n,).
         quantity: ``"steady-speed"`` or ``"stall-torque"``.
     """
 
@@ -703,13 +703,13 @@ def local_sensitivities(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SobolIndices(Result):
-    """Which share of the variance of a quantity each of n parameters has over its range.
+    """The share of each of n parameters, over its range, in the variance of a quantity.
 
     Attributes:
         parameters: the parameters.
-        first, first_error: the share that goes if this parameter alone is known, and its standard error. Near
+        first, first_error: the share that vanishes if this parameter alone is known, and its standard error. Near
             zero it may be negative, shape (n,).
-        total, total_error: the share that is left if all others are known, and its standard error, shape
+        total, total_error: the share that remains if all others are known, and its standard error, shape
             (n,).
         quantity: ``"steady-speed"`` or ``"stall-torque"``.
     """
@@ -736,7 +736,7 @@ def sobol_indices(
     seed: Int = 1,
     progress: Progress = None,
 ) -> SobolIndices:
-    """Which share of the variance of the steady speed or the stall torque each parameter has over its range (Sobol').
+    """The share of each parameter, over its range, in the variance of the steady speed or the stall torque (Sobol').
 
     Args:
         ranges: the range of each parameter (SI), over which it is spread evenly; names as of
@@ -757,8 +757,7 @@ class ElementaryEffects(Result):
         parameters: the parameters.
         mean, mean_error: mean effect mu, and its standard error, shape (n,).
         mean_size, mean_size_error: mean without the signs, mu*, shape (n,).
-        deviation, deviation_error: standard deviation sigma: the effect is not the same everywhere, shape
-            (n,).
+        deviation, deviation_error: standard deviation sigma: how much the effect varies, shape (n,).
         quantity: ``"steady-speed"`` or ``"stall-torque"``.
     """
 

@@ -28,7 +28,7 @@ class ImpactMap(Parameters):
 
     An impact is its phase (rad) and the velocity of the disk relative to the platform just before
     (``axial_impact_velocity``, not positive, in units of g/omega); the paper's normalised impact speed is
-    that by -pi.
+    that over -pi.
 
     Args:
         axial_forcing: axial forcing parameter Gamma = A omega^2/(pi g). This one or the next is needed.
@@ -88,7 +88,7 @@ class ImpactMap(Parameters):
         )
 
     def step_back(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
-        """The impact before this one: the only one that :meth:`step` takes there.
+        """The impact before this one: the only one that :meth:`step` maps to it.
 
         Args:
             impact_phase, axial_impact_velocity: as of :meth:`step`.
@@ -104,7 +104,7 @@ class ImpactMap(Parameters):
     def iterate(
         self, *, impact_phase: Float, axial_impact_velocity: Float, impacts: Int, progress: Progress = None
     ) -> tuple[float, float]:
-        """The impact that is so many steps later.
+        """The impact a number of steps later.
 
         Args:
             impact_phase, axial_impact_velocity: as of :meth:`step`.
@@ -130,7 +130,7 @@ class ImpactMap(Parameters):
         )
 
     def period_one(self, *, platform_periods: Int = 1) -> tuple[float, float] | None:
-        """The orbit with one impact every so many periods of the platform, in closed form.
+        """The orbit with one impact every `platform_periods` periods of the platform, in closed form.
 
         Args:
             platform_periods: at least 1.
@@ -160,12 +160,12 @@ class ImpactMap(Parameters):
         tolerance: Float = 1e-07,
         progress: Progress = None,
     ) -> PeriodicOrbit | None:
-        """The attracting periodic orbit that the orbit from an impact settles on.
+        """The attracting periodic orbit on which the orbit from an impact settles.
 
         Args:
             impact_phase: phase of the impact (rad).
             normalised_speed: its normalised speed, not negative.
-            transient: impacts before a period is looked for.
+            transient: impacts before the search for a period.
             longest_period: the longest period, in impacts, up to 4096.
             tolerance: how near an orbit must come to itself to count as periodic (rad, and relative speed).
 
@@ -236,7 +236,7 @@ class PeriodicOrbit(Stored):
 
         Raises:
             ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
-                graze, where samples find no radius, either.
+                graze, where samples find no radius either.
         """
         return native.trapping_radius(locals())
 
@@ -253,7 +253,7 @@ def periodic_orbits(
     """The periodic orbits of few impacts, stable and unstable.
 
     Those of one impact come from the closed form and are complete. All others are found from a grid of
-    starts, which proves nothing about what it did not find.
+    starts, which cannot prove that the list is complete.
 
     Args:
         max_impacts: the most impacts of an orbit, in [1, 64].
@@ -281,9 +281,9 @@ def iterate_orbits(
     impacts: Int,
     progress: Progress = None,
 ) -> tuple[FloatArray, FloatArray]:
-    """The impacts of many orbits that are so many steps later, each from its own start: the fastest way through the map.
+    """The impacts of many orbits a number of steps later, each from its own start: the fastest way through the map.
 
-    Unlike :func:`orbit_diagram` it does not ask whether the disk comes to rest: a chatter goes on impact by impact.
+    Unlike :func:`orbit_diagram` it does not check whether the disk comes to rest: a chatter continues impact by impact.
 
     Args:
         axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
@@ -426,10 +426,10 @@ class DoublingCascade(Result):
     Attributes:
         period: impacts of the orbit that loses its stability, shape (n,).
         axial_forcing, forcing_error: the forcing Gamma_n, and how far rounding may have moved it, shape (n,).
-        multiplier: the multiplier that the search left, -1 but for rounding, shape (n,).
+        multiplier: the multiplier that the search reached, -1 but for rounding, shape (n,).
         width: the largest distance (rad) of an impact from the one half a period later, shape (n,).
-        graze_margin: how near a flight comes to an earlier impact, in units of g/omega^2; infinite where none
-            dips, shape (n,).
+        graze_margin: how near a flight comes to an earlier impact, in units of g/omega^2; infinite if none
+            comes near, shape (n,).
         feigenbaum_number: the last doubling that was used for each estimate, from 1, shape (m,).
         delta, delta_error, alpha, alpha_error: Feigenbaum's numbers, extrapolated, and how far they may be
             off, shape (m,).

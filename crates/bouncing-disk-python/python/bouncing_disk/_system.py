@@ -17,7 +17,7 @@ __all__ = [
 class System(Parameters):
     """A disk on a vibrating and twisting platform, in SI units.
 
-    Every value is checked as the object is made, which never changes after that.
+    Every value is checked as the object is made; the object never changes.
 
     Args:
         amplitude: amplitude A of the platform's height (m), not negative.
@@ -177,7 +177,7 @@ class System(Parameters):
 
 
 class ChatterCut(Parameters):
-    """Put a chattering disk on the platform by a rule, as simulations do that follow it impact by impact.
+    """Put a chattering disk on the platform by a rule, as simulations impact by impact do.
 
     Without one (``chatter=None``) the infinite sequence of impacts is summed in closed form.
 

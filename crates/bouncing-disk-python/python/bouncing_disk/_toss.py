@@ -34,7 +34,7 @@ class Energy(NamedTuple):
 
     Attributes:
         normal_work, friction_work: work of the platform by normal forces and by friction.
-        restitution_loss, friction_loss: what impacts and friction take away.
+        restitution_loss, friction_loss: losses in impacts and by friction.
         load_work: work done against the load.
         axial_kinetic_change, potential_change, rotary_kinetic_change: changes of the three energies of the
             disk.
@@ -51,12 +51,11 @@ class Energy(NamedTuple):
 
 
 class TossPerformance(NamedTuple):
-    """What a single toss gives, in SI units.
+    """The results of a single toss, in SI units.
 
     Attributes:
         airborne_speed: rotary speed of the disk in the air (rad/s).
-        efficiency: rotary energy that the disk has gained over the energy that was put in; NaN where none
-            was.
+        efficiency: rotary energy gained by the disk over the energy put in; NaN if no energy was.
         speed_ratio: airborne speed over the largest rotary speed of the platform; None without twist.
         separation_phase: phase of the separation (rad).
         sliding_at_separation: whether the disk slides as it leaves.
@@ -93,7 +92,7 @@ def single_toss(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class TossOrbit(Result):
-    """What a motion has settled on, in SI units.
+    """The orbit on which a motion has settled, in SI units.
 
     Attributes:
         kind: ``"periodic"``, ``"chattering"``, ``"chaotic"``, ``"undecided"`` or ``"at-rest"``.
@@ -149,12 +148,12 @@ def multi_toss(
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> TossOrbit:
-    """What a motion settles on: a periodic orbit, chattering, chaos or rest, with its collisions.
+    """The motion on which a disk settles: a periodic orbit, chattering, chaos or rest, with its collisions.
 
     Args:
         phase, angular_speed, gap, relative_velocity: the start, as of :func:`simulate`.
-        transient_impacts: impacts that are not looked at.
-        examined_impacts: impacts that are looked at after them, in [2, 10000000].
+        transient_impacts: impacts that are skipped.
+        examined_impacts: impacts that are then examined, in [2, 10000000].
         longest_period: the longest period, in impacts, that is recognised, up to 4096.
         tolerance: phases (rad) and relative speeds that differ by no more are the same.
         chatter: how a chatter ends; ``None`` sums it.
@@ -252,8 +251,7 @@ class Trajectory(Stored):
     Attributes:
         system: the system.
         start_time: time of the start (s), from phase 0 of the first period.
-        end_time: time of the last event (s); where no event follows, the time until which the motion was
-            asked for.
+        end_time: time of the last event (s); where no event follows, the requested end of the motion.
         event_count: number of events.
         energy: the energy balance of the whole motion, per unit mass.
     """
@@ -328,8 +326,8 @@ def simulate(
         gap: height above the platform (m), positive.
         relative_velocity: axial velocity relative to the platform (m/s); not negative without a gap.
         events: the most events, in [1, 1000000].
-        duration: time (s), positive, after which the next event is the last one; where none follows, the
-            motion ends then.
+        duration: time (s), positive, after which the next event is the last one; without one, the motion
+            ends then.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
@@ -342,7 +340,7 @@ def simulate(
 
 @dataclass(frozen=True)
 class TossDesign:
-    """The best hand motion, and what it gives.
+    """The best hand motion, and its toss.
 
     Attributes:
         stroke, amplitude_angle, angular_frequency, phase_lag: the hand motion (m, rad, rad/s, rad).
@@ -353,7 +351,7 @@ class TossDesign:
         turns: turns until it is back there.
         grid_points: hand motions on the grid from which the optimum was found.
         best_on_grid: the best of them.
-        hidden_gain: what the objective could be above the optimum at most.
+        hidden_gain: bound on how far the objective could exceed the optimum.
     """
 
     stroke: float
@@ -387,18 +385,18 @@ def best_toss(
 ) -> TossDesign:
     """The hand motion that tosses best: its frequency, its amplitude angle and its phase lag.
 
-    Whatever is not given is that of the paper's Table I.
+    Defaults are those of the paper's Table I.
 
     Args:
         contact_radius, gyration_radius, preload_acceleration: of the dough (m, m, m/s^2), positive.
         initial_spin: whether the dough does not turn at first, or turns with the hand.
         stroke: stroke c (m), positive.
-        friction: least and most coefficient of friction, not negative.
-        angular_frequency: least and most angular frequency (rad/s), positive.
-        phase_lag: least and most phase lag (rad).
+        friction: least and largest coefficient of friction, not negative.
+        angular_frequency: least and largest angular frequency (rad/s), positive.
+        phase_lag: least and largest phase lag (rad).
         highest_flight: the highest that the dough may fly above the place where it leaves the hand (m),
             positive.
-        objective: what is to be largest.
+        objective: the quantity to maximise.
         over_friction: how it is taken over the range of friction.
 
     >>> import bouncing_disk as bd
@@ -411,26 +409,24 @@ def best_toss(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class RotaryResponse(Result):
-    """What becomes of the spin of a disk on a periodic orbit of n impacts.
+    """The fate of the spin of a disk on a periodic orbit of n impacts.
 
     Attributes:
         outcome: ``"steady"``: from every spin the disk comes to the one below; ``"kept"``: the load is as
             large as friction, and every spin repeats itself for which all impacts slide in its direction;
             ``"runaway"``: the load exceeds friction, and no spin repeats itself.
-        multiplier: that of the spin around the orbit: 0 of a steady one, 1 of one that is kept, NaN of a
-            runaway.
-        angular_speed: A steady disk's angular speed just before each impact (rad/s); empty of all others, as
-            are those below, shape (n,).
+        multiplier: that of the spin around the orbit: 0 if steady, 1 if kept, NaN for a runaway.
+        angular_speed: A steady disk's angular speed just before each impact (rad/s); empty otherwise, as are
+            those below, shape (n,).
         slip: that speed less the platform's (rad/s), shape (n,).
         sliding: the slip that an impact leaves: 1 where the disk still turns faster, -1 where slower, 0 where
             the slip ends, shape (n,).
         stick_margin: the largest margin (rad/s) by which friction ends a slip: a smaller disturbance of the
-            spin is forgotten within one period of the orbit. NaN of all but a steady one, as is the next.
+            spin is forgotten within one period of the orbit. NaN unless steady, as is the next.
         mean_angular_speed: mean angular speed (rad/s).
-        limit: the end of the spins that are kept (rad/s): those below it for a positive load, above it for a
-            negative one; NaN where every spin is, and of all others.
-        change: how much a runaway disk's angular speed changes in one period of the orbit in the end (rad/s),
-            else NaN.
+        limit: the limit of the spins that are kept (rad/s): those below it for a positive load, above it for
+            a negative one; NaN if every spin is kept, or none.
+        change: final change of a runaway disk's angular speed in one period of the orbit (rad/s), else NaN.
     """
 
     outcome: str
@@ -445,12 +441,12 @@ class RotaryResponse(Result):
 
 
 def rotary_response(system: System, orbit: PeriodicOrbit) -> RotaryResponse:
-    """What becomes of the spin of a disk on a periodic orbit of its vertical motion, stable or unstable.
+    """The fate of the spin of a disk on a periodic orbit of its vertical motion, stable or unstable.
 
     Args:
         orbit: an orbit of ``ImpactMap.of_system(system)``.
 
-    Dough on a hand that the saddle of one impact in one period is tossed by, which no motion settles on:
+    Dough tossed on the saddle of one impact in one period, on which no motion settles:
 
     >>> import bouncing_disk as bd
     >>> system = bd.System.pizza_toss().replace(angular_frequency=8.5)

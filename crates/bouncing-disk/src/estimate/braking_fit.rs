@@ -1,6 +1,6 @@
 //! The coefficient of friction from a measured braking curve, with its interval (Eq. 17, Fig. 9).
 //!
-//! docs/numerics/motors.md, "Friction from a braking curve", derives the part that is fitted and the error.
+//! docs/numerics/motors.md, "Friction from a braking curve", derives the fitted part and the error.
 
 use bouncing_disk_core::numerics::statistics::summing_scale;
 
@@ -72,7 +72,7 @@ impl BrakingRotor {
     }
 }
 
-/// The straight line of a braking curve and the friction that it means, with 95 % intervals.
+/// The straight line of a braking curve and the friction that follows, with 95 % intervals.
 ///
 /// ```
 /// use bouncing_disk::estimate::{BrakingFit, BrakingRotor};
@@ -91,8 +91,8 @@ impl BrakingRotor {
 pub struct BrakingFit {
     /// Angular deceleration -alpha_brake (rad/s^2), positive whichever way the disk turns.
     pub deceleration: IntervalEstimate,
-    /// Coefficient of friction mu, by Eq. (17). Its interval is that of the deceleration: what is uncertain of the
-    /// rotor is not in it.
+    /// Coefficient of friction mu, by Eq. (17). Its interval is that of the deceleration, without the
+    /// uncertainty of the rotor.
     pub friction: IntervalEstimate,
     /// Last time of the sliding part (s), which begins with the first point.
     pub sliding_until: f64,
@@ -106,17 +106,18 @@ pub struct BrakingFit {
 
 impl BrakingFit {
     /// Fits times (s, rising) and speeds (rad/s) of a disk that slides on a platform at rest from the first
-    /// point on, and may stand still in the end. A disk that turns backwards has negative speeds.
+    /// point on, and may stop at the end. A disk that turns backwards has negative speeds.
     ///
-    /// The standstill is left out: of all ways to cut the curve, the one is taken by which a straight line before and
-    /// zero speed after the cut leave the smallest squares, and of what is before it the part in which the line has more than 5 % of
-    /// its first speed left. The error allows for residuals that are correlated and whose size varies along the curve. Curves of more than 4096 points are averaged in
-    /// groups of points first.
+    /// The standstill is left out. The curve is cut where a straight line before and zero speed after the cut
+    /// leave the smallest squares; the fit uses the part before it in which the line keeps more than 5 % of
+    /// its first speed. The error allows for residuals that are correlated and vary in size along the curve.
+    /// Curves of more than 4096 points are first averaged in groups of points.
     ///
     /// # Errors
     /// [`FitError::Refused`] where the speed does not fall, the sliding part has fewer than eight points, its deceleration
-    /// changes by more than a fifth, or its residuals are correlated for too long; [`Error::OutOfRange`] names what is
-    /// illegal of the curve or the rotor; an error of the core for more than [`MAX_SPEEDS`] points.
+    /// changes by more than a fifth, or its residuals are correlated for too long; [`Error::OutOfRange`]
+    /// names the illegal number of the curve or the rotor; an error of the core for more than [`MAX_SPEEDS`]
+    /// points.
     pub fn new(times: &[f64], speeds: &[f64], rotor: &BrakingRotor) -> Result<Self, FitError> {
         rotor.friction(0.0)?;
         within_limit("speeds of a curve", times.len(), MAX_SPEEDS)?;

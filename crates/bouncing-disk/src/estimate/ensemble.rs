@@ -1,9 +1,9 @@
 //! The ultrasonic motor: ensembles of speed transients, and their fits (Sec. V).
 //!
 //! After every rest the disk leaves the platform in exactly the same vertical state, so the orbit of an ideal motor
-//! falls onto a cycle that the rounding of the program has chosen. A speed, a torque or a time constant is therefore
-//! the mean over an ensemble whose relaunches are perturbed by a seeded, small relative velocity and whose members
-//! start at different phases; a single transient is a picture of one member.
+//! falls onto a cycle chosen by the rounding of the program. A speed, a torque or a time constant is
+//! therefore the mean over an ensemble whose relaunches are perturbed by a seeded, small relative velocity
+//! and whose members start at different phases; a single transient is a picture of one member.
 
 use crate::display::numbers;
 use bouncing_disk_core::Observer;
@@ -32,10 +32,11 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// Of at least one value, all finite.
+    /// The spread of at least one value, all finite.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no value, one that is not finite, or a deviation that a double cannot hold.
+    /// [`Error::OutOfRange`] without values, for one that is not finite, or for a deviation that a double
+    /// cannot hold.
     pub fn of(values: &[f64]) -> Result<Self, Error> {
         check(!values.is_empty(), "number of values", 0.0, "[1, inf)")?;
         for &value in values {
@@ -49,7 +50,7 @@ impl Spread {
 
 /// An ensemble of transients of one motor.
 ///
-/// The fits of its members mean nothing where the duration is too short or the sampling too coarse. A
+/// The fits of its members are meaningless if the duration is too short or the sampling too coarse. A
 /// [`TransientFit`](crate::estimate::TransientFit) refuses such curves, and fits their mean.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -58,8 +59,8 @@ pub struct TransientEnsemble {
     pub curves: Vec<SpeedCurve>,
     /// The fit of each member.
     pub fits: Vec<ExponentialFit>,
-    /// Steady speed alpha_ss (rad/s), by the fits of all members. Next to the load that stalls the motor a curve hardly
-    /// rises and its fit means nothing: there, ask [`SpeedCurve::mean_over_last`] or
+    /// Steady speed alpha_ss (rad/s), by the fits of all members. Near the load that stalls the motor a curve
+    /// hardly rises and its fit is meaningless: there, use [`SpeedCurve::mean_over_last`] or
     /// [`MotorStatistics`](crate::estimate::MotorStatistics).
     pub steady_speed: Spread,
     /// Time constant t_c (s).
@@ -93,7 +94,7 @@ impl TransientEnsemble {
     /// The items of `observer` are the fits.
     ///
     /// # Errors
-    /// The first error of a member, in their order; [`Error::OutOfRange`] for no member; those of
+    /// The first error of a member, in their order; [`Error::OutOfRange`] without members; those of
     /// [`ExponentialFit::new`].
     pub fn of_results(
         results: Vec<Result<SpeedCurve, Error>>,

@@ -73,7 +73,7 @@ impl ExponentialFit {
         self.steady_speed * exponential(time / self.time_constant)
     }
 
-    /// Stall acceleration alpha_ss/t_c (rad/s^2): what the paper calls the stall torque.
+    /// Stall acceleration alpha_ss/t_c (rad/s^2), which the paper calls the stall torque.
     #[must_use]
     pub fn stall_acceleration(&self) -> f64 {
         self.steady_speed / self.time_constant

@@ -1,4 +1,4 @@
-//! A number that was estimated from scattered data, with its interval.
+//! A number estimated from scattered data, with its interval.
 
 use crate::display::numbers;
 use crate::error::{Error, check, finite};

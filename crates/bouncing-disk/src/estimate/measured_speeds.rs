@@ -27,7 +27,7 @@ const OTHER_SCALE: f64 = 100.0;
 pub struct MeasuredRun {
     /// Number by which the run is known; 0 where there is only one.
     pub member: u32,
-    /// Times (s), rising, also below zero: those of the switch-on and of a dead time need not be known.
+    /// Times (s), rising, possibly below zero: the switch-on and a dead time need not be known.
     pub times: Vec<f64>,
     /// Angular speeds (rad/s).
     pub speeds: Vec<f64>,
@@ -57,12 +57,12 @@ pub struct MeasuredSpeeds {
 }
 
 impl MeasuredSpeeds {
-    /// Of at least one run, their numbers rising.
+    /// The speeds of at least one run, with rising numbers.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no run, numbers that do not rise, fewer than three points in a run, lists of
-    /// different lengths, times that do not rise and numbers that are not finite; an error of the core for
-    /// more than [`MAX_SPEEDS`] speeds.
+    /// [`Error::OutOfRange`] without runs, for numbers that do not rise, fewer than three points in a run,
+    /// lists of different lengths, times that do not rise and numbers that are not finite; an error of the
+    /// core for more than [`MAX_SPEEDS`] speeds.
     pub fn new(runs: Vec<MeasuredRun>) -> Result<Self, Error> {
         check(!runs.is_empty(), "runs", 0.0, "[1, inf)")?;
         for (k, run) in runs.iter().enumerate() {
@@ -87,7 +87,7 @@ impl MeasuredSpeeds {
         self.units
     }
 
-    /// Steady speed and time constant with intervals, of all runs together ([`TransientFit::of_measured`]).
+    /// Steady speed and time constant with intervals, from all runs together ([`TransientFit::of_measured`]).
     ///
     /// The items of `observer` are the resampled curves, once for each form.
     ///
@@ -102,7 +102,7 @@ impl MeasuredSpeeds {
     /// The friction with its interval from each run, all of which are braking curves of this rotor.
     ///
     /// # Errors
-    /// Those of [`BrakingFit::new`], for the first run that has one.
+    /// Those of [`BrakingFit::new`], for the first run that fails.
     pub fn fit_braking(&self, rotor: &BrakingRotor) -> Result<Vec<BrakingFit>, FitError> {
         self.runs.iter().map(|run| BrakingFit::new(&run.times, &run.speeds, rotor)).collect()
     }

@@ -1,9 +1,9 @@
-//! Parameters of a motor from its transients at one preload or several, with intervals, and what they cannot
-//! tell.
+//! Parameters of a motor from its transients at one preload or several, with intervals, and what these leave
+//! undetermined.
 //!
-//! A transient of a chaotic motor is compared by its means over windows of time, weighted by what such means
-//! scatter by; docs/numerics/motors.md, "Parameters from transients", derives how, and what can be known at
-//! all.
+//! A transient of a chaotic motor is compared by its means over windows of time, weighted by the scatter of
+//! such means; docs/numerics/motors.md, "Parameters from transients", derives how, and what can be
+//! determined.
 
 mod bootstrap;
 mod determined;
@@ -49,7 +49,7 @@ const SIGNIFICANT: f64 = 3.0;
 /// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
 const AT_END: f64 = 1.0e-6;
 
-/// Parameters of a motor that were fitted to its transients.
+/// Parameters of a motor fitted to its transients.
 ///
 /// ```
 /// use bouncing_disk::core::{Phase, Unobserved};
@@ -87,12 +87,12 @@ pub struct ParameterFit {
     /// The fitted parameters, in the order of their ranges: at least one, and none twice.
     pub parameters: Vec<ParameterEstimate>,
     /// Directions that the transients do not determine, the least uncertain first; each names all fitted
-    /// parameters, in their order. Along them the motor stays where the search found them so: where it began, unless
-    /// they were determined there and are not where it ended.
+    /// parameters, in their order. Along them the motor stays where the search found them undetermined: at
+    /// its start, unless that is so only at its end.
     pub undetermined: Vec<UndeterminedDirection>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
-    /// Sum of the weighted squares that is left, not negative.
+    /// Remaining sum of the weighted squares, not negative.
     pub misfit: f64,
     /// Its expectation: the number of means less that of the directions that are determined.
     pub degrees_of_freedom: usize,
@@ -101,17 +101,18 @@ pub struct ParameterFit {
 }
 
 impl ParameterFit {
-    /// Fits the parameters that have a range to the transients, which may be at different preloads. All else
-    /// is that of the data sheet, also the load; its preload is not used.
+    /// Fits the parameters that have a range to the transients, which may be at different preloads. All
+    /// else, including the load, is that of the data sheet; its preload is not used.
     ///
     /// The items of `observer` are the evaluations that the search may spend.
     ///
     /// # Errors
-    /// [`FitError::Refused`] says why the fit would mean nothing: too few points, a motor that stays at rest,
-    /// times that do not count from the switch-on, a parameter at the end of its range, a search that found no end, a model
-    /// that does not describe the transients. [`Error::NeverLeaves`] for a motor whose rotor never leaves the stator at the preload of a
-    /// transient; [`Error::OutOfRange`] for illegal settings, no transient, no range, two of one parameter,
-    /// and a range that is illegal or does not hold the data sheet's value.
+    /// [`FitError::Refused`] with the reason why the fit would be meaningless: too few points, a motor that
+    /// stays at rest, times that do not count from the switch-on, a parameter at the end of its range, a
+    /// search that found no end, a model that does not describe the transients. [`Error::NeverLeaves`] for a
+    /// motor whose rotor never leaves the stator at the preload of a transient; [`Error::OutOfRange`] for
+    /// illegal settings, no transient, no range, two ranges of one parameter, and a range that is illegal or
+    /// does not contain the data sheet's value.
     pub fn new(
         nominal: &Motor,
         transients: &[MeasuredTransient],

@@ -9,10 +9,10 @@ use crate::estimate::parameter_fit::parameter::FitParameter;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitError {
-    /// A curve gives no fit that could be trusted.
+    /// A curve gives no trustworthy fit.
     #[error("the curve is not fitted: {0}")]
     Refused(FitRefusal),
-    /// An error of the model, or of the core: also that the observer has stopped the call.
+    /// An error of the model, or of the core, which includes a stop by the observer.
     #[error(transparent)]
     Model(#[from] Error),
 }
@@ -28,7 +28,7 @@ pub(crate) const fn refused<T>(reason: FitRefusal) -> Result<T, FitError> {
     Err(FitError::Refused(reason))
 }
 
-/// Why a curve gives no fit that could be trusted. Every reason carries the numbers that it was judged by.
+/// Why a curve gives no trustworthy fit. Every reason carries the numbers by which it was judged.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FitRefusal {
@@ -40,7 +40,7 @@ pub enum FitRefusal {
         /// The fewest that are fitted.
         least: usize,
     },
-    /// There are too few members for their scatter to say what the error is.
+    /// There are too few members for their scatter to give the error.
     #[error(
         "it has {members} members, but {least} are needed: compute more, or fit a single curve as a measured one"
     )]
@@ -55,14 +55,14 @@ pub enum FitRefusal {
         "the speed does not change, so the time constant is undefined: take a smaller load or a stronger stator"
     )]
     NoRise,
-    /// The motor does not rise from rest at time zero, as the settings say.
+    /// The motor does not rise from rest at time zero, contrary to the settings.
     #[error(
         "the motor does not rise from rest at time zero: at {start_time:?} s its speed is {:?} rad/s ({:?} to {:?}), as if \
          it rose from rest at {zero_time:?} s. Fit it without a start from rest, or subtract the time of the switch-on \
          and the dead time from the times", start_speed.value, start_speed.low, start_speed.high
     )]
     NotFromRest {
-        /// Time of the first row behind a dead time (s).
+        /// Time of the first row after a dead time (s).
         start_time: f64,
         /// Speed at this time (rad/s).
         start_speed: IntervalEstimate,
@@ -108,7 +108,8 @@ pub enum FitRefusal {
         /// The fewest points.
         least: usize,
     },
-    /// The members hardly fly within the time constant: what looks like a plateau is a flight, during which no speed changes.
+    /// The members hardly fly within the time constant: an apparent plateau is a flight, during which no
+    /// speed changes.
     #[error(
         "{flights:?} flights within the time constant {time_constant:?} s are too few, {least:?} are needed: what \
          looks like a plateau is a flight, so take a longer duration"
@@ -134,7 +135,7 @@ pub enum FitRefusal {
         /// The largest share of the steady speed that is accepted.
         largest: f64,
     },
-    /// The residuals remember each other for so long that the curve holds too few independent ones.
+    /// The residuals are correlated for so long that the curve holds too few independent ones.
     #[error(
         "its residuals are correlated over {correlated_points:?} of its {points} points, too many to estimate the error: \
          another form, such as that of a motor whose drive or load changes, or slow noise; leave out the rows in which the \
@@ -157,7 +158,7 @@ pub enum FitRefusal {
         /// All resampled curves.
         resamples: usize,
     },
-    /// The speed does not fall, or its fall is not told apart from none.
+    /// The speed does not fall, or its fall is not significant.
     #[error(
         "the deceleration {deceleration:?} rad/s^2 is not significantly above zero: its interval begins at {low:?} rad/s^2"
     )]
@@ -192,7 +193,7 @@ pub enum FitRefusal {
         /// Its standard error (s) if the clock is right.
         standard_error: f64,
     },
-    /// The search for the best parameters found no end.
+    /// The search for the best parameters did not converge.
     #[cfg(feature = "fit")]
     #[error(
         "the search found no best parameters in {evaluations} evaluations: allow more, or begin nearer to them"
@@ -201,7 +202,8 @@ pub enum FitRefusal {
         /// Evaluations of all motors.
         evaluations: usize,
     },
-    /// A parameter lies at the end of its range, which was too narrow or the model is not that of the motor.
+    /// A parameter lies at the end of its range: the range was too narrow, or the model is not that of the
+    /// motor.
     #[cfg(feature = "fit")]
     #[error("{parameter} = {value:?} lies at the end of its range [{low:?}, {high:?}]: take a wider one")]
     AtRangeEnd {

@@ -1,5 +1,4 @@
-//! What an ensemble of transients says about its motor, and what the motor would repeat if nothing perturbed
-//! it.
+//! Statistics of a motor from an ensemble of transients, and the orbit that it would repeat unperturbed.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -16,12 +15,12 @@ use crate::toss::multiple::{MultiTossSettings, OrbitClass, multi_toss};
 use crate::toss::single::TOSS_START;
 
 /// A fit whose constant exceeds this share of the duration, or whose residual exceeds [`LARGEST_RESIDUAL`] of
-/// its steady speed, has no meaning: the speed does not settle, or it is not told apart from zero.
+/// its steady speed, is meaningless: the speed does not settle, or is not significantly above zero.
 pub const LARGEST_CONSTANT: f64 = 0.5;
 /// See [`LARGEST_CONSTANT`].
 pub const LARGEST_RESIDUAL: f64 = 0.25;
 
-/// What the motor repeats if nothing perturbs it, from a rotor at rest on the stator at its lowest point.
+/// The orbit that the unperturbed motor repeats, from a rotor at rest on the stator at its lowest point.
 ///
 /// # Errors
 /// Those of [`multi_toss`].
@@ -61,15 +60,15 @@ pub struct MotorStatistics {
     pub form: RiseForm,
     /// Members without a meaningful fit ([`LARGEST_CONSTANT`]).
     pub unfitted: usize,
-    /// What the motor repeats without perturbation ([`unperturbed_orbit`]).
+    /// The orbit repeated without perturbation ([`unperturbed_orbit`]).
     pub orbit: OrbitClass,
-    /// Whether that is a chattering cycle of at most eight long flights and the perturbed members repeat it,
-    /// too, judged by the mean time between their separations.
+    /// Whether that orbit is a chattering cycle of at most eight long flights and the perturbed members
+    /// repeat it, too, judged by the mean time between their separations.
     pub locked: bool,
 }
 
 impl MotorStatistics {
-    /// Of the transients of `motor`, each of `duration` (s).
+    /// The statistics of the transients of `motor`, each of `duration` (s).
     ///
     /// # Errors
     /// Those of the fits, of [`Spread::of`] and of [`multi_toss`].

@@ -1,7 +1,8 @@
-//! Fits of speed transients that say how far they can be trusted, or why they cannot.
+//! Fits of speed transients that state how far they can be trusted, or why they cannot.
 //!
-//! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to curves that scatter is not the
-//! fit to what they scatter about. Errors come from resampling. docs/numerics/motors.md, "Fits with intervals", derives
+//! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to scattered curves
+//! is not the fit to their mean. Errors come from resampling. docs/numerics/motors.md, "Fits with intervals",
+//! derives
 //! how.
 
 mod blocks;
@@ -58,7 +59,7 @@ const LARGEST_MISFIT: f64 = 2.0;
 /// How near an end of the search a time constant is taken to lie at it.
 const AT_LIMIT: f64 = 0.01;
 
-/// What a fit with intervals asks of a curve, and how it is resampled.
+/// What a fit with intervals requires of a curve, and how it is resampled.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
@@ -73,8 +74,8 @@ pub struct FitSettings {
     /// a measurement counts, too: raise it where the noise is known to be larger.
     pub largest_residual: f64,
     /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest. Default false:
-    /// time zero, a dead time and the speed at the start are found from the record, and the intervals are wider. A record
-    /// that denies it is refused.
+    /// time zero, a dead time and the speed at the start are found from the record, and the intervals are
+    /// wider. A record that contradicts this is refused.
     pub from_rest: bool,
 }
 
@@ -96,20 +97,21 @@ impl FitSettings {
     }
 }
 
-/// The rise of one form, with intervals.
+/// The fit of one form of rise, with intervals.
 ///
-/// The intervals hold the error of the scatter, not that of a form which is not the motor's.
+/// The intervals cover the scatter, not the error of a form that is not the motor's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RiseEstimate {
-    /// Steady speed alpha_ss (rad/s). It depends on the duration where the speed creeps on after the rise: it is
-    /// the plateau up to the end of the curve.
+    /// Steady speed alpha_ss (rad/s). It depends on the duration if the speed still creeps up after the rise:
+    /// it is the plateau up to the end of the curve.
     pub steady_speed: IntervalEstimate,
-    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). It depends on the
-    /// duration where the rise has another form: it is the constant that is best on the whole for a curve of this length.
+    /// Time constant t_c of the exponential, or the time t_r in which the ramp rises from rest (s). It
+    /// depends on the duration if the rise has another form: it is the best constant for a curve of this
+    /// length.
     pub constant: IntervalEstimate,
     /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not the load that
-    /// stops the motor. It depends on the duration as both of its parts do.
+    /// stops the motor. It depends on the duration, as do both of its parts.
     pub stall_acceleration: IntervalEstimate,
     /// Speed (rad/s) at the start time of the fit; `None` where the motor starts from rest at time zero.
     pub start_speed: Option<IntervalEstimate>,
@@ -119,10 +121,10 @@ pub struct RiseEstimate {
 
 /// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured curve.
 ///
-/// A computed motor starts from rest at time zero. Of a measured one neither is known
+/// A computed motor starts from rest at time zero. For a measured one neither is known
 /// ([`FitSettings::from_rest`]): alpha_ss - b exp(-t/t_c) is fitted from its own start on. A later start and a higher
-/// speed there are one number of an exponential, b, so that the fit says at which time the curve would have been at
-/// rest ([`Self::zero_time`]), not which of the two it was.
+/// speed there are one number of an exponential, b, so that the fit tells at which time the curve would have
+/// been at rest ([`Self::zero_time`]), not which of the two applies.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
@@ -155,9 +157,9 @@ pub struct TransientFit {
     /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed: they lie before
     /// the switch-on or in a dead time.
     pub start_time: f64,
-    /// Last time of the curve (s): what was fitted ends here.
+    /// Last time of the curve (s), where the fit ends.
     pub duration: f64,
-    /// Points of the curve; of several runs with times of their own those of all of them.
+    /// Points of the curve; for several runs with different times, the points of all.
     pub points: usize,
     /// Members whose mean was fitted; 1 for a single measured curve.
     pub members: usize,
@@ -192,7 +194,7 @@ impl TransientFit {
     }
 
     /// The time (s) at which the fitted exponential is at rest: the switch-on and its dead time, if the motor rises from
-    /// rest. Infinite where it starts above its steady speed by as much again.
+    /// rest. Minus infinity if it starts at or above its steady speed.
     #[must_use]
     pub fn zero_time(&self) -> f64 {
         let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
@@ -204,11 +206,11 @@ impl TransientFit {
     /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with intervals by
     /// resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
     ///
-    /// Curves of more than 4096 points are averaged in groups of points first; more than 512 members are resampled in groups
-    /// of neighbours.
+    /// Curves of more than 4096 points are first averaged in groups of points; more than 512 members are
+    /// resampled in groups of neighbours.
     ///
     /// # Errors
-    /// [`FitError::Refused`] says why the fit would mean nothing;
+    /// [`FitError::Refused`] with the reason why the fit would be meaningless;
     /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted, or
     /// times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or more than
     /// [`MAX_SPEEDS`] speeds of all together.
@@ -230,15 +232,15 @@ impl TransientFit {
         rows.fit(Start::FromRest, settings, &mut watch.work())
     }
 
-    /// The fit of measured runs, each with its times (s, rising, also below zero) and speeds (rad/s): of one run with
-    /// intervals by its residuals, whose noise may be correlated and vary along the curve, of at least [`LEAST_MEMBERS`]
-    /// with intervals by their scatter.
+    /// The fit of measured runs, each with its times (s, rising, also below zero) and speeds (rad/s): one run
+    /// with intervals from its residuals, whose noise may be correlated and vary along the curve, or at least
+    /// [`LEAST_MEMBERS`] with intervals from their scatter.
     ///
     /// The items of `observer` are the resampled curves, once for each form.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from rest and the
-    /// runs deny it.
+    /// Those of [`Self::new`]; [`FitRefusal::NotFromRest`] where the settings say that the motor starts from
+    /// rest and the runs contradict this.
     pub fn of_measured(
         runs: &[(&[f64], &[f64])],
         settings: &FitSettings,

@@ -1,5 +1,5 @@
-//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no longer count, or
-//! in closed form where they are too many for that.
+//! The rotary motion and the energy of a complete chatter: infinitely many impacts, summed until they no
+//! longer count, or in closed form if there are too many.
 
 use bouncing_disk_core::chatter::{ChatterImpact, ChatterSeries};
 use bouncing_disk_core::{Launch, Phase};

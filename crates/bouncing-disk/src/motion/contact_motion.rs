@@ -1,8 +1,8 @@
-//! The motion of a disk on the platform from event to event: how it begins, which event comes next, and what
-//! that leaves.
+//! The motion of a disk on the platform from event to event: how it begins, which event comes next, and the
+//! state after it.
 //!
 //! Every contact event is decided here and nowhere else. The [`Engine`](crate::Engine) makes a record of each
-//! step, with its energy; the motor's rotor takes the speed and the angle from it and pays for nothing more.
+//! step, with its energy; the motor's rotor takes only the speed and the angle from it.
 
 use std::cmp::Ordering;
 

@@ -8,8 +8,9 @@ const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// The energy balance of an interval, per unit mass.
 ///
-/// Every entry is computed for itself, from impulses and closed-form integrals, and none as what the others leave:
-/// that [`Self::axial_closure`] and [`Self::rotary_closure`] vanish to rounding is a test of the whole motion.
+/// Every entry is computed by itself, from impulses and closed-form integrals, and none as the remainder of
+/// the others: the whole motion is tested by [`Self::axial_closure`] and [`Self::rotary_closure`] vanishing
+/// to rounding.
 ///
 /// Axial entries are in units of (g/omega)^2, in which the kinetic energy is v^2/2 and the potential energy is
 /// the height; rotary entries in units of (g a_e/(a_g omega))^2, in which the kinetic energy is q^2/2.
@@ -19,7 +20,7 @@ const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 pub struct EnergyLedger {
     /// Axial: work of the platform by normal forces and impulses.
     pub normal_work: f64,
-    /// Axial: loss in restitution. Includes what the paper's chattering cut takes away.
+    /// Axial: loss in restitution, including the loss by the paper's chattering cut.
     pub restitution_loss: f64,
     /// Axial: change of the kinetic energy.
     pub axial_kinetic_change: f64,
@@ -41,20 +42,20 @@ pub struct EnergyLedger {
 }
 
 impl EnergyLedger {
-    /// Change of the axial energy minus what flowed in: zero but for rounding.
+    /// Change of the axial energy minus the inflow: zero but for rounding.
     #[must_use]
     pub fn axial_closure(&self) -> f64 {
         (self.axial_kinetic_change + self.potential_change) - (self.normal_work - self.restitution_loss)
     }
 
-    /// Change of the rotary energy minus what flowed in: zero but for rounding.
+    /// Change of the rotary energy minus the inflow: zero but for rounding.
     #[must_use]
     pub fn rotary_closure(&self) -> f64 {
         self.rotary_kinetic_change - (self.friction_work - self.friction_loss - self.load_work)
     }
 
-    /// The larger of the two closures relative to the sizes of what was added up; zero where nothing was, infinite where a
-    /// term is not finite.
+    /// The larger of the two closures relative to the sizes of the added terms; zero without terms, infinite
+    /// if a term is not finite.
     #[must_use]
     pub fn relative_closure(&self) -> f64 {
         let relative = |closure: f64, magnitude: f64| {

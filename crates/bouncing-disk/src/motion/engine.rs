@@ -41,8 +41,8 @@ enum Stage {
 /// The motion of a disk as a lazy sequence of [`EventRecord`]s.
 ///
 /// The sequence ends where nothing more can happen (a disk that rests and sticks for ever) and after an
-/// error. A disk that rests for ever may change between sticking and sliding for ever. Two engines with the
-/// same arguments give the same bits.
+/// error. A disk that rests for ever may alternate between sticking and sliding for ever. Two engines with
+/// the same arguments give the same bits.
 ///
 /// The restitution is the system's, a constant, or follows a law ([`Self::with_law`]).
 #[derive(Debug, Clone)]
@@ -61,8 +61,8 @@ impl Engine {
     /// An engine for a [`crate::System`] or a [`DimensionlessSystem`] one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come with
-    /// that event, except that a start in the air finds its first impact at once.
+    /// [`Error::OutOfRange`] or an error of the core for an illegal start; the first event's own errors come
+    /// with that event, except that a start in the air computes its first impact at once.
     pub fn new(
         system: impl Into<DimensionlessSystem>,
         start: InitialCondition,
@@ -78,7 +78,7 @@ impl<L: RestitutionLaw> Engine<L> {
     /// chatter ends by a `cut`, whose error (rad) is that of the [`Event::Attachment`]: infinite where no
     /// bound is known.
     ///
-    /// The law knows speeds without unit, in g/omega: a speed in m/s is divided by
+    /// The law takes dimensionless speeds, in g/omega: divide a speed in m/s by
     /// [`Scales::velocity`](crate::parameters::Scales::velocity).
     ///
     /// ```
@@ -196,8 +196,8 @@ impl<L: RestitutionLaw> Engine<L> {
     }
 
     /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next event does
-    /// not come before: that of a segment which is not finished, or never will be. With the ledgers of the events before it is
-    /// the balance up to any instant.
+    /// not come before: that of an unfinished or endless segment. Added to the ledgers of the events before,
+    /// it gives the balance up to any instant.
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -224,8 +224,8 @@ impl<L: RestitutionLaw> Engine<L> {
         self.stage == Stage::Flight && self.orbit.as_ref().is_some_and(|orbit| orbit.launch().is_some())
     }
 
-    /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega; does
-    /// nothing at any other time. No ledger books the energy of this kick.
+    /// Gives a flight that starts now ([`Self::launches`]) another relative speed >= 0, in units of g/omega;
+    /// does nothing at any other time. No ledger counts the energy of this kick.
     ///
     /// # Errors
     /// An error of the core for a negative or non-finite speed.
@@ -258,8 +258,8 @@ impl<L: RestitutionLaw> Engine<L> {
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. The motion has ended
-    /// after one.
+    /// Those of the core's flights and of a law of restitution; [`Error::SlipTooLong`]. An error ends the
+    /// motion.
     pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
             Stage::Flight => self.advance_flight(),

@@ -1,4 +1,4 @@
-//! What ends a segment of motion.
+//! The events that end segments of motion.
 
 use crate::display::numbers;
 use crate::motion::energy::EnergyLedger;
@@ -28,7 +28,7 @@ pub enum Event {
         /// Impacts summed.
         impacts: u64,
         /// Bound on the error of the attachment phase (rad); infinite for the cut of a chatter with constant
-        /// restitution, as the paper's is, and where no bound is known.
+        /// restitution, as in the paper, and where no bound is known.
         #[cfg_attr(
             feature = "serde",
             serde(deserialize_with = "bouncing_disk_core::stored::infinite_if_none")
@@ -41,7 +41,7 @@ pub enum Event {
     StickToSlip(SlipDirection),
     /// The slip ends and friction holds the disk.
     SlipToStick,
-    /// The slip ends, friction does not hold the disk, and it slips the other way, given here.
+    /// The slip ends, friction does not hold the disk, and it slips the other way, in this direction.
     SlipReversal(SlipDirection),
 }
 
@@ -58,9 +58,9 @@ pub struct EventRecord {
     pub before: DiskState,
     /// The disk just after.
     pub after: DiskState,
-    /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments. Not negative, but
-    /// for the attachment of a cut ([`ChatterPolicy::Cut`](bouncing_disk_core::ChatterPolicy::Cut)): it takes from the disk the small velocity that a
-    /// rebound has left it with.
+    /// Axial impulse per unit mass in units of g/omega, zero except in impacts and attachments. Not negative,
+    /// except at the attachment of a cut ([`ChatterPolicy::Cut`](bouncing_disk_core::ChatterPolicy::Cut)),
+    /// which removes the small velocity left by a rebound.
     pub axial_impulse: f64,
     /// Angular impulse per moment of inertia in units of g a_e/(a_g^2 omega).
     pub angular_impulse: f64,

@@ -1,5 +1,5 @@
-//! Friction while disk and platform touch, Eq. (4): what holds, when it gives way, and when a slip ends. (The normal
-//! force N = 1 - P sin tau, Eq. (3), is the core's `Vibration::contact_force`.)
+//! Friction while disk and platform touch, Eq. (4): whether it holds, when it gives way, and when a slip
+//! ends. (The normal force N = 1 - P sin tau, Eq. (3), is the core's `Vibration::contact_force`.)
 //!
 //! Let U >= 0 be the slip speed in one direction s (s = +1: the disk is ahead). While the disk slides,
 //!
@@ -7,11 +7,12 @@
 //! dU/dtau = -(mu + s l) + mu P sin tau + s Q sin(tau + theta) = -decay + amplitude sin(tau + lead)
 //! ```
 //!
-//! A disk at the platform's speed begins to slip in direction s exactly where this is positive, and sticks where it
-//! is positive for neither direction; the two add up to -2 mu N, so in contact it never is for both. Each of the two
+//! A disk at the platform's speed begins to slip in direction s exactly where this is positive, and sticks
+//! where it is positive for neither direction; the two add up to -2 mu N, so in contact it is never positive
+//! for both. Each of the two
 //! is positive over one interval of the period, known in closed form. Where the phase lies relative to these intervals
-//! (the *windows*) says whether friction holds and when a slip ends, never the sign of a rounded force. Which event
-//! comes of it, and what it leaves, is decided in `contact_motion.rs`.
+//! (the *windows*) decides whether friction holds and when a slip ends; the sign of a rounded force never
+//! does. The event that follows, and the state after it, are decided in `contact_motion.rs`.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};

@@ -1,4 +1,5 @@
-//! The instant of an impact, Eqs. (5)-(10): restitution along the axis, friction about it. Per unit mass and moment of inertia.
+//! The instant of an impact, Eqs. (5)-(10): restitution along the axis, friction about it, per unit mass and
+//! moment of inertia.
 
 /// Axial impulse of an impact with relative `velocity` <= 0 (Eq. 5 with the rebound law put in, Eq. 7).
 #[inline(always)]

@@ -26,8 +26,8 @@ impl PhaseTime {
         Self { periods: 0, phase }
     }
 
-    /// The instant `span` later, [normalised](PhaseSpan::normalised). The count of periods stops at `u64::MAX`, where the phase
-    /// alone goes on.
+    /// The instant `span` later, [normalised](PhaseSpan::normalised). The count of periods stops at
+    /// `u64::MAX`; from there only the phase advances.
     #[must_use]
     pub fn after(&self, span: PhaseSpan) -> Self {
         let span = span.normalised();
@@ -67,7 +67,7 @@ impl PhaseTime {
 
 /// A duration: whole periods and a remainder in radians.
 ///
-/// Whatever takes a span takes any, and reads it as [`Self::normalised`] says.
+/// Every function of a span accepts any and [normalises](Self::normalised) it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -85,7 +85,8 @@ impl PhaseSpan {
     /// The longest span: `u64::MAX` whole periods.
     pub const LONGEST: Self = Self { periods: u64::MAX, remainder: 0.0 };
 
-    /// A span of `radians`; a negative number and NaN count as zero, and [`Self::LONGEST`], 1.16e20 rad, as the most.
+    /// A span of `radians`; a negative number and NaN count as zero, and the most is [`Self::LONGEST`],
+    /// 1.16e20 rad.
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
         // As a double 2^64: what rounds to it is too long, too.
@@ -101,8 +102,9 @@ impl PhaseSpan {
         Self { periods: ((radians - remainder) / TAU + 0.5) as u64, remainder }
     }
 
-    /// The same span with its remainder in [0, 2 pi]: what a greater one has in whole periods is added to them, up to
-    /// [`Self::LONGEST`]; a negative one and NaN count as zero. A span that is in order keeps its bits.
+    /// The same span with its remainder in [0, 2 pi]: whole periods of a greater one are added to the
+    /// periods, up to [`Self::LONGEST`]; a negative one and NaN count as zero. A normalised span keeps its
+    /// bits.
     #[must_use]
     pub fn normalised(self) -> Self {
         if (0.0..=TAU).contains(&self.remainder) {

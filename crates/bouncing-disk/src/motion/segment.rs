@@ -33,8 +33,8 @@ impl Segment {
         self.state_after(system, PhaseSpan::from_radians(fraction * span.radians()))
     }
 
-    /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter speed that starts no
-    /// chattering sequence in this system counts as none.
+    /// Disk and platform `span` after the start, on the assumption that no event comes before. A chatter
+    /// speed that starts no chattering sequence in this system counts as `None`.
     #[must_use]
     pub fn state_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> Snapshot {
         let span = span.normalised();
@@ -63,8 +63,9 @@ impl Segment {
         Snapshot { time, disk, platform }
     }
 
-    /// The energy balance from the start to `span` later, on the assumption that no event comes before: what
-    /// [`EventRecord::ledger`](crate::EventRecord) has for a whole segment, without the impact that ends it. A chatter speed
+    /// The energy balance from the start to `span` later, on the assumption that no event comes before:
+    /// [`EventRecord::ledger`](crate::EventRecord) of a whole segment, without the impact that ends it. A
+    /// chatter speed
     /// counts as in [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> EnergyLedger {

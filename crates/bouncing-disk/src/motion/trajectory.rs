@@ -14,9 +14,10 @@ use crate::motion::segment::Segment;
 use crate::motion::state::Snapshot;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// The events of a motion up to some point, and the motion between them; where no event follows, up to an instant.
+/// The events of a motion up to some point, and the motion between them; up to an instant if no event
+/// follows.
 ///
-/// The times of one that is read do not run back.
+/// Deserialising checks that the times do not decrease.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedTrajectory"))]
@@ -49,7 +50,7 @@ impl Trajectory {
         Ok(())
     }
 
-    /// Runs `engine` on until `last` is true of an event, which is still recorded, or until it ends.
+    /// Runs `engine` until `last` is true for an event, which is still recorded, or until the motion ends.
     ///
     /// A disk that bounces or slips for ever needs a `last` that becomes true.
     ///
@@ -63,8 +64,8 @@ impl Trajectory {
         Self::record_until(engine, now, last)
     }
 
-    /// [`Self::record`]; where no event follows any more, the disk is followed until `end`: it sticks or slides for ever, or
-    /// for longer than an event can be located.
+    /// [`Self::record`]; after the last event the disk is followed until `end`: it sticks or slides for ever,
+    /// or for longer than an event can be located.
     ///
     /// # Errors
     /// Those of [`Self::record`].
@@ -126,7 +127,7 @@ impl Trajectory {
         self.records.iter().map(|record| record.ledger).chain(eventless).sum()
     }
 
-    /// Disk and platform at `time`; just after the event where an event is. `None` outside the recorded motion.
+    /// Disk and platform at `time`, at an event just after it. `None` outside the recorded motion.
     #[must_use]
     pub fn at(&self, time: PhaseTime) -> Option<Snapshot> {
         if time.order(&self.start) == Ordering::Less || time.order(&self.end()) == Ordering::Greater {

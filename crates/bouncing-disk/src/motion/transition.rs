@@ -66,7 +66,7 @@ pub struct Transition {
 }
 
 impl Transition {
-    /// The transitions that the equations of motion allow; every other combination is an error of a program.
+    /// The transitions that the equations of motion allow; every other combination is a programming error.
     pub const LEGAL: [Self; 8] = [
         Self::new(ModeKind::Flight, EventKind::Impact, ModeKind::Flight),
         Self::new(ModeKind::Flight, EventKind::Attachment, ModeKind::Sticking),

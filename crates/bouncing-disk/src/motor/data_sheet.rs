@@ -1,8 +1,9 @@
 //! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a
 //! [`System`].
 //!
-//! What is unusual is told by warnings (`warning.rs`), what the motor does by a report (`report.rs`); data
-//! sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the fields.
+//! Warnings point out unusual values (`warning.rs`), and a report tells what the motor does (`report.rs`);
+//! data sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the
+//! fields.
 
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;
@@ -24,10 +25,9 @@ use crate::parameters::disk::DiskParameters;
 use crate::parameters::platform::PlatformParameters;
 use crate::parameters::system::System;
 
-/// A motor with a legal data sheet: a [`System`] and what a system does not know, its mass and its preload as
-/// a force.
+/// A motor with a legal data sheet: a [`System`] together with its mass and its preload as a force.
 ///
-/// Printed, it shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the
+/// Printing shows what follows from the data sheet without computing a motion; [`Motor::report`] adds the
 /// regime.
 ///
 /// ```
@@ -63,8 +63,8 @@ impl Motor {
         self.parameters
     }
 
-    /// The same motor with another data sheet. Who changes from one alternative to the other, say from a
-    /// preload acceleration to a force, sets the first to `None`.
+    /// The same motor with another data sheet. To change from one alternative to the other, say from a
+    /// preload acceleration to a force, set the first to `None`.
     ///
     /// # Errors
     /// Those of [`MotorParameters::build`].
@@ -105,8 +105,8 @@ impl Motor {
         self.parameters.load_torque
     }
 
-    /// mu m g a_e (N m): what friction gives if it pushes one way all the time. The normal force is the
-    /// preload in the mean, whatever the motion, so that no motor gives more.
+    /// mu m g a_e (N m): the torque of friction that always pushes one way. The mean normal force is
+    /// the preload, whatever the motion, so that no motor gives more.
     #[must_use]
     pub fn largest_torque(&self) -> f64 {
         let disk = self.system.disk();

@@ -1,4 +1,4 @@
-//! Where in the cycle of the stator the rotor gets its normal impulse, and what speed follows from it.
+//! Where in the cycle of the stator the rotor gets its normal impulse, and the speed that follows.
 //!
 //! Between two moments of the same vertical state the normal impulse, of impacts and contact together, equals
 //! the weight times the time between them. Friction passes on mu a_e of it, forwards wherever the stator
@@ -15,8 +15,9 @@
 //! of them.
 //!
 //! The *stall load* is the T/(m a_g^2) of a constant load torque T at which the mean speed of the rotor over a long run
-//! is zero. The vertical motion knows no load, so all loads share one seeded list of impulses, along which the speed
-//! is carried and the load bisected ([`ImpulseTrain`]). Friction never holds the rotor meanwhile: at speed zero it would
+//! is zero. The vertical motion does not depend on the load, so all loads share one seeded list of impulses,
+//! along which the speed is computed and the load bisected ([`ImpulseTrain`]). Friction never holds the rotor
+//! meanwhile: at speed zero it would
 //! have to follow the stator, whose angular acceleration is some thousand times what friction can give in a motor
 //! ([`ImpulseTrain::hold_share`] is the inverse), so that no range of loads stalls it.
 
@@ -59,19 +60,19 @@ pub struct PhasedImpulse {
 pub struct NormalImpulses {
     /// Of single impacts.
     pub impacts: Vec<PhasedImpulse>,
-    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last cycle that
-    /// is cut off among them. Those of a chattering sequence, without end, are not among them.
+    /// Phases (rad) of the impacts that end a flight longer than [`LONG_FLIGHT`], those of a last,
+    /// incomplete cycle included. The infinitely many of a chattering sequence are not.
     pub landings: Vec<f64>,
-    /// Of chattering that is summed, and of contact, in parts.
+    /// Of summed chattering and of contact, in parts.
     pub contact: Vec<PhasedImpulse>,
     /// Duration in radians, equal to the sum of all impulses between two separations.
     pub duration: f64,
 }
 
 impl NormalImpulses {
-    /// Of at least `impacts` impacts from one separation to a later one; none if the platform never falls
-    /// away. Each separation gets a relative speed below `perturbation` (in units of g/omega, in [0, 1e100]),
-    /// evenly spread; the last cycle, cut off, is left out unless it is the only one.
+    /// The impulses of at least `impacts` impacts from one separation to a later one; none if the platform
+    /// never falls away. Each separation gets a relative speed drawn evenly below `perturbation` (in units of
+    /// g/omega, in [0, 1e100]); the last, incomplete cycle is left out unless it is the only one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`]
@@ -138,8 +139,7 @@ impl NormalImpulses {
         self.all().map(|one| one.impulse).sum()
     }
 
-    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; not numbers where there is no
-    /// impulse.
+    /// Shares of the impulse in equal parts of the cycle, from tau = -pi to pi; NaN without impulse.
     #[must_use]
     pub fn histogram(&self, parts: usize) -> Vec<f64> {
         let mut shares = vec![0.0; parts];
@@ -259,7 +259,7 @@ struct ContactPart {
     gain: f64,
 }
 
-/// The balance of the impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`]
+/// The balance between impulses that drive a rotor forwards and those that brake it: [`NormalImpulses`]
 /// ordered by cos(tau + theta), the speed of the stator.
 ///
 /// ```
@@ -327,7 +327,7 @@ const HALVINGS: u32 = 20;
 /// Parts into which a segment of contact is divided.
 const TRAIN_PARTS: u32 = 16;
 
-/// Most impulses of an [`ImpulseTrain`]: with their times some gigabyte.
+/// Most impulses of an [`ImpulseTrain`]: about a gigabyte with their times.
 pub const MAX_IMPULSES: usize = 50_000_000;
 
 /// A time without friction and the normal impulse at its end.
@@ -341,7 +341,7 @@ struct Kick {
     impulse: f64,
 }
 
-/// The normal impulses of a motor in their order, and what a rotor does under them against a load.
+/// The normal impulses of a motor in their order, and the motion of a rotor under them against a load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImpulseTrain {
     kicks: Vec<Kick>,
@@ -351,9 +351,9 @@ pub struct ImpulseTrain {
 }
 
 impl ImpulseTrain {
-    /// Of at least `duration` (rad, positive) from a separation on. Every separation gets a relative speed
-    /// drawn evenly below `perturbation` (in units of g/omega, in [0, 1e100]) from the stream of `seed`. A
-    /// motor whose stator never throws the rotor has no impulses.
+    /// The impulses of at least `duration` (rad, positive) from a separation on. Every separation gets a
+    /// relative speed drawn evenly below `perturbation` (in units of g/omega, in [0, 1e100]) from the stream
+    /// of `seed`. A motor whose stator never throws the rotor has no impulses.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the numbers, and for a stator that does not twist; an error of the core for
@@ -373,8 +373,8 @@ impl ImpulseTrain {
     }
 
     /// The largest angular acceleration that friction can give in contact over the stator's largest one:
-    /// where it is small, friction cannot hold the rotor on the stator but for an instant about the turning
-    /// points of the stator's speed.
+    /// where it is small, friction can hold the rotor on the stator only for an instant about the extremes
+    /// of the stator's speed.
     #[must_use]
     pub const fn hold_share(&self) -> f64 {
         self.hold_share

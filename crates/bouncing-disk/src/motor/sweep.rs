@@ -1,8 +1,8 @@
 //! Sweeps: a motor in steady operation over one or two of its parameters.
 //!
-//! What is varied is in `sweep/axis.rs`; which cells are computed together in `sweep/groups.rs`; the run, which may
-//! be stopped and gone on with, in `sweep/run.rs`; what comes out, as numbers and as a table, in `sweep/result.rs`,
-//! `sweep/quantity.rs` and `sweep/csv_table.rs`, its journal in `sweep/journal.rs`.
+//! The axes are in `sweep/axis.rs`, the groups of cells computed together in `sweep/groups.rs`, the run,
+//! which can be stopped and resumed, in `sweep/run.rs`, the results, as numbers and as a table, in
+//! `sweep/result.rs`, `sweep/quantity.rs` and `sweep/csv_table.rs`, and the journal in `sweep/journal.rs`.
 
 pub(crate) mod axis;
 #[cfg(feature = "csv")]
@@ -23,16 +23,17 @@ use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
 /// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered row by
-/// row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of the cell. Where
-/// a parameter has an alternative, a value sets the alternative to nothing: a sweep over `preload_force` of a motor
-/// with a `preload_acceleration` has the force alone ([`Self::replaced`] tells).
+/// row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of the
+/// cell. A value of a parameter clears its alternative: a sweep over `preload_force` of a motor with a
+/// `preload_acceleration` has the force alone ([`Self::replaced`] lists these).
 ///
-/// Cells of one vertical motion (they differ in load, friction, phase lag, twist, radii or mass only) are computed
-/// on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load one for each
-/// amplitude. Such a group, of 256 cells at most, runs until each of its cells is known well enough. A number
-/// of a cell therefore depends on what else is in its group, within its standard error; the cells of a group share
-/// their perturbations, so that their differences are sharper than each is by itself. Groups depend on the sweep
-/// alone. The results are the same bits for any number of threads and however often a run was stopped.
+/// Cells of one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
+/// computed on one orbit, wherever they lie: a map of load and phase lag has one, a map of amplitude and load
+/// one for each amplitude. Such a group, of 256 cells at most, runs until each of its cells is known well
+/// enough. A number of a cell therefore depends on the rest of its group, within its standard error; the
+/// cells of a group share their perturbations, so that their differences are more precise than their values.
+/// Groups depend on the sweep alone. The results are the same bits for any number of threads and however
+/// often a run was stopped.
 ///
 /// ```
 /// use bouncing_disk::core::Unobserved;
@@ -117,7 +118,8 @@ impl MotorSweep {
         &self.groups
     }
 
-    /// Fields of the motor's data sheet in whose place the axes give others: they are set to nothing in every cell.
+    /// Fields of the motor's data sheet that the axes replace by alternatives: they are cleared in every
+    /// cell.
     #[must_use]
     pub fn replaced(&self) -> Vec<MotorField> {
         let sheet = self.motor.parameters();

@@ -1,7 +1,7 @@
 //! The system in units that never degenerate: time 1/omega, length g/omega^2, angular speed g a_e/(a_g^2 omega).
 //!
-//! The unit of angular speed is what a friction coefficient of 1 gives in one radian of phase. It does not
-//! contain the friction coefficient itself, so that a frictionless disk is legal, nor any amplitude, so that a
+//! The unit of angular speed is the change by a friction coefficient of 1 in one radian of phase. It contains
+//! neither the friction coefficient, so that a frictionless disk is legal, nor any amplitude, so that a
 //! platform at rest is.
 
 use std::f64::consts::PI;
@@ -90,7 +90,7 @@ impl ForcingParameters {
     }
 }
 
-/// The system without units: what the engine computes with.
+/// The dimensionless system, with which the engine computes.
 ///
 /// The equations of motion (Eq. 2) read, with N the normal force in units of the disk's weight under preload and
 /// f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1, d(angular speed)/d tau = f - l.

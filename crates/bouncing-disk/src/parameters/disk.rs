@@ -6,7 +6,7 @@ use std::fmt::{self, Display, Formatter};
 
 /// The parameters of a [`Disk`], not yet checked.
 ///
-/// The mass is not among them: it multiplies every equation. Energies come per unit mass.
+/// The mass is not among them, as it multiplies every equation. Energies are per unit mass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -28,8 +28,8 @@ pub struct DiskParameters {
 }
 
 impl DiskParameters {
-    /// The same disk with a load `torque` T_L (N m) on a disk of `mass` m (kg): the load T_L/(m a_g^2). The mass is
-    /// needed for nothing else.
+    /// The same disk with a load `torque` T_L (N m) on a disk of `mass` m (kg): the load T_L/(m a_g^2). The
+    /// mass is not needed elsewhere.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the torque if it is not finite, the mass if it is not positive, and the moment of

@@ -1,5 +1,5 @@
-//! A platform's motion by the length and the direction of its stroke, Eq. (13), and these from the speeds of a
-//! launch, Eq. (14).
+//! A platform's motion from the length and the direction of its stroke, Eq. (13), and these from the speeds
+//! of a launch, Eq. (14).
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -27,7 +27,7 @@ pub struct Stroke {
     pub phase_lag: f64,
 }
 
-/// What Eq. (14) reads a toss from: a video shows how fast the disk rises and turns as it leaves.
+/// The input of Eq. (14), from a video: how fast the disk rises and turns as it leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LaunchSpeeds {
@@ -45,8 +45,8 @@ impl Stroke {
     /// The linear motion (phase lag 0) whose largest speeds are the launch speeds, if the disk does not slip
     /// (Eq. 14): omega^2 = (v/c)^2 + (a_e w/c)^2 and phi_L = arctan(a_e w/v) for axial and angular speeds v and w.
     ///
-    /// The disk leaves after the platform's speed was largest, by the factor cos tau_sep in both components;
-    /// Eq. (14) leaves this out. That does not touch phi_L, but makes omega too small.
+    /// The disk leaves after the maximum of the platform's speed, slower by the factor cos tau_sep in both
+    /// components; Eq. (14) leaves this out. This does not affect phi_L, but makes omega too small.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] names the field, its value and its legal range.

@@ -75,7 +75,7 @@ impl System {
     }
 
     /// omega Phi a_g^2/(mu a_e g) (s): the time in which [`Disk::friction_acceleration`] gives the platform's
-    /// largest angular speed; infinite without friction, zero without twist, not a number without either.
+    /// largest angular speed; infinite without friction, zero without twist, NaN without either.
     #[must_use]
     pub fn rise_time(&self) -> f64 {
         self.platform.peak_angular_speed() / self.disk.friction_acceleration()

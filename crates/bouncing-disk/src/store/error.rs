@@ -1,24 +1,24 @@
-//! The errors of stored files. They are not among those of [`Error`], which can be copied and compared: what a
-//! system reports can not.
+//! The errors of stored files. They are not part of [`Error`], which can be copied and compared: system
+//! errors cannot.
 
 use std::io;
 use std::path::PathBuf;
 
 use crate::error::Error;
 
-/// What can go wrong with a stored file. Every variant names the file; texts of files are shown as they are
-/// escaped in Rust, so that none can disturb a terminal.
+/// What can go wrong with a stored file. Every variant names the file; texts of files are shown escaped as
+/// in Rust, so that they cannot disturb a terminal.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StorageError {
     /// The system refuses.
     #[error("cannot {action} {path:?}")]
     Io {
-        /// What was tried: open, lock, read, write.
+        /// The attempted action: open, lock, read, write.
         action: &'static str,
         /// The file.
         path: PathBuf,
-        /// What the system reported.
+        /// The report of the system.
         source: io::Error,
     },
     /// Another process, or another journal of this one, writes in the file.
@@ -27,7 +27,7 @@ pub enum StorageError {
         /// The file.
         path: PathBuf,
     },
-    /// A file of a format that this version does not know yet.
+    /// A file of a newer format than this version knows.
     #[error(
         "{file:?} has version {found} of the format \"{format}\" (written by {written_by:?}), newer than \
          version {newest}, the newest that {} {} reads: read it with the newer program",
@@ -46,7 +46,7 @@ pub enum StorageError {
         /// The newest version of the format that is known.
         newest: u32,
     },
-    /// A file of a format that this version does not read any more.
+    /// A file of an older format than this version reads.
     #[error(
         "{file:?} has version {found} of the format \"{format}\" (written by {written_by:?}); the oldest that \
          is still read is version {oldest}"
@@ -63,7 +63,7 @@ pub enum StorageError {
         /// The oldest version of the format that is read.
         oldest: u32,
     },
-    /// A file of another format, or none of ours.
+    /// A file of another format, or not one of ours.
     #[error("{file:?} is not a file of the format \"{expected}\": its format is {found:?}")]
     OtherFormat {
         /// The file.
@@ -73,7 +73,7 @@ pub enum StorageError {
         /// The name of the format that the file has; empty if it names none.
         found: String,
     },
-    /// What a file says of its origin is not complete, or not in the form of its format.
+    /// The provenance in a file is incomplete, or not in the form of its format.
     #[error("the provenance in {file:?} cannot be read")]
     Provenance {
         /// The file.
@@ -90,9 +90,9 @@ pub enum StorageError {
         path: PathBuf,
         /// The first field that differs: `provenance.parameters.settings.duration`.
         field: String,
-        /// What the file has there, as JSON.
+        /// The value in the file, as JSON.
         found: String,
-        /// What is asked for, as JSON.
+        /// The requested value, as JSON.
         expected: String,
     },
     /// A line was changed after it had been written.
@@ -105,7 +105,7 @@ pub enum StorageError {
         /// The line, from 1.
         line: u64,
     },
-    /// A line holds no result of the kind that is asked for.
+    /// A line holds no result of the requested kind.
     #[error("line {line} of {path:?} is not a result of this computation")]
     Result {
         /// The file.
@@ -115,7 +115,7 @@ pub enum StorageError {
         /// Where and why.
         source: serde_json::Error,
     },
-    /// A value that JSON cannot hold so that it can be read again; a number that is not finite is one.
+    /// A value that cannot be read back from JSON, such as a number that is not finite.
     #[error("{what} cannot be stored")]
     NotStorable {
         /// What it is: `the parameter "system"`, `the result of item 17`.
@@ -131,7 +131,7 @@ pub enum StorageError {
         /// How many items there are.
         items: usize,
     },
-    /// An error of the model, or of the core: also that the observer has stopped the call.
+    /// An error of the model, or of the core, which includes a stop by the observer.
     #[error(transparent)]
     Model(#[from] Error),
 }

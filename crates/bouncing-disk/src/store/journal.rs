@@ -19,17 +19,17 @@ use crate::store::provenance::{Format, Provenance};
 /// `provenance` names format, version and program.
 pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, oldest: 1 };
 
-/// The file of a long computation of many items: what is finished is appended, nothing is ever changed.
+/// The file of a long computation of many items: finished results are appended, nothing is ever changed.
 ///
 /// The file is text. The first line is the key: the [`Provenance`] of the computation and the number of its
 /// items. Each further line is the result of one item. Every line is an object of JSON with a digest of the
-/// rest of the line, so that other programs can read it, and a changed line is seen.
+/// rest of the line, so that other programs can read it, and a changed line is detected.
 ///
 /// A process that is killed leaves half a line at most: it is cut off when the journal is opened again, and
-/// nothing that was finished is lost. (After a power cut, what was appended since the last [`Self::sync`] may
-/// be.) A journal of another computation is refused, and so are results of another version of the program: one
-/// computation is of one program. One journal at a time writes in a file; a second one is refused as long as
-/// the first exists, whatever process it is in. The lock is the system's: it ends with the process.
+/// nothing that was finished is lost. (A power cut may lose what was appended since the last [`Self::sync`].)
+/// A journal of another computation is refused, and so are results of another version of the program: one
+/// version must compute them all. One journal at a time writes to a file; a second one is refused while the
+/// first exists, in any process. The lock is the system's: it ends with the process.
 ///
 /// ```
 /// use bouncing_disk::store::{JOURNAL, Journal, Provenance, StorageError};
@@ -118,10 +118,10 @@ struct Contents<T> {
 }
 
 impl<T: Serialize + DeserializeOwned> Journal<T> {
-    /// Opens the journal of a computation of so many items, or begins it, and gives what is finished.
+    /// Opens or creates the journal of a computation of `items`, and returns the finished results.
     ///
-    /// `key` is a provenance of the format [`JOURNAL`] and names all that the results depend on. A file that is
-    /// no journal is not touched.
+    /// `key` is a provenance of the format [`JOURNAL`] and names everything on which the results depend. A
+    /// file that is not a journal is not touched.
     ///
     /// # Errors
     /// [`StorageError::Busy`] if somebody else has it open; [`StorageError::OtherKey`] for that of another
@@ -157,8 +157,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         Ok((journal, partial(items, results)))
     }
 
-    /// What a journal holds, without writing in it; another process may do so meanwhile, unless the system's locks
-    /// forbid it, as on Windows. For those who look how far it is, and to put together the journals of several
+    /// Reads a journal without writing to it; another process may write meanwhile, unless the system's locks
+    /// forbid it, as on Windows. For watching the progress, and for combining the journals of several
     /// machines.
     ///
     /// # Errors
@@ -176,19 +176,19 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         Ok(partial(items, read(&file, path, &header(key, items, path)?, items)?.results))
     }
 
-    /// Appends the result of an item. That of one that is there already stays.
+    /// Appends the result of an item. An existing result stays.
     ///
-    /// A number that is not finite is refused, unless it is in an `Option`, where JSON makes it an absent one.
+    /// A number that is not finite is refused, except in an `Option`, where JSON makes it `None`.
     ///
     /// # Errors
-    /// [`StorageError::NoSuchItem`], [`StorageError::NotStorable`] for a result that could not be read again;
-    /// [`StorageError::Io`] if the system refuses, as on a full disk: the journal is as before then.
+    /// [`StorageError::NoSuchItem`], [`StorageError::NotStorable`] for a result that could not be read back;
+    /// [`StorageError::Io`] if the system refuses, as on a full disk: the journal is then unchanged.
     pub fn append(&mut self, index: usize, result: &T) -> Result<(), StorageError> {
         self.append_all([(index, result)])
     }
 
-    /// Appends the results of a run that are not there yet, all with one call of the system, and makes sure that
-    /// they are on the disk.
+    /// Appends the missing results of a run, all with one system call, and makes sure that they are on the
+    /// disk.
     ///
     /// # Errors
     /// Those of [`Self::append`].
@@ -242,8 +242,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
         }
     }
 
-    /// Waits until all that was appended is on the disk, where a power cut cannot harm it. That a process is
-    /// killed harms nothing, also without this.
+    /// Waits until everything appended is on the disk, safe from a power cut. A killed process does no harm
+    /// even without this.
     ///
     /// # Errors
     /// [`StorageError::Io`] if the system refuses.

@@ -1,4 +1,4 @@
-//! Where a file comes from.
+//! The origin of a file.
 
 use std::path::Path;
 
@@ -9,13 +9,13 @@ use serde_json::{Map, Value};
 
 use crate::store::error::StorageError;
 
-/// A kind of file: its name, and which versions of it are read.
+/// A kind of file: its name, and the versions that are read.
 ///
 /// The version counts the layouts of such files, not the releases of a program: it rises when a file could be
 /// misunderstood by those who read earlier ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Format {
-    /// What a file says that it is.
+    /// The name stated in a file.
     pub name: &'static str,
     /// The version that is written, which is the newest that is read.
     pub version: u32,
@@ -23,11 +23,11 @@ pub struct Format {
     pub oldest: u32,
 }
 
-/// What a stored file says of its origin: the program that wrote it and its version, the format of the file and
-/// its version, and what was computed: parameters, seed and chatter policy.
+/// The origin stated in a stored file: the program that wrote it and its version, the format of the file and
+/// its version, and the computation: parameters, seed and chatter policy.
 ///
-/// It holds no time, no user and no machine: the same computation gives the same bytes. What does not apply is
-/// stored as `null`.
+/// It holds no time, no user and no machine: the same computation gives the same bytes. Inapplicable fields
+/// are stored as `null`.
 ///
 /// ```
 /// use std::path::Path;
@@ -83,7 +83,7 @@ struct Stamp {
 }
 
 impl Provenance {
-    /// Of this crate and its version, without parameters, seed and policy.
+    /// The provenance of this crate and its version, without parameters, seed and policy.
     #[must_use]
     pub fn new(format: Format) -> Self {
         Self {
@@ -104,10 +104,10 @@ impl Provenance {
         self
     }
 
-    /// Adds a parameter, or replaces the one of this name. Its numbers must be finite: JSON has no other.
+    /// Adds a parameter, or replaces the one of this name. Its numbers must be finite, as JSON has no others.
     ///
     /// # Errors
-    /// [`StorageError::NotStorable`] if JSON cannot hold it: also for a number that is not finite.
+    /// [`StorageError::NotStorable`] if JSON cannot hold it, as for a number that is not finite.
     pub fn with(mut self, name: &str, parameter: &(impl Serialize + ?Sized)) -> Result<Self, StorageError> {
         let failed = |source| StorageError::NotStorable { what: format!("the parameter {name:?}"), source };
         // JSON would hold null in their place: different parameters would look alike.
@@ -133,11 +133,11 @@ impl Provenance {
         self
     }
 
-    /// Reads what a file of this format says of its origin; `file` is for messages alone.
+    /// Reads the provenance in a file of this format; `file` is used in messages only.
     ///
     /// # Errors
-    /// [`StorageError::NewerFormat`], [`StorageError::OlderFormat`] or [`StorageError::OtherFormat`] for a file
-    /// that is not of this format in a version that is read, whatever else it has;
+    /// [`StorageError::NewerFormat`], [`StorageError::OlderFormat`] or [`StorageError::OtherFormat`] for a
+    /// file that is not of this format in a readable version, whatever else it contains;
     /// [`StorageError::Provenance`] if a field is missing or not known.
     pub fn read(format: Format, stored: &Value, file: &Path) -> Result<Self, StorageError> {
         let unreadable = |source| StorageError::Provenance { file: file.to_owned(), source };

@@ -1,11 +1,11 @@
-//! What a chattering orbit repeats.
+//! The cycle of a chattering orbit.
 
 use std::f64::consts::PI;
 use std::fmt;
 
 /// A flight is long if it lasts longer than this (rad): half a period of the platform. The short ones of a
-/// chattering sequence get shorter without end, so that their number says how the sequence was cut rather
-/// than what the disk does.
+/// chattering sequence get shorter without end, so that their number depends on how the sequence was cut
+/// rather than on the motion.
 pub const LONG_FLIGHT: f64 = PI;
 
 /// The mean time between separations agrees with the unperturbed cycle to this share: the cycle survives the
@@ -14,7 +14,7 @@ pub(crate) const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
 pub(crate) const LOCKED_FLIGHTS: usize = 8;
 
-/// Impacts in which an unperturbed cycle is looked for: one of up to half of them is found.
+/// Impacts in which an unperturbed cycle is sought: one of up to half of them is found.
 pub const EXAMINED_IMPACTS: usize = 2_048;
 
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.

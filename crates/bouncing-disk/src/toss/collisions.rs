@@ -40,10 +40,10 @@ impl CollisionState {
         Ok(ImpactState::new(self.phase, self.axial_impact_velocity)?)
     }
 
-    /// How the motion goes on from this impact: its rebound as a start of an [`Engine`].
+    /// The continuation of the motion: the rebound from this impact as a start of an [`Engine`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] or an error of the core for velocities that are no impact.
+    /// [`Error::OutOfRange`] or an error of the core for velocities that are not those of an impact.
     pub fn rebound(&self, system: &DimensionlessSystem) -> Result<InitialCondition, Error> {
         let vertical = self.vertical()?;
         let slip = moderate("tangential_impact_velocity", self.tangential_impact_velocity)?;
@@ -87,7 +87,7 @@ pub enum CollisionEvent {
     Attachment {
         /// When.
         time: PhaseTime,
-        /// Impacts that the complete policy has summed; none of them is reported by itself.
+        /// Impacts summed by the complete policy, which are not reported singly.
         summed_impacts: u64,
     },
     /// The platform falls away from the disk.

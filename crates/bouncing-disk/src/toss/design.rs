@@ -1,8 +1,7 @@
-//! The best hand motion of a toss (Sec. III) under constraints, and how much of it is left where its inputs
-//! are off.
+//! The best hand motion of a toss (Sec. III) under constraints, and its robustness to errors of the inputs.
 //!
-//! The search (`search.rs`) is deterministic; what it rests on, and how its result is certified, stands in
-//! docs/numerics/design.md.
+//! The search (`search.rs`) is deterministic; docs/numerics/design.md has its premises, and how its result
+//! is certified.
 
 pub(crate) mod constraints;
 mod hand;
@@ -21,11 +20,11 @@ use crate::toss::design::hand::{Evaluation, flight_height, turns};
 use crate::toss::design::search::search;
 use crate::toss::single::TossPerformance;
 
-/// The best hand motion, and what it gives.
+/// The best hand motion, and its toss.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TossDesign {
-    /// What was asked for.
+    /// The given constraints.
     pub constraints: TossConstraints,
     /// The hand motion.
     pub hand: Stroke,
@@ -48,7 +47,7 @@ impl TossDesign {
     /// [`Self::toss`].
     ///
     /// # Errors
-    /// Those of [`System::new`], for a design that was changed or read.
+    /// Those of [`System::new`], for a design that was changed or deserialised.
     pub fn system(&self) -> Result<System, Error> {
         let TossConstraints { dough, friction, .. } = self.constraints;
         crate::toss::design::hand::system(self.hand, dough, crate::toss::design::hand::middle(friction))
@@ -77,8 +76,9 @@ impl TossDesign {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough leaves the hand at none
-/// of the frequencies, with c omega^2/g at the highest; those of [`single_toss`](crate::toss::single_toss).
+/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough does not leave the hand
+/// at any of the frequencies, with c omega^2/g at the highest; those of
+/// [`single_toss`](crate::toss::single_toss).
 pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Result<TossDesign, Error> {
     constraints.check()?;
     let watch = Watch::begin(observer, 0, crate::toss::design::search::STAGES)?;

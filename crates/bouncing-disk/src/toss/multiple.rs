@@ -1,4 +1,4 @@
-//! Multiple tosses (Sec. IV): what a motion settles on, and how it is classified.
+//! Multiple tosses (Sec. IV): the orbit on which a motion settles, and its classification.
 
 use crate::display::numbers;
 use std::f64::consts::TAU;
@@ -16,7 +16,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::toss::chattering_cycle::{ChatteringCycle, LONG_FLIGHT};
 use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 
-/// Most impacts that [`multi_toss`] looks at.
+/// Most impacts that [`multi_toss`] examines.
 pub const MAX_EXAMINED: usize = 10_000_000;
 
 /// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
@@ -28,15 +28,15 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 pub struct MultiTossSettings {
     /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
-    /// Impacts that are not looked at. Default 4000.
+    /// Impacts that are skipped. Default 4000.
     pub transient_impacts: usize,
-    /// Impacts that are looked at after them, from 2 to [`MAX_EXAMINED`]. Default 1024.
+    /// Impacts that are then examined, from 2 to [`MAX_EXAMINED`]. Default 1024.
     pub examined_impacts: usize,
     /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
     /// compared. Default 128.
     pub longest_period: usize,
-    /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no more
-    /// are the same. Default 1e-9.
+    /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no
+    /// more count as the same. Default 1e-9.
     pub tolerance: f64,
 }
 
@@ -62,7 +62,7 @@ impl MultiTossSettings {
     }
 }
 
-/// What a motion has settled on, judged from the impacts examined.
+/// The orbit on which a motion has settled, judged from the impacts examined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -83,20 +83,20 @@ pub enum OrbitClass {
     /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
     /// arithmetic is. (A long cycle depends on its rounding.)
     Chattering(ChatteringCycle),
-    /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over so many impacts that
-    /// dissipation has had its effect ([`ImpactMap::transient_impacts`]).
+    /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over enough impacts for
+    /// dissipation to act ([`ImpactMap::transient_impacts`]).
     Chaotic {
         /// Growth rate of a small vertical perturbation per impact, from the derivatives of the map along the
         /// impacts examined.
         lyapunov_exponent: LyapunovEstimate,
     },
-    /// None of these for certain within the impacts examined: a long period, a slow approach, neutral motion,
-    /// or a transient.
+    /// Not certainly any of these within the impacts examined: a long period, a slow approach, neutral
+    /// motion, or a transient.
     Undecided {
         /// Impacts examined.
         impacts: usize,
-        /// The growth rate, if it is known: `None` if the disk attached or grazed on the way, or of fewer than
-        /// 17 impacts.
+        /// The growth rate, if it is known: `None` if the disk attached or grazed on the way, or for fewer
+        /// than 17 impacts.
         lyapunov_exponent: Option<LyapunovEstimate>,
     },
     /// The disk rests on the platform for ever.
@@ -117,13 +117,13 @@ pub struct TossOrbit {
     pub rotation_repeats: Option<bool>,
 }
 
-/// Follows a motion through its transient and says what it has settled on.
+/// Follows a motion through its transient and classifies the orbit on which it settles.
 ///
 /// The items of `observer` are the impacts, of the transient and examined.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts examined or than there is
-/// memory for; those of [`Collisions`].
+/// [`Error::OutOfRange`] for the settings; an error of the core for more than [`MAX_EXAMINED`] impacts
+/// examined or more than memory can hold; those of [`Collisions`].
 pub fn multi_toss(
     system: impl Into<DimensionlessSystem>,
     start: InitialCondition,

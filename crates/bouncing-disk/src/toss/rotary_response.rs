@@ -15,7 +15,7 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// orbit of this map closes far better, one of another map hardly ever as well.
 const CLOSES: f64 = 1.0e-6;
 
-/// What becomes of the spin of a disk on a periodic orbit.
+/// The fate of the spin of a disk on a periodic orbit.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -23,17 +23,17 @@ pub enum RotaryOutcome {
     /// From every spin the disk comes to this one, in finitely many impacts: the rotary multiplier is 0.
     Steady(RotaryResponse),
     /// The load is as large as friction: every spin repeats itself for which all impacts slide in the
-    /// direction that the load gives, and the rotary multiplier is 1.
+    /// direction of the load, and the rotary multiplier is 1.
     Kept {
-        /// The end of the spins that do, before the first impact of the orbit, in units of g a_e/(a_g^2
+        /// The limit of these spins, before the first impact of the orbit, in units of g a_e/(a_g^2
         /// omega): those below it for a positive load, above it for a negative one; `None` without friction
         /// and load, where every spin is kept.
         limit: Option<f64>,
     },
     /// The load exceeds friction: no spin repeats itself.
     Runaway {
-        /// How much the angular speed changes in one period of the orbit in the end, when every impact
-        /// slides, in units of g a_e/(a_g^2 omega).
+        /// The final change of the angular speed in one period of the orbit, when every impact slides,
+        /// in units of g a_e/(a_g^2 omega).
         change: f64,
     },
 }
@@ -69,9 +69,9 @@ pub struct RotaryResponse {
     pub slips: Vec<f64>,
     /// The slip that an impact leaves; `None` where it ends within it. At least one is `None`.
     pub sliding: Vec<Option<SlipDirection>>,
-    /// The largest margin by which friction ends a slip, in the same units: what it could give, less what it
-    /// takes. A disturbance of the spin that is smaller is forgotten within one period of the orbit. Zero
-    /// where stick gives way to slip.
+    /// The largest margin by which friction ends a slip, in the same units: available minus needed. A
+    /// smaller disturbance of the spin is forgotten within one period of the orbit. Zero where stick gives
+    /// way to slip.
     pub stick_margin: f64,
     /// The mean angular speed, in the same units.
     pub mean_angular_speed: f64,
@@ -92,7 +92,7 @@ pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
     /// Impacts that end the slip. The derivative of the speed by that one period before is 1 without any,
-    /// and else 0.
+    /// and otherwise 0.
     pub sticking_impacts: usize,
 }
 
@@ -105,8 +105,8 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
     system.platform_angular_speed(impact_phase)
 }
 
-/// What becomes of the spin of a disk on `orbit`, a periodic orbit of the vertical motion of `system`, stable
-/// or unstable.
+/// The fate of the spin of a disk on `orbit`, a periodic orbit of the vertical motion of `system`, stable or
+/// unstable.
 ///
 /// ```
 /// use bouncing_disk::parameters::ForcingParameters;
@@ -124,8 +124,8 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
 /// ```
 ///
 /// # Errors
-/// [`Error::NotAnOrbit`] if `orbit` is none of this system; [`Error::OutOfRange`] if it is empty; those of
-/// [`ImpactMap::step`](crate::core::ImpactMap::step).
+/// [`Error::NotAnOrbit`] if `orbit` is not an orbit of this system; [`Error::OutOfRange`] if it is empty;
+/// those of [`ImpactMap::step`](crate::core::ImpactMap::step).
 pub fn rotary_response(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<RotaryOutcome, Error> {
     Ok(SpinMap::of(system, orbit)?.outcome())
 }

@@ -39,11 +39,11 @@ pub enum InitialSpin {
 pub struct TossPerformance {
     /// Airborne rotary speed of the dough (rad/s).
     pub airborne_speed: f64,
-    /// Rotary kinetic energy that the dough has gained by the separation, over the energy that the tossing
-    /// motion has put in by then. The energy put in is the work of the hand, by normal force and by friction:
-    /// it is found again in the dough's kinetic energy of rotation and of lift, in its height above the
-    /// lowest point, and in the friction between hand and dough. The spin of a dough that starts with the
-    /// hand counts as put in by the hand and gained by the dough. Negative if a dough at rest is turned by a
+    /// Rotary kinetic energy that the dough gains up to the separation, over the energy that the tossing
+    /// motion puts in up to then. The energy put in is the work of the hand, by normal force and by friction:
+    /// it goes into the dough's kinetic energy of rotation and of lift, its height above the lowest point,
+    /// and friction between hand and dough. The spin of a dough that starts with the hand counts as put in
+    /// by the hand and gained by the dough. Negative if a dough at rest is turned by a
     /// hand that takes energy back. The formula is that of [`SiEnergy::efficiency`].
     #[cfg_attr(feature = "serde", serde(deserialize_with = "bouncing_disk_core::stored::nan_if_none"))]
     pub efficiency: f64,

@@ -65,13 +65,13 @@ pub enum BoundaryFit {
 pub struct BoundaryScaling {
     /// The shares by rising distance: all of the same cells.
     pub shares: Vec<UncertainShare>,
-    /// What a line through their logarithms says, without those of no cells.
+    /// The line through their logarithms, shares of zero left out.
     pub fit: BoundaryFit,
 }
 
 impl Basins {
-    /// The share of cells that are uncertain when a start is known up to so many cells, and the power law that
-    /// it follows: its exponent and the dimension of the boundary.
+    /// The share of cells that are uncertain when a start is known up to a distance in cells, and the power
+    /// law that it follows: its exponent and the dimension of the boundary.
     ///
     /// A cell is uncertain if there is another label than its own in the square up to that distance along both
     /// axes. The cells that count are those farther from the edges of the grid than the largest of the `distances`

@@ -1,4 +1,4 @@
-//! The entropy of basins: how uncertain the end of a start is that is known up to a box (A. Daza, A.
+//! The entropy of basins: how uncertain the fate of a start known only up to a box is (A. Daza, A.
 //! Wagemakers, B. Georgeot, D. Guery-Odelin, M. A. F. Sanjuan, Sci. Rep. 6, 31416 (2016)).
 
 use super::{Basins, Label, UNDECIDED};

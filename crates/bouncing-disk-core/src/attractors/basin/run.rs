@@ -1,4 +1,4 @@
-//! Basins that may be stopped, stored and gone on with.
+//! Basin computations that may be stopped, stored and resumed.
 
 #[cfg(feature = "serde")]
 mod stored;
@@ -9,11 +9,11 @@ use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::{Error, room_for};
 use crate::run::{Observer, Watch};
 
-/// The basins on a grid under way: the question, and the rows that are finished.
+/// A computation of basins on a grid: its input, and the rows that are finished.
 ///
-/// A run that is stopped, written, read and gone on with ends in the labels of one call without a stop, bit
-/// for bit, for any number of threads. What is stored is the map, the grid, the known orbits, the settings
-/// and the labels of the finished rows; one that is read has been checked to fit together.
+/// A run that is stopped, written, read and resumed gives the labels of one uninterrupted call, bit for
+/// bit, for any number of threads. It stores the map, the grid, the known orbits, the settings and the
+/// labels of the finished rows; deserialising checks that they fit together.
 ///
 /// It knows periodic attractors only; where there are others, `Attractors::basins_of_rows` makes a grid in parts.
 /// Read from JSON it is the same if `serde_json` has its feature `float_roundtrip`.
@@ -54,8 +54,8 @@ impl BasinRun {
         Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })
     }
 
-    /// Labels the rows that are not finished. What an earlier call has finished stays; so it does when this
-    /// call returns an error. The items of the observer are rows; some thousand cells are under way on each
+    /// Labels the rows that are not finished. Finished rows stay, also when this call returns an error. The
+    /// items of the observer are rows; some thousand cells are under way on each
     /// thread and begun again by the next call.
     ///
     /// # Errors

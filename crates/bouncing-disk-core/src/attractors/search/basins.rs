@@ -223,7 +223,7 @@ impl Attractors {
         Basins::of_labels(labels, grid.phase().cells())
     }
 
-    /// Some rows of [`Self::basins`], with the very same labels. A grid that takes long is computed some rows at a
+    /// Some rows of [`Self::basins`], with the very same labels. A long computation is done some rows at a
     /// time, on one machine or many, and put together by [`Basins::stacked`].
     ///
     /// The items of `observer` are these rows, each of which counts twice where there are attractors that
@@ -241,7 +241,7 @@ impl Attractors {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Unfitting`] for rows that the grid has not, or none; those of [`Self::basins`].
+    /// [`Error::Unfitting`] for rows outside the grid, or no rows; those of [`Self::basins`].
     pub fn basins_of_rows(
         &self,
         grid: Grid,

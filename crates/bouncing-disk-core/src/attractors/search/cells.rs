@@ -1,4 +1,4 @@
-//! The cells of a grid that an orbit has visited: what is known of an attractor that is not periodic.
+//! The cells of a grid that an orbit has visited: what is known of an aperiodic attractor.
 
 use core::f64::consts::TAU;
 
@@ -62,7 +62,7 @@ impl VisitedCells {
         &self.visited
     }
 
-    /// Whether the cell of this impact has been visited; beyond the top none has.
+    /// Whether the cell of this impact has been visited; false beyond the top.
     #[must_use]
     pub fn contains(&self, state: ImpactState) -> bool {
         cell(self.side, self.top, state).is_some_and(|cell| self.visited.binary_search(&cell).is_ok())

@@ -1,4 +1,4 @@
-//! What is seen of the orbits of starts: whether they rest, repeat themselves, or come back to cells.
+//! The observed fate of the orbits of starts: whether they rest, repeat, or return to cells.
 
 use core::ops::ControlFlow;
 

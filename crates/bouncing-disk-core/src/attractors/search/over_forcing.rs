@@ -31,13 +31,13 @@ pub struct FollowedAttractor {
 pub struct AttractorsAt {
     /// Gamma.
     pub axial_forcing: f64,
-    /// What there is, with the shares of the trapping region at this forcing.
+    /// The attractors, with their shares of the trapping region at this forcing.
     pub attractors: Attractors,
     /// Which of [`BasinFractions::followed`] each of them is.
     pub followed: Vec<usize>,
     /// How far each of them is from where it was at the forcing before (rad; a radian counts as much as the
     /// speed P at this one): the mean distance of an impact of one from the nearest of the other, the larger of both ways.
-    /// `None` of one that appears, and of the disk at rest.
+    /// `None` for one that appears, and for the disk at rest.
     pub moved: Vec<Option<f64>>,
 }
 
@@ -167,9 +167,10 @@ pub(super) fn matched(
 }
 
 /// The attractors at each of `forcings` (Gamma, in the order in which they are to be followed) for this
-/// restitution, and which is which: each is the one of the forcing before that is nearest to it, if it is within
-/// `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that is nobody's vanishes. An orbit
-/// that doubles its period goes on as the doubled one, next to which it lies.
+/// restitution, matched from forcing to forcing: each is the one of the forcing before that is nearest to it,
+/// if within
+/// `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that none continues vanishes. An
+/// orbit that doubles its period continues as the doubled one next to it.
 ///
 /// The items of `observer` are the forcings.
 ///
@@ -202,10 +203,10 @@ pub fn basin_fractions_over(
 }
 
 impl BasinFractions {
-    /// These with the attractors at more forcings, which follow those that are there: the very same as if all had
-    /// been given at once, also after it has been stored.
+    /// Adds the attractors at more forcings after the present ones: the same result as if all had been given
+    /// at once, also after storing.
     ///
-    /// A long list of forcings is stopped and gone on with in this way, some forcings at a time.
+    /// In this way a long list of forcings is computed in parts.
     ///
     /// The items of `observer` are the forcings that are added.
     ///

@@ -1,4 +1,4 @@
-//! How attractors are looked for.
+//! How attractors are searched for.
 
 use super::cells::VisitedCells;
 use crate::attractors::verdict::VerdictSettings;
@@ -7,7 +7,7 @@ use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::MAX_PERIOD;
 use crate::orbits::periodic::search::OrbitSearch;
 
-/// How attractors are looked for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
+/// How attractors are searched for ([`ImpactMap::attractors`](crate::ImpactMap::attractors)).
 ///
 /// ```
 /// use bouncing_disk_core::attractors::AttractorSearch;
@@ -58,9 +58,9 @@ impl AttractorSearch {
     /// Most impacts.
     pub const MAX_IMPACTS: u64 = 1 << 40;
 
-    /// The same from so many starts in [0, 2^18], spread evenly over the trapping region. Default 1,024: of
-    /// these an attractor whose basin has a share of 1 % of the region is missed once in 30,000 at most, if
-    /// they were random. Without any there are only the candidates.
+    /// The same from this number of starts in [0, 2^18], spread evenly over the trapping region. Default
+    /// 1,024: if they were random, an attractor whose basin has a share of 1 % of the region would be
+    /// missed once in 30,000 at most. With 0 there are only the candidates.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.
@@ -69,8 +69,8 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with these numbers of impacts: `transient` in [1, 2^40] that are not looked at (default
-    /// 2,000), and then `impacts` in [64, 2^40], over which one orbit of each attractor that is not periodic
+    /// The same with these numbers of impacts: `transient` in [1, 2^40] that are skipped (default 2,000),
+    /// and then `impacts` in [64, 2^40], over which one orbit of each attractor that is not periodic
     /// is followed (default 100,000). All other starts are followed for twice the transient at most.
     ///
     /// # Errors
@@ -89,8 +89,8 @@ impl AttractorSearch {
         search.check().map(|()| search)
     }
 
-    /// The same with so many cells in [8, 4096] along both axes of the grid by which attractors are told apart
-    /// that are not periodic. Default 256.
+    /// The same with this number of cells in [8, 4096] along both axes of the grid that distinguishes
+    /// aperiodic attractors. Default 256.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the number.
@@ -126,7 +126,7 @@ impl AttractorSearch {
         self.starts
     }
 
-    /// Impacts that are not looked at.
+    /// Impacts that are skipped.
     #[must_use]
     pub const fn transient(&self) -> u64 {
         self.transient

@@ -18,13 +18,13 @@ const TRANSIENT: usize = 2_000;
 /// Fewest orbits that came to rest for a mean life to count in the power law.
 const FEWEST_ENDED: u64 = 20;
 
-/// Beyond a crisis: how long orbits live that start where the attractor was.
+/// The mean life, beyond a crisis, of orbits that start where the attractor was.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MeanLife {
     /// Gamma less that of the crisis, above 0.
     pub beyond: f64,
-    /// Impacts of all orbits together over those that came to rest: the mean life of an exponential law, also
+    /// Impacts of all orbits over the number that came to rest: the mean life of an exponential law, also
     /// where some orbits were not followed to their end. The largest double if none came to rest.
     pub impacts: f64,
     /// Its standard error, relative to it; the largest double if none came to rest.
@@ -60,14 +60,15 @@ impl MeanLife {
 pub struct CrisisLives {
     /// The mean lives, in the order in which their distances from the crisis were given.
     pub lives: Vec<MeanLife>,
-    /// The power law of the mean life over the distance from the crisis, of the lives that 20 orbits or more
-    /// ended; or why there is none. Its exponent is negative.
+    /// The power law of the mean life over the distance from the crisis, from distances at which 20 orbits
+    /// or more came to rest; or why there is none. Its exponent is negative.
     pub scaling: Result<PowerLaw, NoPowerLaw>,
 }
 
 impl Crisis {
     /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of
-    /// their mean life. So many `orbits` in [1, 1e6] start from one orbit on the attractor just below the
+    /// their mean life. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below
+    /// the
     /// crisis, and are followed for at most `impacts` >= 1.
     ///
     /// The items of `observer` are the orbits at one distance, from 0 on for each.

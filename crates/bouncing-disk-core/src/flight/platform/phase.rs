@@ -10,16 +10,17 @@ use crate::numerics::stored::read_checked;
 ///
 /// The three travel together because an impact is found with all of them known: an orbit that carries the pair
 /// does not pay for it again at the next launch. The carried pair may differ from
-/// [`sin_cos`] of the angle, in the last place after a flight of more than half a radian, so a chaotic orbit is only continued bit for bit from all three numbers.
+/// [`sin_cos`] of the angle, in the last place after a flight of more than half a radian, so a chaotic orbit
+/// continues bit for bit only from all three numbers.
 ///
 /// How far the two may drift apart: a flight of more than half a radian evaluates the pair anew, so that it agrees with the
 /// angle to 7e-16. A shorter one turns the pair that it started with, and both it and the angle are rounded: with each further
-/// flight in an unbroken sequence of short ones they may part by 7e-16 more at most. Measured are 8e-13 after 1e7 flights, as
-/// of roundings of either sign. An attachment begins a new pair, so that the sequence is that of one chatter: some hundred
-/// flights at restitution 0.5.
+/// flight in an unbroken sequence of short ones they may part by 7e-16 more at most. Measured: 8e-13 after
+/// 1e7 flights, as expected for roundings of either sign. An attachment begins a new pair, so that the
+/// sequence is that of one chatter: about a hundred flights at restitution 0.5.
 ///
-/// All three numbers are stored, so that an orbit goes on bit for bit from a phase that is read. One that is
-/// read has its angle in [0, 2 pi) and a pair within 1e-9 of the sine and cosine of that angle.
+/// All three numbers are stored, so that an orbit resumes bit for bit from a deserialised phase.
+/// Deserialising checks that the angle is in [0, 2 pi) and the pair within 1e-9 of its sine and cosine.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedPhase"))]

@@ -6,7 +6,7 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::stored::read_checked;
 use core::f64::consts::{PI, TAU};
 
-/// The vertical vibration of the platform, P sin tau, with what its flights need worked out once.
+/// The vertical vibration of the platform, P sin tau, with the constants of its flights computed once.
 ///
 /// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the preload
 /// acceleration. In these units P is also its amplitude and its peak speed.

@@ -11,7 +11,7 @@ use crate::numerics::stored::read_checked;
 /// never pass it; most seen: 7.
 const NEWTON_STEPS: u32 = 20;
 
-/// The restitution of viscoelastic bodies that touch as Hertz has it: at low speed 1 - r is proportional to
+/// The restitution of viscoelastic bodies in Hertzian contact: at low speed 1 - r is proportional to
 /// |w_A|^(1/5) (Kuwabara and Kono 1987).
 ///
 /// r is the solution in (0, 1] of r + x r^(3/5) = 1, with x proportional to |w_A|^(1/5): it has the first two

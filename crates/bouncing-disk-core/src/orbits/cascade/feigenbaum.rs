@@ -14,13 +14,13 @@ const CHANGES: f64 = 2.0;
 /// How much the extrapolation may enlarge the rounding of a ratio, with room to spare.
 const ENLARGED_ROUNDING: f64 = 4.0;
 
-/// What the doublings up to one of them say of Feigenbaum's constants delta = 4.6692016091... and alpha =
-/// 2.5029078750..., which nothing here knows.
+/// Estimates, from the doublings up to one of them, of Feigenbaum's constants delta = 4.6692016091... and
+/// alpha = 2.5029078750..., which are not put in.
 ///
-/// The ratios themselves come near their limits as 1/delta and -1/alpha do. This is taken out with the
-/// ratios' own values, for alpha also the part that shrinks as 1/alpha^2 (docs/numerics/dynamics.md). The
-/// error is twice the larger one of the last two changes of the extrapolated value, and what rounding may
-/// add: no bound, but what the next doubling confirms.
+/// From doubling to doubling, the ratios' distances from their limits shrink by 1/delta and -1/alpha.
+/// This part is removed with the ratios' own values, for alpha also the part that shrinks by 1/alpha^2
+/// (docs/numerics/dynamics.md). The error is twice the larger of the last two changes of the extrapolated
+/// value, plus rounding: not a bound, but confirmed by the next doubling.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FeigenbaumEstimate {
@@ -28,7 +28,7 @@ pub struct FeigenbaumEstimate {
     pub number: usize,
     /// (Gamma_(n-1) - Gamma_(n-2)) / (Gamma_n - Gamma_(n-1)).
     pub forcing_ratio: f64,
-    /// The width of the orbit of doubling n - 1 by that of doubling n.
+    /// The width of the orbit of doubling n - 1 over that of doubling n.
     pub width_ratio: f64,
     /// delta, extrapolated.
     pub delta: f64,

@@ -1,4 +1,4 @@
-//! The parts of a branch in a range of its parameter, as finely as somebody looks at them.
+//! The parts of a branch in a range of its parameter, at the resolution of a view.
 
 use super::{BifurcationKind, Branch, BranchEnd, BranchPoint, Continuation};
 use crate::numerics::error::{Error, within};
@@ -38,8 +38,8 @@ impl Branch {
     /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a part that ends in a birth
     /// by doubling and is short: close to it the two halves of the orbit cannot be told apart, and the birth follows at once.
     ///
-    /// What of the branch lies in the range does not depend on it: no branch is begun or ended by the range. A birth by
-    /// doubling, with which a branch ends, is part of it: as the halved orbit, gone through twice.
+    /// The range only selects: it neither begins nor ends a branch. The birth by doubling that ends a branch
+    /// is part of it, as the halved orbit run through twice.
     ///
     /// ```
     /// # use bouncing_disk_core::orbits::{Continuation, ContinuationParameter};

@@ -1,4 +1,4 @@
-//! Orbits next to a fold or a doubling: where they are to the last bit, and what rounding leaves undecided
+//! Orbits next to a fold or a doubling: their positions to the last bit, and what rounding leaves undecided
 //! (docs/numerics/dynamics.md, "Orbits on the margin").
 
 use core::f64::consts::TAU;

@@ -21,7 +21,7 @@ const LONGEST_STEP: f64 = 0.7;
 pub(super) enum Attempt {
     /// A periodic orbit within the limits that repeats no shorter one, its fastest impact first.
     Converged(PeriodicOrbit),
-    /// A solution that is no orbit.
+    /// A solution that is not an orbit.
     Refused,
     /// No solution.
     NotSettled,

@@ -42,8 +42,7 @@ impl PeriodOneOrbit {
         Multipliers::of_invariants(self.trace, self.determinant)
     }
 
-    /// Whether the orbit is one of the map: no earlier impact forestalls its flight, and the disk takes off
-    /// at all.
+    /// Whether the orbit is one of the map: no earlier impact ends its flight, and the disk does take off.
     ///
     /// # Errors
     /// Those of [`ImpactMap::step`] but for [`Error::NoLiftOff`].
@@ -58,7 +57,7 @@ impl PeriodOneOrbit {
         }
     }
 
-    /// The orbit in the form of those that are searched for; `None` where it is not admissible.
+    /// The orbit as a [`PeriodicOrbit`]; `None` where it is not admissible.
     ///
     /// # Errors
     /// Those of [`Self::is_admissible`].

@@ -1,4 +1,4 @@
-//! All periodic orbits of few impacts, stable and unstable: a search that says what it covered
+//! All periodic orbits of few impacts, stable and unstable: a search that states its coverage
 //! (docs/numerics/dynamics.md, "The search for periodic orbits").
 
 use crate::flight::platform::phase::Phase;
@@ -48,7 +48,7 @@ impl OrbitSearch {
         search.check().map(|()| search)
     }
 
-    /// The same from so many starts along the axes of phase and speed, each in [2, 4096].
+    /// The same with these numbers of starts along the axes of phase and speed, each in [2, 4096].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for either number.
@@ -106,24 +106,24 @@ pub struct OrbitCoverage {
     /// g/omega).
     pub impact_speed_bound: f64,
     /// An orbit with the most impacts that were searched for cannot take more periods of the platform than
-    /// this: where the search's own limit is not below it, none is left out for its length.
+    /// this: where the search's own limit is not below it, no orbit is left out for its length.
     pub longest_platform_periods: u64,
     /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
     pub starts: u64,
     /// Starts whose orbit is proven to come to rest, or does not leave the platform, within the impacts of
     /// the longest orbit.
     pub resting_starts: u64,
-    /// First parts of orbits that were tried as a guess.
+    /// Initial parts of orbits tried as guesses.
     pub attempts: u64,
     /// Attempts that ended on a periodic orbit within the limits.
     pub converged: u64,
-    /// Attempts that ended on a solution that is no orbit: a disk at rest, no period of the platform, or more
-    /// than the limit.
+    /// Attempts that ended on a solution that is not an orbit: a disk at rest, no period of the platform, or
+    /// more than the limit.
     pub refused: u64,
     /// Attempts whose Newton iteration did not settle.
     pub not_settled: u64,
-    /// How many of the orbits are also found from every other start along both axes alone: where it is all of
-    /// them, a grid of twice the distance would have done.
+    /// How many of the orbits are also found from every other start along both axes alone: if all are, a grid
+    /// of twice the spacing would have sufficed.
     pub found_by_coarser: u64,
     /// How many orbits a single attempt found. Its share of `converged` estimates the share of further
     /// attempts that would find yet another orbit (Good and Turing).
@@ -154,9 +154,9 @@ impl ImpactMap {
     /// Those of one impact come from the closed form and are complete. All others are found by Newton's
     /// method on all impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over
     /// all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where
-    /// a flight ends, so that what converges is an orbit of it. A search from a grid proves nothing about
-    /// what it did not find: [`OrbitCoverage`] says what was tried, and whether half the resolution would
-    /// have found the same.
+    /// a flight ends, so that a converged solution is an orbit of it. A search from a grid cannot prove that
+    /// it is complete: [`OrbitCoverage`] tells what was tried, and whether half the resolution would have
+    /// found the same.
     ///
     /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a doubling
     /// they do if their [errors](PeriodicOrbit::position_error) overlap.

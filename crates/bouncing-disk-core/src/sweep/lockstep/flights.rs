@@ -1,4 +1,4 @@
-//! Flights in lockstep for those who add something to each: rows of impacts instead of one impact after the other.
+//! Flights in lockstep for callers that add something to each: rows of impacts instead of single ones.
 
 use core::f64::consts::TAU;
 
@@ -63,7 +63,7 @@ pub struct LaneImpacts<'a> {
     pub cos: &'a [f64; LANES],
     /// Relative axial velocities w_A just before the impact, <= 0, in units of g/omega.
     pub velocity: &'a [f64; LANES],
-    /// How often the phase passed 0 (mod 2 pi) during the flight; where this is negative it is rounding, and none.
+    /// How often the phase passed 0 (mod 2 pi) during the flight; a negative value is rounding and means 0.
     pub turns: &'a [f64; LANES],
     /// Phases (rad) that the flights left from.
     launched: &'a [f64; LANES],
@@ -75,7 +75,7 @@ impl LaneImpacts<'_> {
     /// Duration of the flight of a lane of the batch (rad): [`Impact::duration`](crate::Impact::duration).
     ///
     /// # Panics
-    /// For a lane that the rows do not have, as they do.
+    /// For a lane that the rows do not have.
     #[must_use]
     #[inline(always)]
     pub fn duration(&self, lane: usize) -> f64 {
@@ -152,7 +152,8 @@ impl Flights {
     /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
     /// in [0, 1); another number counts as zero.
     ///
-    /// Where the bits of `may_rest` are zero then, the disk goes on bouncing: [`crate::ImpactMap::accumulation`] is `None`.
+    /// Where the bits of `may_rest` are then zero, the disk keeps bouncing:
+    /// [`crate::ImpactMap::accumulation`] is `None`.
     pub fn rebound(&mut self, batch: usize, restitution: &[f64; LANES], may_rest: &mut [u64; LANES]) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
         self.scheduler.dispatch().run(Rebound { rows: batch.rebounding(), restitution, may_rest });
@@ -194,8 +195,8 @@ impl Flights {
     }
 }
 
-/// Runs loops with the vector instructions of the processor where there are no [`Flights`]: one flight may carry many
-/// things along.
+/// Runs loops with the vector instructions of the processor without [`Flights`], for one flight that carries
+/// many things along.
 #[derive(Debug, Clone, Copy)]
 pub struct LaneRunner(Dispatch);
 

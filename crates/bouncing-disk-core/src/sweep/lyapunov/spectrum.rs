@@ -1,5 +1,5 @@
 //! Both Lyapunov exponents of an orbit, by QR, with the standard error of the largest, or the reason why
-//! there are none.
+//! it has none.
 
 use core::ops::ControlFlow;
 
@@ -26,11 +26,11 @@ pub struct LyapunovSpectrum {
     /// The other exponent; `None` for restitution 0, where the map forgets one of its two dimensions at every
     /// impact and the exponent is minus infinity.
     pub second: Option<f64>,
-    /// What the sum of both must be over these very impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the
-    /// impact velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
+    /// The exact sum of both over these impacts: 2 ln(restitution) + ln(v_0/v_n)/n with the impact
+    /// velocities before the first and after the last of n flights. It tends to 2 ln(restitution).
     /// `None` for restitution 0.
     pub exact_sum: Option<f64>,
-    /// Impacts that the perturbations were followed through.
+    /// Impacts through which the perturbations were followed.
     pub impacts: u64,
 }
 
@@ -39,16 +39,16 @@ pub struct LyapunovSpectrum {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum LyapunovOutcome {
-    /// The orbit has flown on for as many impacts as were asked for.
+    /// The orbit lasted for the requested number of impacts.
     Exponents(LyapunovSpectrum),
     /// The disk came to rest on the platform. The motion after a rest does not depend on the one before, so
-    /// that the orbit of the map has no exponent: [`ImpactMap::verdict`] says what the disk does.
+    /// that the orbit of the map has no exponent: [`ImpactMap::verdict`] tells what the disk does.
     Rested {
         /// Impacts before the rest, those of the transient among them.
         impacts: u64,
     },
-    /// An impact has no speed, or one so small that the derivative exceeds what a double holds: nothing can
-    /// be said of the growth beyond it.
+    /// An impact has no speed, or one so small that the derivative exceeds what a double holds: the growth
+    /// beyond it is undefined.
     Grazed {
         /// Impacts up to this one, those of the transient among them.
         impacts: u64,
@@ -138,8 +138,8 @@ impl Followed {
 }
 
 /// Both Lyapunov exponents per impact of each orbit of `starts`, over `impacts` >= 16 impacts after
-/// `transient` ones, with the standard error of the largest; of an orbit that has none the reason. The orbits
-/// are advanced in lockstep.
+/// `transient` ones, with the standard error of the largest; for an orbit without exponents the reason. The
+/// orbits are advanced in lockstep.
 ///
 /// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the rounding of
 /// its sum.

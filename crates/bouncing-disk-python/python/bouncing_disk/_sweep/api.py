@@ -58,28 +58,28 @@ def sweep(
 ) -> SweepResult:
     """Compute a function at every point of a grid: in processes of this machine, or on a Dask cluster.
 
-    The results have the same bits for any cluster, as long as those of a point do not depend on the points
-    that it is computed with. So it is with every function of this package.
+    The results have the same bits for any cluster, if those of a point do not depend on the other points
+    of its chunk. This holds for every function of this package.
 
     Args:
         function: called with keywords: for each axis an array with its values at the points of a chunk (all
             of one length, at most `chunk_size`), and the `arguments`. It returns one result for each point:
             an array whose first axis is that of the points, or a mapping of names to such arrays. Their types
             may change from point to point: the result has one that holds all, where integers become floats
-            and floats complex numbers. Truth values and texts mix with nothing, nor do integers beyond 2^53
-            with floats.
+            and floats complex numbers. Booleans and texts do not mix with other types, nor integers beyond
+            2^53 with floats.
         grid: the axes by their names. The points are their Cartesian product, the last axis fastest. An axis
             without values makes a grid without points, for which the function is not called, shape (n,).
         client: the client of a cluster of your own (``dask_jobqueue.SLURMCluster``, ``dask_kubernetes``,
             ``SSHCluster`` ...). By default local processes, one for each processor; without Dask, and with
             ``"serial"``, this process. Its workers must have the versions of this package and of NumPy that
             the caller has.
-        arguments: what the function is called with at every point: numbers, text, arrays, objects of this
+        arguments: arguments of the function at every point: numbers, text, arrays, objects of this
             package.
-        folder: where each finished chunk is stored at once, by the process that calls. The same call goes on
-            where an earlier one was ended, on any cluster. The folder of another sweep is refused; a chunk
+        folder: where the calling process stores each finished chunk at once. The same call resumes where an
+            earlier one ended, on any cluster. The folder of another sweep is refused; a chunk
             that is damaged is computed again.
-        chunk_size: points of a chunk; by default so many that there are 256 chunks, at most 65,536.
+        chunk_size: points of a chunk; by default enough for 256 chunks, at most 65,536.
         pointwise: call the function for each point alone: with plain numbers, for a number, an array, or a
             mapping of them.
         max_failures: give up when more points fail than this.
@@ -92,15 +92,15 @@ def sweep(
     Raises:
         SweepFailedError: The function raised exceptions. The points are named; all others are computed, kept
             in the folder, and in the error's `result`. The same call tries the failed points again.
-        SweepFolderError: The folder is in use, of another sweep, or cannot be written in.
+        SweepFolderError: The folder is in use, belongs to another sweep, or is not writable.
         SweepFunctionError: The function has no lasting name (with a folder), cannot be sent to workers, or
-            returns no array, or what no type holds.
+            returns no array, or values that no type holds.
         SweepClusterError: Workers lack this package, or have other versions of it or of NumPy; nothing has
             been computed by them.
 
     Notes
-    An interrupt (Ctrl-C) leaves the finished chunks in the folder. In a script, call this behind
-    ``if __name__ == "__main__":``, as everything that starts processes.
+    An interrupt (Ctrl-C) leaves the finished chunks in the folder. In a script, call this under
+    ``if __name__ == "__main__":``, like everything that starts processes.
 
     >>> import bouncing_disk as bd
     >>> def area(width, height):
@@ -122,7 +122,7 @@ def sweep(
 
 
 def _outcomes(job: Job, tasks: list[Task], client: Any, stack: ExitStack) -> Any:
-    """Who computes: what the caller said, or what is there."""
+    """The runner: the caller's choice, or whatever is available."""
     if client is None and has_distributed():
         client = stack.enter_context(local_client(len(tasks)))
     if client is None or client == "serial":
@@ -131,7 +131,7 @@ def _outcomes(job: Job, tasks: list[Task], client: Any, stack: ExitStack) -> Any
 
 
 class _Run:
-    """One sweep: what is stored already, what is to be done, and what comes in."""
+    """One sweep: its stored, open and incoming chunks."""
 
     def __init__(
         self,
@@ -167,7 +167,7 @@ class _Run:
             self.journal = Journal(_lasting_path(folder), identity, self.grid)
 
     def tasks(self) -> list[Task]:
-        """The points of each chunk that must be computed, now that what is stored has been read."""
+        """The points of each chunk that must be computed, after reading the stored ones."""
         tasks: list[Task] = []
         for chunk in range(self.chunks.count):
             start, stop = self.chunks.span(chunk)
@@ -184,7 +184,7 @@ class _Run:
         return tasks
 
     def collect(self, outcomes: Iterator[tuple[int, Outcome]]) -> None:
-        """Put together and store what comes in."""
+        """Combine and store incoming chunks."""
         failed = 0
         for chunk, outcome in outcomes:
             start, stop = self.chunks.span(chunk)
@@ -221,7 +221,7 @@ class _Run:
         return tuple(failure.at(self.grid) for failure in failures)
 
     def result(self) -> SweepResult:
-        """The whole, or the error that has it."""
+        """The whole result, or the error that carries it."""
         failed: npt.NDArray[np.bool_] = np.zeros(self.grid.shape, dtype=np.bool_)
         points = self._failed_points()
         for point in points:
@@ -233,7 +233,7 @@ class _Run:
 
 
 def _lasting_path(folder: str | os.PathLike[str]) -> Path:
-    """The folder, wherever the process goes meanwhile."""
+    """The folder, even if the process changes its working directory."""
     if not os.fspath(folder):
         raise SweepFolderError("the name of the folder is empty", "", "cannot-write")
     return Path(os.path.abspath(Path(folder).expanduser()))
@@ -255,7 +255,7 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
             that failed are in `failed`.
 
     Raises:
-        SweepFolderError: No sweep is there, a chunk is missing or damaged, or a file is of another one.
+        SweepFolderError: The folder has no sweep, a chunk is missing or damaged, or a file belongs to another one.
     """
     path = _lasting_path(folder)
     described = open_description(path)

@@ -1,4 +1,4 @@
-"""The exceptions and warnings of sweeps. Each carries what is needed to see why, and pickles."""
+"""The exceptions and warnings of sweeps. Each carries the details needed to see why, and can be pickled."""
 
 from __future__ import annotations
 
@@ -52,12 +52,12 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
 
 
 class SweepClusterError(BouncingDiskError, RuntimeError):
-    """A cluster cannot be used: its workers would not compute what this process would.
+    """A cluster cannot be used: its workers might compute other results than this process.
 
     Attributes:
         kind: why: ``"versions"`` if this package or NumPy have other versions there or are missing,
             ``"closed"`` if the client is.
-        workers: the versions that each worker has which differs, by its address: of ``"bouncing-disk"`` and
+        workers: the versions of each differing worker, by its address: of ``"bouncing-disk"`` and
             ``"numpy"``.
     """
 
@@ -72,8 +72,8 @@ class SweepFolderWarning(UserWarning):
 
 
 class SweepFunctionError(BouncingDiskError, TypeError):
-    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns what has
-    no array.
+    """A function that cannot be swept: it has no lasting name, cannot be sent to workers, or returns no
+    array.
 
     Attributes:
         function: its name.

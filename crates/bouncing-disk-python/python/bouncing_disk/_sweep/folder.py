@@ -1,6 +1,6 @@
-"""The folder of a sweep: what it is known by, its lock, its files, and the chunks that are kept.
+"""The folder of a sweep: its identity, its lock, its files, and the stored chunks.
 
-A folder that holds another sweep is refused by the name of what differs. Files are written whole or not at all, and
+A folder that holds another sweep is refused, naming the difference. Files are written whole or not at all, and
 read with every byte checked.
 """
 
@@ -43,7 +43,7 @@ def function_name(function: Callable[..., Any]) -> str:
 
 
 def lasting_name(function: Callable[..., Any]) -> str:
-    """The full name of a function by which a later run knows it again."""
+    """The full name of a function by which a later run recognises it."""
     name = function_name(function)
     # Of a compiled function this is its module.
     owner = getattr(function, "__self__", None)
@@ -165,7 +165,7 @@ _KNOWN: dict[str, str] = {}
 
 
 def versions() -> dict[str, str]:
-    """The versions of what the bits depend on: this package, and NumPy for functions of the caller."""
+    """The versions on which the bits depend: of this package, and of NumPy for functions of the caller."""
     if not _KNOWN:
         for package in PACKAGES:
             try:
@@ -180,7 +180,7 @@ UNFINISHED = ".unfinished"
 
 
 class Damaged(Exception):
-    """A file that is not what was written; the message says why."""
+    """A file that differs from what was written; the message says why."""
 
 
 class StoredChunk(NamedTuple):
@@ -207,7 +207,7 @@ def write_whole(path: Path, content: bytes) -> None:
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """A description; :class:`Damaged` if it is none of ours."""
+    """A description; :class:`Damaged` if it is not one of ours."""
     try:
         if not path.is_file():
             raise Damaged("it is not a file")
@@ -271,7 +271,7 @@ _LOCKED_BYTE = 1 << 20
 
 
 class FolderLock:
-    """Held from its making until :meth:`release`; never waited for."""
+    """A lock held from creation until :meth:`release`; never waited for."""
 
     def __init__(self, folder: Path) -> None:
         path = folder / LOCK_FILE
@@ -383,7 +383,7 @@ class Journal:
             raise self._refused(f"holds another sweep: {found}", "another-sweep")
 
     def read(self, chunk: int) -> StoredChunk | None:
-        """A finished chunk; None if it is not there or damaged, which is told by a warning."""
+        """A finished chunk; None if it is missing or damaged, with a warning in the latter case."""
         path = chunk_path(self.folder, chunk)
         if not path.exists():
             return None

@@ -51,7 +51,7 @@ class Grid:
             raise TooLargeError(message, "points", self.points, _MOST_POINTS)
 
     def index(self, point: int) -> tuple[int, ...]:
-        """Where a point stands, one number for each axis."""
+        """The place of a point, one number for each axis."""
         return tuple(int(place) for place in np.unravel_index(point, self.shape))
 
     def values(self, point: int) -> dict[str, Any]:
@@ -105,7 +105,7 @@ class Lossy(ValueError):
 
 
 def joined(one: np.dtype[Any], other: np.dtype[Any]) -> np.dtype[Any] | None:
-    """The type that holds the values of both; None if there is none that is safe."""
+    """The type that holds the values of both; None if none is safe."""
     if one == other:
         return one
     if one.names is not None or other.names is not None:
@@ -200,7 +200,7 @@ class Chunks:
             raise TooLargeError(message, "chunks", self.count, _MOST_CHUNKS)
 
     def span(self, chunk: int) -> tuple[int, int]:
-        """The first point of a chunk, and the first one behind it."""
+        """The first point of a chunk, and the first one after it."""
         return chunk * self.size, min((chunk + 1) * self.size, self._points)
 
 
@@ -252,14 +252,14 @@ class Assembly:
         return wider
 
     def whole(self, failed: npt.NDArray[np.bool_]) -> Array:
-        """All results, in the shape of the grid; where the function failed, what says so in their type."""
+        """All results, in the shape of the grid; where the function failed, the marker of their type."""
         values: Array = np.zeros(self._grid.points) if self._values is None else self._values
         values[failed.ravel()] = filled((1, *values.shape[1:]), values.dtype)
         return values.reshape(*self._grid.shape, *values.shape[1:])
 
 
 def filled(shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """An array that says nothing yet: NaN where there is such a number, else zeros."""
+    """An empty array: NaN if the type has it, else zeros."""
     array: Array = np.zeros(shape, dtype)
     if dtype.names is not None:
         for name in dtype.names:

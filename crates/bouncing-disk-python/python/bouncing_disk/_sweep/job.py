@@ -1,4 +1,4 @@
-"""What a worker does: the function at the points of one chunk.
+"""The job of a worker: the function at the points of one chunk.
 
 Nothing here knows of folders, clusters or progress, so that a chunk has the same bits wherever it is
 computed.
@@ -57,7 +57,7 @@ class _GivenUp(Exception):
 
 @dataclass(frozen=True)
 class Job:
-    """A function with all that it is called with."""
+    """A function with all its arguments."""
 
     function: Callable[..., Any]
     grid: Grid
@@ -125,7 +125,7 @@ class Job:
             raise _GivenUp
 
     def _array(self, returned: Any, count: int | None) -> Array:
-        """What the function returned for so many points (None: for one of them, without an axis for it)."""
+        """The function's result for a number of points (None: for one, without an axis for it)."""
         if isinstance(returned, Mapping):
             return self._structured(
                 {str(name): self._plain(value, count) for name, value in returned.items()}
@@ -162,7 +162,7 @@ class Job:
         return array
 
     def put_together(self, count: int, pieces: Sequence[Piece]) -> Array | None:
-        """Pieces of results put together; what is missing is filled up."""
+        """Pieces of results put together; missing ones are filled."""
         if not pieces:
             return None
         first = pieces[0][1]

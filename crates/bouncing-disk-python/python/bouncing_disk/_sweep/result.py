@@ -26,7 +26,7 @@ _ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": 
 
 
 def write_netcdf(dataset: Any, path: str | os.PathLike[str]) -> None:
-    """A dataset as a file, written beside its place and renamed into it."""
+    """A dataset as a file, written under a temporary name and renamed."""
     plain = _plain(dataset)
     engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
     if engine is None:
@@ -91,13 +91,13 @@ class SweepResult:
     """The results of a sweep on its grid. NumPy takes it for an array.
 
     Attributes:
-        values: the results: one axis for each axis of the grid, in its order, and those of one result behind
-            them. A structured array if the function returns a mapping of names.
+        values: the results: one axis for each axis of the grid, in its order, followed by those of one
+            result. A structured array if the function returns a mapping of names.
         axes: the axes of the grid, shape (n,).
         failed: where the function raised an exception; the shape is that of the grid. `values` is NaN there,
             or 0.
         function: the name of the function.
-        arguments: what it was called with at every point.
+        arguments: its arguments at every point.
         version: the version of this package.
     """
 
@@ -148,7 +148,7 @@ class SweepResult:
                 or "result" if it has none.
 
         Returns:
-            One variable, or one for each field. Where the function failed, it is what `values` is.
+            One variable, or one for each field. Where the function failed, it equals `values`.
         """
         try:
             xarray_module: Any = import_module("xarray")
@@ -190,7 +190,7 @@ class SweepResult:
         and so is a complex axis, beside a dimension without coordinates.
 
         Args:
-            path: the file. It is written beside its place and renamed into it.
+            path: the file. It is written under a temporary name and renamed.
             name: as in `to_xarray`.
 
         Raises:
@@ -205,7 +205,7 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
 
     Attributes:
         failures: the points, in the order of the grid.
-        result: what was computed, with ``result.failed`` where it was not; ``None`` if the sweep was given up
+        result: the computed results, with ``result.failed`` for the missing ones; ``None`` if the sweep was given up
             because more points failed than ``max_failures``.
     """
 

@@ -18,7 +18,7 @@ from bouncing_disk._sweep.job import Job, Outcome
 
 
 def check_client(client: Any) -> None:
-    """Refuse what is no client of a cluster, before anything else is done."""
+    """Refuse anything but a client of a cluster, before all else."""
     if client is None or (isinstance(client, str) and client == "serial"):
         return
     wanted = 'client must be a distributed.Client, "serial" or None'
@@ -53,7 +53,7 @@ def _asked() -> Callable[[tuple[str, ...]], dict[str, str]]:
 
 
 def check_versions(client: Any) -> None:
-    """Refuse workers with other versions than this process has. Who joins later is asked with each chunk."""
+    """Refuse workers with versions other than this process has. Later ones are checked with each chunk."""
     told: Mapping[str, Any] = client.run(_asked(), PACKAGES, on_error="return")
     # One that died before it answered is none any more.
     answers = {worker: found for worker, found in told.items() if not isinstance(found, BaseException)}
@@ -131,8 +131,8 @@ def _processors() -> int:
 def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterator[tuple[int, Outcome]]:
     """Chunks in the order in which the cluster finishes them.
 
-    Dask computes those of a worker that died again. What is not finished when the iterator is closed is
-    cancelled.
+    Dask recomputes those of a worker that died. Unfinished ones are cancelled when the iterator is
+    closed.
     """
     _check_sendable(job)
     check_versions(client)
@@ -194,7 +194,7 @@ def _compute(job: Job, points: Any) -> Outcome:
 
 
 def _check_sendable(job: Job) -> None:
-    """Refuse what cannot be sent to workers, before it is tried with all of them."""
+    """Refuse functions that cannot be sent to workers, before trying all of them."""
     try:
         import_module("distributed.protocol.pickle").dumps((job.function, job.arguments))
     except Exception as error:

@@ -1,7 +1,7 @@
-"""The paper's figures of a system of one's own, by Matplotlib: ``from bouncing_disk import plot``.
+"""The paper's figures for your own system, by Matplotlib: ``from bouncing_disk import plot``.
 
-Each function takes a system, a map or a motor, computes what it shows, and draws it; or it takes results that
-are there already. It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a
+Each function takes a system, a map or a motor, computes its data and draws them, or takes existing results.
+It returns ``(fig, ax)``, and draws into `ax` if that is given. The look is that of a
 journal: ticks inside on all sides, serif text, units on every axis. It is set for these figures alone, not
 for yours.
 

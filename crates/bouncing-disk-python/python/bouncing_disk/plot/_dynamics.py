@@ -61,7 +61,7 @@ def orbit_diagram(
 
     Args:
         diagram: what is drawn, with a legend if it has names.
-        restitution: coefficient of restitution, if none is given.
+        restitution: coefficient of restitution, without a diagram.
         axial_forcing: lowest and highest axial forcing parameter Gamma.
         columns: forcings, one at least.
         transient, recorded: impacts that are left out, and drawn, at each of them.
@@ -136,7 +136,7 @@ def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
 
 
 def dot_size(points: int) -> float:
-    """The size of a point of so many: each of few is seen, and many make lines."""
+    """The size of a point among many: few are visible singly, and many make lines."""
     return float(np.clip(_LARGE_DOT - (_LARGE_DOT - _DOT) * points / _MANY, _DOT, _LARGE_DOT))
 
 

@@ -1,4 +1,4 @@
-"""What all figures share: their look, their axes, their words and units, and the checks of what users give."""
+"""The common parts of all figures: look, axes, words and units, and the checks of user input."""
 
 from __future__ import annotations
 
@@ -60,9 +60,9 @@ _STYLE: dict[str, Any] = {
 def style() -> Iterator[None]:
     """The look of these figures, for others of the same document: ``with plot.style(): ...``.
 
-    Only the settings that make it are changed, and put back. (``rc_context`` puts back all. A notebook makes
-    Matplotlib interactive when the first figure is made; if that was undone, the notebook would show no
-    figure any more.)
+    Only the settings of this look are changed, and restored. (``rc_context`` restores all. A notebook makes
+    Matplotlib interactive with the first figure; if that were undone, the notebook would show no more
+    figures.)
     """
     settings = pyplot().rcParams
     before = {name: settings[name] for name in _STYLE}

@@ -47,7 +47,7 @@ def motor_transient(
         runs: what is drawn; of a motor, run-ups that are computed.
         members: how many, of a motor.
         duration: how long they last (s), of a motor; by default eight of its time constants.
-        intervals: intervals that the speed is averaged over, of a motor.
+        intervals: intervals over which the speed is averaged, of a motor.
         seed: seed of the perturbations, of a motor.
         member: which member is drawn alone, from 0 on.
         ax: where it is drawn.
@@ -99,7 +99,7 @@ def motor_transient(
 
 
 def _is_known(steady: bd.Spread, constant: bd.Spread, end: float) -> bool:
-    """Whether the fit of the means says anything.
+    """Whether the fit of the means is meaningful.
 
     A rise that takes longer than the run-up is not known from it, and neither is a mean that is smaller than
     twice its own error.
@@ -139,9 +139,9 @@ def torque_speed(
 
     Args:
         curve: what is drawn; of a motor, a curve that is computed.
-        load_torques: the loads (N m), of a motor; by default twelve from none to the stall load, shape (n,).
-        relative_error: standard error of the speeds that is asked for, relative to the speed without load, of
-            a motor.
+        load_torques: the loads (N m), of a motor; by default twelve from zero to the stall load, shape (n,).
+        relative_error: requested standard error of the speeds, relative to the speed without load, of a
+            motor.
         ax: where it is drawn. The power has an axis of its own on the right.
 
     Returns:

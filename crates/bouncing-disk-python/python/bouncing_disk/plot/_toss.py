@@ -1,4 +1,4 @@
-"""Tosses: their motion (Fig. 5), and a film of it."""
+"""Tosses: their motion (Fig. 5), and an animation of it."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def trajectory_of(
 
 
 def enough_samples(trajectory: bd.Trajectory) -> int:
-    """So many that the oscillation of the platform is seen as one."""
+    """Enough to show the oscillation of the platform as one."""
     periods = (trajectory.end_time - trajectory.start_time) / trajectory.system.period
     return int(np.clip(_SAMPLES_PER_PERIOD * periods, _LEAST_SAMPLES, _MOST_SAMPLES))
 
@@ -65,7 +65,7 @@ def toss(
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """Height and angle of disk and platform over time, with the events, as Fig. 5 of the paper.
 
-    Of a motion with more than 400 events, the events are left out: they would cover the curves.
+    Events of a motion with more than 400 are left out: they would cover the curves.
 
     Args:
         motion: what is drawn; of a system, its toss until the disk lands.
@@ -155,12 +155,12 @@ def toss_animation(
     Args:
         motion: what is shown; of a system, its toss until the disk lands.
         initial_spin: how the toss of a system starts, as of ``toss_trajectory``.
-        slow_motion: how many times longer the film lasts than the motion.
+        slow_motion: how many times longer the animation lasts than the motion.
         frames: pictures, two at least; by default 30 a second, and not more than 100000.
 
     Returns:
         ``animation.save("toss.gif")`` writes it, ``HTML(animation.to_jshtml())`` shows it in a notebook. Keep
-            it in a variable: Matplotlib ends an animation that nobody holds.
+            it in a variable: Matplotlib ends an animation without a reference.
     """
     trajectory = trajectory_of(motion, initial_spin)
     duration = trajectory.end_time - trajectory.start_time

@@ -1,7 +1,7 @@
-//! Reads measured speeds from separated values, and says exactly where they are malformed.
+//! Reads measured speeds from separated values, and locates every malformed place.
 //!
-//! What the file means is never guessed: a column has its unit in its name, in the row below the header, or by the
-//! caller; a comma that may be a decimal mark or separate thousands is refused.
+//! Nothing is guessed: a column has its unit in its name, in the row below the header, or from the caller; a
+//! comma that may be a decimal mark or separate thousands is refused.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -41,10 +41,10 @@ const LEAST_POINTS: usize = 3;
 /// How many characters of a text a message shows.
 const SHOWN: usize = 40;
 
-/// What the caller says of the columns of a file; what is `None` the file must say itself.
+/// The caller's description of the columns of a file; the file itself must state whatever is `None`.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CsvColumns {
-    /// The column of the times. If it or that of the speeds is named, columns of other names are passed over.
+    /// The column of the times. If it or that of the speeds is named, columns of other names are ignored.
     pub time: Option<String>,
     /// The column of the speeds.
     pub speed: Option<String>,
@@ -56,25 +56,26 @@ pub struct CsvColumns {
 
 impl MeasuredSpeeds {
     /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs,
-    /// `member` (a whole number), or with times and speeds in other units that it names. Feature `csv`.
+    /// `member` (a whole number), or with times and speeds in other units stated in the file. Feature `csv`.
     ///
     /// The header is the first line that names the columns, in any order; text before it, a row of units below it, blank
     /// lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by commas, semicolons or tabs;
-    /// numbers have a decimal point or, if commas do not separate columns, a decimal comma. Another column is refused and
-    /// not passed over: it may be a misspelt one. Within a run the times rise; runs may follow each other or alternate. At
+    /// numbers have a decimal point or, if commas do not separate columns, a decimal comma. Another column is
+    /// refused, not ignored: it may be a misspelt one. Within a run the times rise; runs may follow each
+    /// other or alternate. At
     /// most 64 MiB, 4,000,000 lines of numbers and 65,536 bytes of one line are read.
     ///
     /// # Errors
-    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and says how to
-    /// mend them. A folder, a named pipe, a socket and a device are refused before they are opened.
+    /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and how to
+    /// correct them. A folder, a named pipe, a socket and a device are refused before they are opened.
     pub fn from_csv(path: impl AsRef<Path>) -> Result<Self, MeasuredSpeedsError> {
         Self::from_csv_with(path, &CsvColumns::default())
     }
 
-    /// [`Self::from_csv`] with columns that the caller knows more of.
+    /// [`Self::from_csv`] with columns described by the caller.
     ///
     /// # Errors
-    /// Those of [`Self::from_csv`]; a unit that is another one in the file.
+    /// Those of [`Self::from_csv`]; a unit that contradicts the file.
     pub fn from_csv_with(path: impl AsRef<Path>, columns: &CsvColumns) -> Result<Self, MeasuredSpeedsError> {
         let path = path.as_ref();
         let file = path.to_string_lossy();
@@ -86,7 +87,7 @@ impl MeasuredSpeeds {
         )
     }
 
-    /// [`Self::from_csv_with`] of a reader, whose content messages call `name`.
+    /// [`Self::from_csv_with`] of a reader, called `name` in messages.
     ///
     /// # Errors
     /// Those of [`Self::from_csv_with`].

@@ -9,7 +9,7 @@ pub(crate) const HEADER: &str = "time_s, speed_rad_s and, for repeated runs, mem
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MeasuredSpeedsError {
-    /// The system refuses, or the path is that of no regular file or of one that is too large.
+    /// The system refuses, or the path is not that of a regular file, or the file is too large.
     #[error("{file:?} cannot be read")]
     Unreadable {
         /// The file.
@@ -45,16 +45,16 @@ fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFau
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvFault {
-    /// A byte is no text in UTF-8.
+    /// A byte is not text in UTF-8.
     #[error("byte {0} is not text in UTF-8; save the file as UTF-8")]
     NotText(usize),
-    /// A line is longer than so many bytes.
+    /// A line is longer than this number of bytes.
     #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
     LongLine(usize),
     /// There is no header.
     #[error("it is empty; a line must name the columns: {HEADER}")]
     Empty,
-    /// A column has no unit that is known, or another one than the caller or the row below the header says.
+    /// A column has no known unit, or not the one stated by the caller or the row below the header.
     #[error(
         "the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in the row below it, or as an option \
          (--{name}-unit), and the same in all places"
@@ -72,10 +72,10 @@ pub enum CsvFault {
         "the decimal mark of the file is ambiguous: {0}; write one decimal mark and no separators of thousands"
     )]
     DecimalMarks(&'static str),
-    /// A quotation mark begins a field and nothing ends it on the line.
+    /// A quotation mark that begins a field is not closed on the line.
     #[error("a quotation mark is not closed on its line; close or remove it")]
     OpenQuote,
-    /// The header has a name that is not known.
+    /// The header has an unknown name.
     #[error(
         "the column {0:?} is unknown; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
          columns to read (--time-column, --speed-column)"
@@ -106,7 +106,7 @@ pub enum CsvFault {
         /// The text of the field.
         value: String,
     },
-    /// A field is no number, or none that is legal in its column.
+    /// A field is not a number, or not one that is legal in its column.
     #[error("{value:?} is not legal in the column {name}; legal is {legal}")]
     NotLegal {
         /// The name of the column.
@@ -141,7 +141,7 @@ pub enum CsvFault {
         /// The fewest.
         least: usize,
     },
-    /// There are more lines of numbers than so many.
+    /// There are more lines of numbers than this.
     #[error("there are more than {0} lines of numbers; average neighbouring ones")]
     TooLong(usize),
 }

@@ -1,4 +1,4 @@
-//! What people print of a fit: a table of its parameters, and what it does not determine in words.
+//! A fit in print: a table of its parameters, and what it leaves undetermined, in words.
 
 use std::fmt::{self, Display, Formatter};
 

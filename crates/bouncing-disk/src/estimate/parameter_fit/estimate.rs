@@ -1,9 +1,9 @@
-//! What a fit says of a parameter, and of the directions in which it says nothing.
+//! The estimate of a parameter, and the directions that a fit leaves undetermined.
 
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::parameter_fit::parameter::FitParameter;
 
-/// A parameter and what the transients say of it.
+/// A parameter and its estimate from the transients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ParameterEstimate {
@@ -11,13 +11,13 @@ pub struct ParameterEstimate {
     pub parameter: FitParameter,
     /// Its value in the data sheet, from which the search began (SI).
     pub nominal: f64,
-    /// Its value and 95 % interval (SI), within its range; `None` where it has a part in a direction that the
+    /// Its value and 95 % interval (SI), within its range; `None` if it takes part in a direction that the
     /// transients do not determine.
     pub estimate: Option<IntervalEstimate>,
 }
 
 /// A direction in the space of the fitted parameters along which the transients hardly change: they do not
-/// say where on it the motor is.
+/// determine the motor's place on it.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UndeterminedDirection {

@@ -1,4 +1,4 @@
-//! What was measured: run-ups of one motor at a known preload.
+//! Measured run-ups of one motor at a known preload.
 
 use crate::error::{Error, check, not_negative};
 use crate::estimate::measured_speeds::MeasuredSpeeds;
@@ -12,16 +12,16 @@ pub(crate) const LEAST_POINTS: usize = 8;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub enum RunPreload {
-    /// All of the force F that presses the rotor onto the stator (N), positive.
+    /// The total force F that presses the rotor onto the stator (N), positive.
     Force(f64),
     /// The acceleration g = F/m (m/s^2), positive.
     Acceleration(f64),
 }
 
-/// Run-ups from rest of one motor at one preload: one, or several that are independent of each other.
+/// Run-ups from rest of one motor at one preload: one, or several independent ones.
 ///
-/// Times count from the instant at which the motor is switched on. Only what all runs cover is used, up to the last time of the
-/// shortest.
+/// Times count from the instant at which the motor is switched on. Only the time covered by all runs is used,
+/// up to the last time of the shortest.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MeasuredTransient {
@@ -29,9 +29,9 @@ pub struct MeasuredTransient {
     pub preload: RunPreload,
     /// The runs, each of at least eight points.
     pub runs: MeasuredSpeeds,
-    /// Standard deviation of the error of one measured speed (rad/s), not negative, independent from point to point. `None` takes
-    /// what each point differs from the line between its neighbours: that counts some of the motor's own unrest as error, and
-    /// makes intervals a little wider.
+    /// Standard deviation of the error of one measured speed (rad/s), not negative, independent from point to
+    /// point. `None` takes the distance of each point from the line between its neighbours: this counts some
+    /// of the motor's own fluctuation as error, and makes intervals a little wider.
     pub speed_error: Option<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What the model says of the windows' means, member by member, and how that changes with the parameters.
+//! The model's means over the windows, member by member, and their derivatives by the parameters.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;

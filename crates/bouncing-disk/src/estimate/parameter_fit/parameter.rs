@@ -1,4 +1,4 @@
-//! The parameters of a motor that are fitted, and the coordinates in which they are.
+//! The parameters of a motor that are fitted, and their coordinates.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// A parameter of a motor that its transients may tell.
+/// A parameter of a motor that its transients may determine.
 ///
 /// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in
 /// [0, 1).
@@ -112,10 +112,10 @@ impl std::fmt::Display for FitParameter {
     }
 }
 
-/// A parameter that is fitted, and what it can be at all.
+/// A parameter to fit, and its possible range.
 ///
-/// The range is also what "determined" is measured by: a direction in which the data leave more than half of
-/// the ranges open is none that they determine.
+/// The range is also the measure of "determined": the data do not determine a direction in which they leave
+/// more than half of the ranges open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitRange {

@@ -6,7 +6,7 @@ use crate::error::{Error, check};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ParameterFitSettings {
-    /// Computed members at each preload, in [24, 4096]: what a run scatters by is known from them. Default
+    /// Computed members at each preload, in [24, 4096], from which the scatter of a run is known. Default
     /// 64.
     pub members: usize,
     /// Most windows of time over whose means a transient is compared, in [1, 12]. Each is twice as long as
@@ -21,9 +21,9 @@ pub struct ParameterFitSettings {
     pub most_evaluations: usize,
     /// Resampled fits, in [200, 100000]. Default 1000.
     pub resamples: usize,
-    /// The largest sum of weighted squares that is accepted, as a multiple of what one of 10,000 sound fits
-    /// exceeds, at least 1. Default 1. Above 1 the intervals of a fit that exceeds the latter are wider by
-    /// the root of the sum over its expectation.
+    /// The largest accepted sum of weighted squares, as a multiple of the value that one of 10,000 sound
+    /// fits exceeds, at least 1. Default 1. Above 1, the intervals of a fit that exceeds this value are
+    /// wider by the root of the sum over its expectation.
     pub largest_misfit: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The weights of the squares: what the means of a measured transient scatter by.
+//! The weights of the squares: the scatter of the means of a measured transient.
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 

@@ -1,7 +1,7 @@
-//! Resampling the residuals of one measured curve, in blocks that are longer than their memory.
+//! Resampling the residuals of one measured curve, in blocks longer than their correlation time.
 //!
-//! Every block stays where it is, is made as large as its neighbours, and is multiplied by +1 or -1 (a wild bootstrap):
-//! noise may vary along the curve.
+//! Every block stays in place, is scaled to the size of its neighbours, and is multiplied by +1 or -1 (a wild
+//! bootstrap): noise may vary along the curve.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;

@@ -1,4 +1,4 @@
-//! Where in a record a rise begins: rows before the switch-on, or of a dead time, have one speed.
+//! Where a rise begins in a record: rows before the switch-on, or in a dead time, have one speed.
 
 use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::run::WorkCount;

@@ -1,4 +1,4 @@
-//! What the fits of resampled curves say of the error of a fit.
+//! The error of a fit from fits of resampled curves.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;

@@ -1,4 +1,4 @@
-//! States at equal distances in time, of which alone a long motion is kept.
+//! States at equal distances in time, all that is kept of a long motion.
 
 use std::cmp::Ordering;
 
@@ -15,7 +15,7 @@ use crate::motion::state::Snapshot;
 pub const MAX_SAMPLES: usize = 1 << 24;
 
 /// Most periods of the platform that [`Engine::sample`] follows a motion for: with an impact in each
-/// they take many minutes, and no instant of them is rounded by more than a millionth of a period.
+/// they take many minutes, and no instant is rounded by more than a millionth of a period.
 pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 
 /// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
@@ -23,10 +23,10 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 
 impl<L: RestitutionLaw> Engine<L> {
     /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included. No
-    /// event is kept, so that a long motion takes no more memory than a short one. Afterwards the engine is
-    /// behind the first event that does not come before the last instant.
+    /// event is kept, so that a long motion takes no more memory than a short one. Afterwards the engine
+    /// stands just after the first event at or after the last instant.
     ///
-    /// Where an event is, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
+    /// At an event, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
     /// disk that rests for ever is followed as well.
     ///
     /// The items of `observer` are the periods of the platform.

@@ -13,7 +13,7 @@ use crate::parameters::system::System;
 /// Most members of an ensemble.
 pub const MAX_MEMBERS: usize = 1_000_000;
 
-/// Most speeds of all members of an ensemble together: with their times a gigabyte.
+/// Most speeds of all members of an ensemble together: a gigabyte with their times.
 pub const MAX_SPEEDS: usize = 1 << 26;
 
 /// The arguments of one [`transient`](crate::motor::transient()).
@@ -34,8 +34,8 @@ impl TransientMember {
     /// that are to be independent of each other need seeds that lie at least `members` apart.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than [`MAX_MEMBERS`] members, more than
-    /// [`MAX_SPEEDS`] speeds of all together or than there is memory for.
+    /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than
+    /// [`MAX_MEMBERS`] members, more than [`MAX_SPEEDS`] speeds in all or more than memory can hold.
     pub fn of_ensemble(
         system: &System,
         settings: &TransientSettings,

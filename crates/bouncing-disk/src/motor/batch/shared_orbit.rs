@@ -2,9 +2,9 @@
 //!
 //! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase lag, twist
 //! amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and each rotor adds to an
-//! impact no more than a clamp and a few products. The rotors share the perturbations of the relaunches, too: what
-//! differs between them is sharper than what each is by itself (common random numbers), and their errors are not
-//! independent of each other. See docs/numerics/motors.md.
+//! impact no more than a clamp and a few products. The rotors also share the perturbations of the relaunches:
+//! differences between them are more precise than their own values (common random numbers), and their errors
+//! are not independent. See docs/numerics/motors.md.
 
 #[cfg(feature = "fit")]
 pub(crate) mod transients;

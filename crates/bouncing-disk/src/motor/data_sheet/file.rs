@@ -14,7 +14,7 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotorFileError {
-    /// The text is not of its format, has a key that is unknown or there twice, or a value that is not a number.
+    /// The text is not of its format, has an unknown or repeated key, or a value that is not a number.
     #[error("line {line}: {reason}")]
     Text {
         /// The line, from 1.
@@ -24,7 +24,7 @@ pub enum MotorFileError {
         /// The message of the reader, without control characters that could disturb a terminal.
         reason: String,
     },
-    /// The data sheet can be read, and is not legal.
+    /// The data sheet can be read, but is not legal.
     #[error(transparent)]
     Illegal(#[from] Error),
 }
@@ -37,7 +37,7 @@ impl MotorFileError {
 
 impl Motor {
     /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
-    /// units. `null` is the same as a field that is not there, a byte-order mark before the text is accepted.
+    /// units. `null` is the same as a missing field; a byte-order mark before the text is accepted.
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -48,15 +48,15 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`MotorFileError`] for a text that is no such object, keys that are unknown or there twice, values
-    /// that are no numbers, and what [`MotorParameters::build`](crate::motor::MotorParameters::build) refuses.
+    /// [`MotorFileError`] for a text that is not such an object, unknown or repeated keys, values that are
+    /// not numbers, and whatever [`MotorParameters::build`](crate::motor::MotorParameters::build) refuses.
     #[cfg(feature = "json")]
     pub fn from_json(text: &str) -> Result<Self, MotorFileError> {
         Self::from_json_with(text, &[])
     }
 
-    /// [`Self::from_json`] of a data sheet with other values in place of some of its own, which are neither
-    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    /// [`Self::from_json`] with some values of the data sheet replaced; the replaced ones are neither
+    /// checked nor needed. A value excludes what its field excludes ([`MotorField::set`]).
     ///
     /// # Errors
     /// As [`Self::from_json`].
@@ -94,8 +94,8 @@ impl Motor {
         Self::from_toml_with(text, &[])
     }
 
-    /// [`Self::from_toml`] of a data sheet with other values in place of some of its own, which are neither
-    /// checked nor needed then. A value excludes what its field excludes ([`MotorField::set`]).
+    /// [`Self::from_toml`] with some values of the data sheet replaced; the replaced ones are neither
+    /// checked nor needed. A value excludes what its field excludes ([`MotorField::set`]).
     ///
     /// ```
     /// use bouncing_disk::Motor;

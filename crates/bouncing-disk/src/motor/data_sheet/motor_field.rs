@@ -1,5 +1,5 @@
-//! The fields of a data sheet: their names, units and symbols, and the values that such motors have. The ranges and
-//! their sources are in docs/numerics/motors.md, "What such motors have".
+//! The fields of a data sheet: their names, units and symbols, and their usual values in such motors. The
+//! ranges and their sources are in docs/numerics/motors.md, "What such motors have".
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
@@ -57,7 +57,7 @@ macro_rules! motor_fields {
     ($($(#[$doc:meta])* $variant:ident, $name:ident: $kind:ident, $unit:literal, $usual:expr, $readings:expr, $also:expr;)*) => {
         /// A field of [`MotorParameters`], which is a number.
         ///
-        /// Printed, read and stored, it is the name of the field: `load_torque`.
+        /// It is printed, read and stored as the name of the field: `load_torque`.
         ///
         /// ```
         /// use bouncing_disk::motor::MotorField;
@@ -179,7 +179,7 @@ impl MotorField {
         self.field().unit
     }
 
-    /// Its value; `None` where the sheet has an alternative, or nothing.
+    /// Its value; `None` where the sheet has an alternative or no value.
     #[must_use]
     pub fn value(self, sheet: &MotorParameters) -> Option<f64> {
         (self.field().get)(sheet)
@@ -215,8 +215,8 @@ impl Display for MotorField {
     }
 }
 
-/// A name that no field of a motor's data sheet has. Its text is escaped as in Rust, so that it cannot disturb a
-/// terminal.
+/// A name that is not a field of a motor's data sheet. Its text is escaped as in Rust, so that it cannot
+/// disturb a terminal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnknownMotorField {
     name: String,

@@ -1,4 +1,4 @@
-//! What a data sheet says.
+//! The contents of a data sheet.
 
 use std::f64::consts::TAU;
 
@@ -6,7 +6,8 @@ use crate::parameters::system::System;
 
 /// The data sheet of a motor, not yet checked. Alternatives are optional; of each pair exactly one is given:
 /// [`Self::peak_angular_speed`] or [`Self::twist_amplitude`], [`Self::mass`] or [`Self::density`],
-/// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` is the same as nothing.
+/// [`Self::preload_force`] or [`Self::preload_acceleration`]. In a file `null` is the same as a missing
+/// field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -43,8 +44,8 @@ pub struct MotorParameters {
     /// is given.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub gyration_radius: Option<f64>,
-    /// Preload F (N), positive: all of the force that presses the rotor onto the stator. Its weight is not
-    /// added; where it helps, add it. The paper's g is F/m.
+    /// Preload F (N), positive: the total force that presses the rotor onto the stator. The rotor's weight
+    /// is not added; where it helps, include it. The paper's g is F/m.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub preload_force: Option<f64>,
     /// Preload acceleration g = F/m (m/s^2), positive; in place of the force.
@@ -85,8 +86,9 @@ impl MotorParameters {
         load_torque: 0.0,
     };
 
-    /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload acceleration of the
-    /// system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The frequency omega/(2 pi) is
+    /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
+    /// acceleration of the system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The
+    /// frequency omega/(2 pi) is
     /// rounded, so that the angular frequency of the motor may differ in the last bit.
     ///
     /// ```

@@ -39,7 +39,7 @@ impl Motor {
     /// bit.
     ///
     /// The paper does not print the mass. It is 33 g here: a solid steel ball of the printed 20 mm, with a
-    /// handbook's 7850 kg/m^3. Speeds do not depend on it while no load acts; torques do.
+    /// handbook's 7850 kg/m^3. Without a load speeds do not depend on it; torques do.
     #[must_use]
     pub fn paper_70_khz() -> Self {
         table_iii(DRIVE_FREQUENCY)

@@ -1,7 +1,7 @@
-//! What the rotor does up and down: whether it lifts off at all, and whether its flights repeat.
+//! The vertical motion of the rotor: whether it lifts off at all, and whether its flights repeat.
 //!
-//! Judged from motions, not from formulas: from the orbit that the model repeats without perturbation, and
-//! from a perturbed one that says whether it survives (docs/numerics/motors.md, "Regime").
+//! It is judged from motions, not from formulas: from the orbit that the unperturbed model repeats, and
+//! from a perturbed one that shows whether it survives (docs/numerics/motors.md, "Regime").
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -38,8 +38,8 @@ const PERTURBATION: f64 = 1.0e-3;
 /// Seed of the perturbations.
 const SEED: u64 = 1;
 
-/// What the rotor does up and down after it was at rest on the stator. Other motions may exist beside this
-/// one, for a rotor that is thrown.
+/// The vertical motion of the rotor from rest on the stator. Other motions may exist beside it, for a
+/// rotor that is thrown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotorRegime {
@@ -55,12 +55,12 @@ pub enum MotorRegime {
     /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in
     /// which the speed rises along a ramp.
     LowPeriodChattering(ChatteringCycle),
-    /// The rotor comes to rest now and then, after many flights or after a number that a small perturbation
-    /// changes.
+    /// The rotor comes to rest now and then, after many flights, or after a number of flights that a small
+    /// perturbation changes.
     LongChattering {
         /// Mean number of periods of the stator between two separations, of the perturbed motion.
         platform_periods: f64,
-        /// How many rests were seen: the mean of a few is rough.
+        /// The number of rests seen: the mean over a few is rough.
         rests: u64,
     },
     /// The flights do not repeat, the rotor does not rest, and small differences grow, all within 200 000
@@ -69,10 +69,10 @@ pub enum MotorRegime {
         /// Growth rate of a small vertical perturbation per impact, positive.
         lyapunov_exponent: f64,
     },
-    /// The flights do not repeat, the rotor does not rest, and small differences do not grow within so many
-    /// impacts: a motion that settles slowly, or a very long period.
+    /// The flights do not repeat, the rotor does not rest, and small differences do not grow within
+    /// `impacts`: a motion that settles slowly, or a very long period.
     Undecided {
-        /// Impacts that were looked at.
+        /// Impacts examined.
         impacts: usize,
     },
 }

@@ -10,7 +10,7 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 
-/// What follows from a data sheet, and what the motor does ([`Motor::report`]). Printed, it has several
+/// What follows from a data sheet, and what the motor does ([`Motor::report`]). It prints as several
 /// lines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
@@ -21,10 +21,10 @@ pub struct MotorReport {
     pub angular_forcing: Option<f64>,
     /// P = A omega^2/g, the stator's largest acceleration in units of the preload acceleration.
     pub peak_acceleration: f64,
-    /// What the rotor does up and down.
+    /// The vertical motion of the rotor.
     pub regime: MotorRegime,
-    /// Mean number of the stator's periods in a flight, over the flights longer than half a period: of the
-    /// short ones a chatter has infinitely many. From a perturbed motion of 20 000 to 200 000 impacts. `None`
+    /// Mean number of the stator's periods in a flight, over the flights longer than half a period, as a
+    /// chatter has infinitely many short ones. From a perturbed motion of 20 000 to 200 000 impacts. `None`
     /// where no flight is that long.
     pub periods_per_flight: Option<f64>,
     /// mu m g a_e (N m), which no motor exceeds in the mean.
@@ -34,18 +34,18 @@ pub struct MotorReport {
     /// A bound on the relative change of the preload in a flight, which the model keeps constant; `None`
     /// without a spring ([`Motor::preload_change_bound`]).
     pub preload_change_bound: Option<f64>,
-    /// What is unlikely to be meant.
+    /// Values that are unlikely to be intended.
     pub warnings: Vec<MotorWarning>,
 }
 
 impl Motor {
-    /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and says what it
-    /// does.
+    /// Follows the rotor for 20 000 to 300 000 impacts, which takes a few to some 100 ms, and reports its
+    /// motion.
     ///
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// Those of the core, for a flight that lasts longer than it can count.
+    /// Those of the core, for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         let (regime, periods_per_flight) = regime(self.system().dimensionless(), observer)?;
         let system = self.system();

@@ -1,7 +1,8 @@
 //! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of
-//! flights and rest. Its speed there is that of the round: from none, the holes of Fig. 11, to more than beside them.
+//! flights and rest. Its speed there is that of the round: from zero (the holes of Fig. 11) to more than
+//! beside the traps.
 //!
-//! Judged from the vertical motion alone, which is all that decides (docs/numerics/design.md, "Low-period
+//! It is judged from the vertical motion, which alone decides (docs/numerics/design.md, "Low-period
 //! traps").
 
 use std::f64::consts::{PI, TAU};
@@ -34,19 +35,19 @@ const SEED: u64 = 1;
 pub struct TrapVerdict {
     /// Preload as an acceleration g (m/s^2).
     pub preload_acceleration: f64,
-    /// Axial forcing parameter Gamma: with the restitution all that decides.
+    /// Axial forcing parameter Gamma, which with the restitution alone decides.
     pub axial_forcing: f64,
-    /// Its fractional part, in [0, 1): traps of a single flight are where it is about one half.
+    /// Its fractional part, in [0, 1): traps of a single flight occur where it is about one half.
     pub forcing_fraction: f64,
     /// From one separation to the next without perturbation, if that takes at most eight long flights; `None`
     /// if it takes more, or the rotor is never thrown or never rests.
     pub cycle: Option<ChatteringCycle>,
-    /// Perturbed relaunches that were tried: 64, or none without a cycle.
+    /// Perturbed relaunches that were tried: 64, or 0 without a cycle.
     pub relaunches: u32,
     /// How many of them led through as many long flights and periods as the cycle has.
     pub returns: u32,
-    /// Mean number of the stator's periods from one perturbed relaunch to the next; at least that many where
-    /// one of them had not come to rest within 4000 impacts. `None` without a cycle.
+    /// Mean number of the stator's periods from one perturbed relaunch to the next; a lower bound where one
+    /// of them had not come to rest within 4000 impacts. `None` without a cycle.
     pub mean_platform_periods: Option<f64>,
     /// Whether the perturbed motor repeats the cycle: its mean is within 5 % of that of the cycle, the rule
     /// of [`MotorRegime::LowPeriodChattering`](crate::motor::MotorRegime::LowPeriodChattering).
@@ -162,8 +163,8 @@ fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<Chatt
 /// A motor is built in about the time of so many flights.
 const FLIGHTS_OF_BUILDING: u64 = 8;
 
-/// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. Other alternatives of the
-/// data sheet are replaced by the acceleration.
+/// Which of these preloads, as accelerations (m/s^2), trap a motor, in their order. The acceleration replaces
+/// other alternatives in the data sheet.
 ///
 /// The items of `observer` are the preloads.
 ///

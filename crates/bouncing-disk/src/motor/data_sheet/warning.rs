@@ -1,4 +1,4 @@
-//! What is legal in a data sheet and yet unlikely to be meant.
+//! Values of a data sheet that are legal but unlikely to be intended.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -12,11 +12,12 @@ const FAR: f64 = 1.0e3;
 /// A bound on the change of the preload above this is told.
 const LARGEST_CHANGE: f64 = 0.01;
 
-/// What is legal and yet unlikely to be meant, or beyond what the model assumes ([`Motor::warnings`]).
+/// A value that is legal but unlikely to be intended, or violates an assumption of the model
+/// ([`Motor::warnings`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum MotorWarning {
-    /// A value is outside of what such motors have, and inside if it is read in another unit.
+    /// A value is outside the usual range of such motors, but inside it if read in another unit.
     OtherUnit {
         /// The field.
         field: &'static str,
@@ -26,10 +27,10 @@ pub enum MotorWarning {
         unit: &'static str,
         /// The least and the largest value that such motors have.
         usual: (f64, f64),
-        /// What it may be: "a length in mm".
+        /// What may have been intended: "a length in mm".
         meant: &'static str,
     },
-    /// A value is a factor 1000 outside of what such motors have.
+    /// A value is a factor 1000 outside the usual range of such motors.
     FarOutside {
         /// The field.
         field: &'static str,
@@ -61,7 +62,7 @@ pub enum MotorWarning {
         /// The bound on the relative change ([`Motor::preload_change_bound`]).
         bound: f64,
     },
-    /// A measured speed or rise time is a factor 100 from what the drive gives ([`Motor::warnings_on`]).
+    /// A measured speed or rise time differs by a factor 100 from that of the drive ([`Motor::warnings_on`]).
     OtherScale {
         /// The fastest speed, or the time in which it is half reached.
         measured: f64,
@@ -119,11 +120,11 @@ impl Display for MotorWarning {
 }
 
 impl Motor {
-    /// What is legal in the data sheet and yet unlikely to be meant, in the order of the fields; then what
-    /// follows from several of them. Zeros are taken as meant.
+    /// Legal values of the data sheet that are unlikely to be intended, in the order of the fields; then
+    /// combinations of fields. Zeros are taken as intended.
     ///
-    /// A number that is usual in a wrong unit, too, is found by nobody: 40 kHz given as 40e3 where an angular
-    /// frequency of 40e3 rad/s was meant.
+    /// A number that is also usual in the wrong unit cannot be detected: 40 kHz given as 40e3 where an
+    /// angular frequency of 40e3 rad/s was intended.
     #[must_use]
     pub fn warnings(&self) -> Vec<MotorWarning> {
         let sheet = self.parameters();

@@ -24,8 +24,8 @@ pub struct BestPhaseLag {
     pub phase_lag: Estimate,
     /// The mean speed there (rad/s).
     pub speed: Estimate,
-    /// The lags (rad) around it at which at least 99 % of that speed is left, and at most the fifth of a circle on either side:
-    /// how well the lag has to be kept. The first is below the second; they may lie beyond the circle.
+    /// The range of lags (rad) around it with at least 99 % of that speed, at most a fifth of a circle on
+    /// either side: the tolerance of the lag. The first is below the second; they may lie beyond the circle.
     pub good_from_to: [f64; 2],
 }
 

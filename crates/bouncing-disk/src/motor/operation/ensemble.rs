@@ -22,8 +22,8 @@ const WINDOWS_OF_RISE: f64 = 2.0;
 /// With more windows, two and two become one.
 const MOST_WINDOWS: usize = 128;
 
-/// Most rotors of all members of one ensemble together: with their windows, and those of the second start of each, half a
-/// gigabyte.
+/// Most rotors of all members of one ensemble together: half a gigabyte with their windows, and those of the
+/// second start of each.
 pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 
 /// Least impacts of a window, and least periods of the platform.

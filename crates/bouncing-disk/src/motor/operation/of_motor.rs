@@ -1,4 +1,4 @@
-//! What a designer asks of a motor in steady operation.
+//! A designer's questions about a motor in steady operation.
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
@@ -43,7 +43,7 @@ impl Motor {
     /// # Errors
     /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for more than
     /// [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor that is
-    /// not known well enough when all impacts are spent is no error but [`Operation::Unsettled`].
+    /// not known well enough when all impacts are spent is not an error but [`Operation::Unsettled`].
     pub fn operating_point(
         &self,
         load_torque: f64,
@@ -55,9 +55,9 @@ impl Motor {
         Ok(all.swap_remove(0))
     }
 
-    /// The motor in steady operation under each of these load torques (N m), in their order: on one vertical motion, so
-    /// that a curve costs little more than a point. The points share their perturbations: the curve is smooth, and the
-    /// difference of two points is better known than either.
+    /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
+    /// motion, so that a curve costs little more than a point. The points share their perturbations: the
+    /// curve is smooth, and the difference of two points is more precise than either.
     ///
     /// The items of `observer` are the impacts that may be spent.
     ///
@@ -81,7 +81,8 @@ impl Motor {
     /// The mean speed without load (rad/s).
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known as well as was asked for.
+    /// Those of [`Self::operating_point`]; [`Error::NotSettled`] if it is not known to the requested
+    /// accuracy.
     pub fn no_load_speed(&self, settings: &OperatingSettings) -> Result<Estimate, Error> {
         match self.operating_point(0.0, settings, &Unobserved)? {
             Operation::Steady(point) => Ok(point.speed),
@@ -100,7 +101,7 @@ impl Motor {
     ///
     /// # Errors
     /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load,
-    /// [`Error::NotSettled`] if a speed that it is judged by still drifts after the impacts that it may take.
+    /// [`Error::NotSettled`] if a speed by which it is judged still drifts after the allowed impacts.
     pub fn stall_load(
         &self,
         settings: &OperatingSettings,
@@ -109,12 +110,12 @@ impl Motor {
         stall_load(&LoadedMotor::of(self), settings, observer)
     }
 
-    /// The phase lag at which the motor turns fastest under the load of its data sheet, and how well it has to be kept.
+    /// The phase lag at which the motor turns fastest under the load of its data sheet, and its tolerance.
     ///
     /// The items of `observer` are the impacts that its two searches may spend.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that turns at no lag,
+    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn at any lag,
     /// [`Error::Overpowered`] where the load is more than friction can hold.
     pub fn best_phase_lag(
         &self,
@@ -125,9 +126,10 @@ impl Motor {
     }
 }
 
-/// The steady operation of many motors, each under the load of its data sheet, in their order: maps of efficiency over
-/// lag and load, preload and amplitude, or whatever else. Motors that follow each other and share a vertical motion
-/// (they differ in load, friction, lag, twist, radii or mass only) are carried by one: give what is shared together.
+/// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
+/// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
+/// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
+/// together.
 ///
 /// The items of `observer` are the motors.
 ///

@@ -1,19 +1,19 @@
-//! What is known of a motor under a load.
+//! The steady operation of a motor under a load.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean, standard_deviation};
 
 use crate::error::{Error, finite, not_negative};
 use crate::statistics::student_quantile;
 
-/// A number that was estimated from independent runs, with its standard error.
+/// A number estimated from independent runs, with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Estimate {
     /// The estimate.
     pub value: f64,
-    /// Its standard error, as the half of its 95 % interval over 1.96: it holds what the scatter over a few members leaves
-    /// open (Student's distribution) and, of a mean over time, a bound on what is left of the start-up.
+    /// Its standard error, half of its 95 % interval over 1.96: it covers the scatter over a few members
+    /// (Student's distribution) and, for a mean over time, a bound on the rest of the start-up.
     pub standard_error: f64,
 }
 
@@ -53,8 +53,8 @@ pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
 
 /// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
 ///
-/// Energy is balanced: what the platform and the perturbation put in is the mechanical power, the two losses and what
-/// the disk has stored in the meantime.
+/// Energy is balanced: the input of the platform and the perturbation equals the mechanical power, the two
+/// losses and the energy stored by the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -73,20 +73,21 @@ pub struct OperatingPoint {
     pub friction_loss: Estimate,
     /// Mechanical power over the power put in; `None` where no power is put in, or the load drives the motor.
     pub efficiency: Option<Estimate>,
-    /// Power that the perturbations of the relaunches put in (W): it is no part of the motor, and must be small.
+    /// Power that the perturbations of the relaunches put in (W): it does not belong to the motor, and must
+    /// be small.
     pub perturbation_power: f64,
-    /// What the energy balance of all runs leaves, relative to the energy put in, or to that of a disk that moves with
-    /// the platform if that is more: zero but for rounding.
+    /// Residual of the energy balance of all runs, relative to the energy put in, or to that of a disk that
+    /// moves with the platform if that is more: zero but for rounding.
     pub energy_residual: f64,
-    /// Time of one motor that was averaged over, of all members together (s).
+    /// Averaged time, of all members together (s).
     pub averaged_time: f64,
-    /// Time that was left out as the start-up, of each member (s).
+    /// Time left out as the start-up, of each member (s).
     pub start_up: f64,
-    /// Impacts of all members together, those of summed chattering sequences and of the start-up not counted.
+    /// Impacts of all members together, without those of summed chattering sequences and of the start-up.
     pub impacts: u64,
 }
 
-/// Why a steady operation is not known as well as was asked for when the impacts that were allowed had been spent.
+/// Why a steady operation did not reach the requested accuracy within the allowed impacts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -94,19 +95,21 @@ pub struct OperatingPoint {
 pub enum Shortfall {
     /// The standard error of the mean speed is too large.
     Error {
-        /// It (rad/s).
+        /// The error reached (rad/s).
         standard_error: f64,
-        /// What was asked for (rad/s).
+        /// The requested error (rad/s).
         wanted: f64,
     },
-    /// The speed still drifts: the early part of what was averaged differs from the late one, or it depends on the start.
+    /// The speed still drifts: the early part of the average differs from the late one, or it depends on the
+    /// start.
     Drift {
-        /// The late mean minus the early one (rad/s), or what rotors that started from far above are still faster by.
+        /// The late mean minus the early one (rad/s), or by how much rotors that started from far above are
+        /// still faster.
         drift: f64,
         /// The standard error of this difference (rad/s).
         standard_error: f64,
     },
-    /// The disk still stores the energy that it is given: power in is not output and losses.
+    /// The disk still stores energy: the input power is not equal to output and losses.
     PowerBalance {
         /// The power that is stored (W); negative where it is given back.
         stored_power: f64,
@@ -121,9 +124,9 @@ pub enum Shortfall {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Operation {
-    /// It turns steadily, with the errors that were asked for.
+    /// It turns steadily, known to the requested accuracy.
     Steady(OperatingPoint),
-    /// It was not followed long enough for them: what is known, and what it lacks.
+    /// It was not followed long enough for this: what is known, and what it lacks.
     Unsettled(OperatingPoint, Shortfall),
     /// The load overpowers the motor: it is accelerated for ever, and has no mean speed.
     Runaway {
@@ -131,13 +134,13 @@ pub enum Operation {
         load_torque: f64,
         /// The largest torque mu m g a_e that friction can give on average (N m), whatever the motion.
         largest_torque: f64,
-        /// The acceleration (rad/s^2) that it tends to: what friction cannot hold of the load.
+        /// The acceleration (rad/s^2) to which it tends, by the part of the load that friction cannot hold.
         acceleration: f64,
     },
 }
 
 impl Operation {
-    /// The operating point, if it is known as well as was asked for.
+    /// The operating point, if it is known to the requested accuracy.
     #[must_use]
     pub const fn steady(&self) -> Option<&OperatingPoint> {
         match self {

@@ -1,4 +1,4 @@
-//! How well, and how long at most, a steady operation is computed.
+//! The accuracy and the largest cost of a steady operation.
 
 use bouncing_disk_core::read_checked;
 
@@ -12,19 +12,19 @@ const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct OperatingSettings {
-    /// The standard error of the mean speed that is asked for, relative to the speed without load, in [1e-6, 0.5]; of
-    /// motors on one vertical motion, to the largest of theirs that were asked for without load, or the first one's; of
-    /// a motor whose speed is less, relative to a hundredth of the platform's largest angular speed, or of what friction changes in
-    /// a radian of phase. Default 0.01.
+    /// The requested standard error of the mean speed, relative to the speed without load, in [1e-6, 0.5];
+    /// for motors on one vertical motion, relative to the largest speed of those without load, or that of the
+    /// first; for slower motors, relative to a hundredth of the platform's largest angular speed, or of the
+    /// change by friction in a radian of phase. Default 0.01.
     pub relative_error: f64,
-    /// Vertical motions that are averaged over, in [4, 4096]. Default 16.
+    /// Vertical motions to average over, in [4, 4096]. Default 16.
     pub members: usize,
-    /// Most impacts that all members together may take (periods, of a rotor that never bounces; a dozen of each member are
-    /// always taken): where they are spent before the error is reached, the result is
+    /// Most impacts that all members together may take (periods, for a rotor that never bounces; each member
+    /// always takes a dozen): if they are spent before the error is reached, the result is
     /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). In [1, 1e15]. Default 20 million, a few seconds.
     pub most_impacts: u64,
-    /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the motor
-    /// locks on a cycle that the rounding has chosen, whose speed may be wrong by a third. Default 1e-3.
+    /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the
+    /// motor locks on a cycle chosen by rounding, whose speed may be wrong by a third. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations. Default 1.
     pub seed: u64,

@@ -1,5 +1,5 @@
-//! When a mean over windows is steady, and how well it is known: judged by the spread over independent members, and by what
-//! still depends on the start.
+//! When a mean over windows is steady, and how well it is known: judged by the spread over independent
+//! members, and by what still depends on the start.
 
 use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 

@@ -1,8 +1,8 @@
-//! What the tolerances of the inputs make of a speed or a stall load.
+//! The spread of a speed or a stall load over the tolerances of the inputs.
 //!
-//! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is trapped by one
-//! value and free at the next. Derivatives do not tell of that, draws do (docs/numerics/motors.md, "What the tolerances of
-//! the inputs make of it").
+//! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is
+//! trapped at one value and free at the next. Draws show this, derivatives do not (docs/numerics/motors.md,
+//! "What the tolerances of the inputs make of it").
 
 use std::f64::consts::LN_10;
 
@@ -31,18 +31,19 @@ const STEADY_UNDER: [f64; 3] = [-0.5, 0.0, 0.5];
 /// The streams of random numbers of the draws lie behind those of any members.
 const FIRST_STREAM: u64 = 1 << 32;
 
-/// How well the inputs of a motor are known, and how many motors are drawn within that.
+/// How well the inputs of a motor are known, and how many motors are drawn within these tolerances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InputTolerance {
     /// Relative tolerance of the preload, in [0, 0.5]: the draws lie evenly within it on either side. Default 0.01.
     pub preload: f64,
-    /// Relative tolerance of the axial amplitude, in [0, 0.5], alike. Default 0.01.
+    /// Relative tolerance of the axial amplitude, in [0, 0.5], likewise. Default 0.01.
     pub amplitude: f64,
     /// Decades over which the size of the relaunch perturbation is drawn, evenly in its logarithm and centred on that of
-    /// the settings, in [0, 6]: nobody knows it. Default 1.
+    /// the settings, in [0, 6]: its true size is unknown. Default 1.
     pub perturbation_decades: f64,
-    /// Motors that are drawn, in [8, 10000]. Default 39, the range of which holds a further one with a chance of 38 in 40.
+    /// Motors that are drawn, in [8, 10000]. Default 39, whose range contains a further one with a chance of
+    /// 38 in 40.
     pub draws: usize,
 }
 
@@ -92,25 +93,25 @@ impl InputTolerance {
     }
 }
 
-/// How far a number lies apart for motors whose inputs differ by no more than their tolerances: what a designer can count on,
-/// where the standard error holds at exactly the inputs given.
+/// The spread of a number over motors whose inputs differ by no more than their tolerances: a designer can
+/// rely on it, while the standard error holds only at exactly the given inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct InputSpread {
     /// The mean over the draws, with its standard error.
     pub mean: Estimate,
-    /// The standard deviation over the draws without what their statistical errors add (subtracted in quadrature), and its
-    /// own standard error. It is zero where these explain all of it.
+    /// The standard deviation over the draws without their statistical errors (subtracted in quadrature), and
+    /// its own standard error. It is zero if those errors explain all of it.
     pub standard_deviation: Estimate,
-    /// The least and the largest of the draws, their distances from the mean reduced to what is no statistical error. A further
-    /// draw lies within with the chance (n - 1)/(n + 1) of n draws, 95 % of 39.
+    /// The least and the largest of the draws, their distances from the mean reduced by the statistical
+    /// error. A further draw lies within with the chance (n - 1)/(n + 1) for n draws, 95 % for 39.
     pub from_to: [f64; 2],
     /// Draws that have the number.
     pub draws: usize,
-    /// Draws that have none: the load overpowers the motor.
+    /// Draws without it: the load overpowers the motor.
     pub without: usize,
-    /// Draws of which the start-up leaves more than the standard deviation: taken as they were.
+    /// Draws in which the rest of the start-up exceeds the standard deviation: taken as they were.
     pub unsettled: usize,
     /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
@@ -182,10 +183,10 @@ impl InputSpread {
 }
 
 impl Motor {
-    /// How far the mean speed (rad/s) lies apart under each of these load torques (N m) over the tolerances of the inputs:
-    /// what stands beside the errors of [`Self::torque_speed_curve`] with the same settings. `None` where fewer than four
-    /// draws have a speed. All loads of a draw ride on one vertical motion, and a draw costs an eighth of a curve of 16 members:
-    /// all cost some six curves.
+    /// The spread of the mean speed (rad/s) under each of these load torques (N m) over the tolerances of the
+    /// inputs, to state beside the errors of [`Self::torque_speed_curve`] with the same settings. `None`
+    /// where fewer than four draws have a speed. All loads of a draw share one vertical motion, and a draw
+    /// costs an eighth of a curve of 16 members: all cost about six curves.
     ///
     /// The items of `observer` are the draws.
     ///
@@ -230,8 +231,9 @@ impl Motor {
         draws.iter().map(|draws| InputSpread::of(draws, trapped)).collect()
     }
 
-    /// How far the stall load (N m) lies apart over the tolerances of the inputs: what stands beside the error of
-    /// [`Self::stall_load`] with the same settings, and costs up to nine of it. The stall load of a draw may be below zero.
+    /// The spread of the stall load (N m) over the tolerances of the inputs, to state beside the error of
+    /// [`Self::stall_load`] with the same settings; it costs up to nine times as much. The stall load of a
+    /// draw may be below zero.
     ///
     /// The items of `observer` are the draws.
     ///

@@ -29,13 +29,15 @@ const SIGNIFICANT: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
-    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that at exactly
-    /// these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) says what their tolerances make of it.
+    /// The torque (N m), with the sign of a load: a positive one stops a positive rotation. Its error is that
+    /// at exactly these inputs: [`Motor::stall_spread`](crate::Motor::stall_spread) gives its spread over
+    /// their tolerances.
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
     /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its speed, and
-    /// under the second it is surely driven back. The second is mu m g a_e where no smaller one surely does that.
+    /// under the second it is surely driven back. The second is mu m g a_e if no smaller one surely does
+    /// this.
     pub bracket: [f64; 2],
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,

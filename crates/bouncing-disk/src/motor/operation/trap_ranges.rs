@@ -1,4 +1,4 @@
-//! Ranges of the preload that trap a motor, and the one that is nearest.
+//! Ranges of the preload that trap a motor, and the nearest of them.
 
 use std::f64::consts::PI;
 
@@ -13,8 +13,8 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Traps that are narrower, relative to the preload, are not told unless they are asked for: a motor whose preload is known to
-/// 1 % is in one with a chance of less than one in 40.
+/// Traps that are narrower, relative to the preload, are not reported unless requested: a motor whose preload
+/// is known to 1 % is in one with a chance of less than one in 40.
 pub const LEAST_TRAP_WIDTH: f64 = 5.0e-4;
 
 /// Most steps of a scan.
@@ -31,24 +31,24 @@ const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct TrapRange {
-    /// From where to where, as accelerations (m/s^2).
+    /// The range, as accelerations (m/s^2).
     pub preload_from_to: [f64; 2],
-    /// Its width relative to the preload. A motor whose preload is known to t on either side, and which lies well within that,
-    /// is trapped with a chance of this over 2 t.
+    /// Its width relative to the preload. If the preload of a motor is known to t on either side and the trap
+    /// lies well within that, the motor is trapped with a chance of this width over 2 t.
     pub relative_width: f64,
-    /// From where to where in the axial forcing parameter Gamma.
+    /// The range of the axial forcing parameter Gamma.
     pub forcing_from_to: [f64; 2],
     /// What the rotor does in the middle of it.
     pub verdict: TrapVerdict,
-    /// How it turns at the lower edge, in the middle and at the upper edge (a tenth of the width inside), under the load of its
-    /// data sheet: most traps hardly slow a motor, some stop it.
+    /// The operation at the lower edge, in the middle and at the upper edge (a tenth of the width inside),
+    /// under the load of the data sheet: most traps hardly slow a motor, some stop it.
     pub operations: [Operation; 3],
 }
 
 /// The low-period trap that is nearest to a motor.
 ///
-/// Only Gamma and the restitution decide, so that the same trap is reached by a change of preload, of
-/// amplitude or of frequency: the near edge is given for each of them, the others kept.
+/// Only Gamma and the restitution decide, so that a change of preload, of amplitude or of frequency
+/// reaches the same trap: the near edge is given for each of them, with the others kept.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearestTrap {
@@ -61,18 +61,18 @@ pub struct NearestTrap {
     pub amplitude: f64,
     /// Drive frequency (Hz) of the near edge.
     pub drive_frequency: f64,
-    /// From where to where in Gamma the trap reaches, or the range that was scanned does.
+    /// The range of Gamma of the trap, as far as it was scanned.
     pub forcing_from_to: [f64; 2],
     /// What the rotor does in the middle of it.
     pub verdict: TrapVerdict,
-    /// Step of the scan in Gamma: traps that are narrower than two may have been missed.
+    /// Step of the scan in Gamma: traps narrower than two steps may have been missed.
     pub forcing_step: f64,
 }
 
 impl Motor {
     /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and are at least
-    /// `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good one. In rising order, each with its speed inside,
-    /// computed as well as `settings` asks for.
+    /// `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They come in rising
+    /// order, each with its speed inside, computed to the accuracy of `settings`.
     ///
     /// The items of `observer` are the steps of the scan, then the ranges.
     ///
@@ -141,8 +141,9 @@ impl Motor {
     }
 
     /// The low-period trap of at least [`LEAST_TRAP_WIDTH`] that is nearest to the motor, if there is one within a relative
-    /// change of its preload or amplitude of `relative_range`, in (0, 1]. That a motor itself is locked, however narrow its
-    /// trap, is told by its regime ([`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked)).
+    /// change of its preload or amplitude of `relative_range`, in (0, 1]. Its regime tells whether a motor
+    /// itself is locked, however narrow its trap
+    /// ([`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked)).
     ///
     /// The items of `observer` are the steps of the scan.
     ///

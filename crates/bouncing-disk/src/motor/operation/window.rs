@@ -1,4 +1,4 @@
-//! What rotors did in a window of time, without units.
+//! The motion of rotors in a window of time, dimensionless.
 
 /// What a rotor did in a window of time, without units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -39,7 +39,7 @@ pub struct TransientSettings {
     /// platform's motion. Default 600.
     pub intervals: usize,
     /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each separation from rest gets a
-    /// relative velocity drawn evenly from [0, size). Zero gives the cycle of the rounding. Default 1e-3.
+    /// relative velocity drawn evenly from [0, size). Zero gives the cycle chosen by rounding. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
@@ -98,7 +98,8 @@ read_checked!(TransientSettings as UncheckedSettings {
 
 /// Angular speed against time, from rest.
 ///
-/// A curve that is read is one that can be fitted: at least three points, as many speeds as times, times that rise.
+/// Deserialising checks that a curve can be fitted: at least three points, as many speeds as times, rising
+/// times.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCurve"))]

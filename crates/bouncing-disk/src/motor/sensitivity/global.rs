@@ -16,12 +16,12 @@ use crate::motor::sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_ind
 pub type ParameterRange = (SensitivityParameter, [f64; 2]);
 
 impl Motor {
-    /// Which share of the variance of the steady speed or the stall torque each of these parameters has, if
+    /// The share of each of these parameters in the variance of the steady speed or the stall torque, if
     /// all of them are spread evenly over their ranges; in their order.
     ///
-    /// A point of the sample is one ensemble, with the seed of the settings: what is left of its scatter, and
-    /// what low-period traps do, counts with the parameters of the vertical motion, as an effect of them
-    /// together with others.
+    /// A point of the sample is one ensemble, with the seed of the settings: the rest of its scatter and the
+    /// effect of low-period traps count with the parameters of the vertical motion, as an interaction with
+    /// others.
     ///
     /// The items of `observer` are the rows of the sample.
     ///

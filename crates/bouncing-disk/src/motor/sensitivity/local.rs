@@ -1,4 +1,5 @@
-//! Local sensitivities: by which power of a parameter the steady speed or the stall torque changes (Fig. 13).
+//! Local sensitivities: the power of a parameter with which the steady speed or the stall torque changes
+//! (Fig. 13).
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -65,7 +66,8 @@ pub enum SensitivityMethod {
     SharedMotion {
         /// The standard error that the members give.
         scatter: f64,
-        /// What the cubic through the differences surely leaves out of the slope: zero where the scatter explains it.
+        /// The error in the slope beyond the cubic through the differences: zero where the scatter explains
+        /// it.
         curvature: f64,
     },
     /// By a straight line through motors with different vertical motions, drawn over the range of the
@@ -73,7 +75,7 @@ pub enum SensitivityMethod {
     Regression {
         /// Motors on the line.
         points: usize,
-        /// Motors that were left out, since they are in a low-period trap.
+        /// Motors left out because they are in a low-period trap.
         traps: usize,
         /// Standard deviation of the motors about the line, relative to their mean.
         scatter: f64,
@@ -86,8 +88,8 @@ pub enum SensitivityMethod {
 pub struct LocalSensitivity {
     /// The parameter.
     pub parameter: SensitivityParameter,
-    /// d ln(quantity)/d ln(parameter); of the phase lag, d ln(quantity)/d theta (1/rad); of the load torque,
-    /// d ln(quantity) over its change in units of mu m g a_e.
+    /// d ln(quantity)/d ln(parameter); for the phase lag, d ln(quantity)/d theta (1/rad); for the load
+    /// torque, d ln(quantity) over its change in units of mu m g a_e.
     pub derivative: Estimate,
     /// How it was found.
     pub method: SensitivityMethod,

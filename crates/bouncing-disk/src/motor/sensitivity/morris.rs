@@ -23,7 +23,7 @@ pub struct ElementaryEffects {
     pub mean: Estimate,
     /// Mean without the signs, mu*.
     pub mean_size: Estimate,
-    /// Standard deviation, sigma: the effect is not the same everywhere, by curvature or by what others do.
+    /// Standard deviation, sigma: how much the effect varies, by curvature or by interaction with others.
     pub deviation: Estimate,
 }
 

@@ -1,10 +1,10 @@
-//! The parameters of a motor that sensitivities are asked for, and the quantities.
+//! The parameters and the quantities of a motor's sensitivities.
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 
-/// What is asked of a motor.
+/// A quantity of a motor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -106,7 +106,7 @@ impl SensitivityParameter {
         }
     }
 
-    /// The motor with another value of it; where the data sheet gives an alternative, that is replaced.
+    /// The motor with another value of it, which replaces an alternative in the data sheet.
     ///
     /// # Errors
     /// Those of [`MotorParameters::build`](crate::motor::MotorParameters::build).

@@ -1,5 +1,5 @@
-//! Sobol' indices of any function: which share of its variance, over ranges of its arguments, each argument
-//! has.
+//! Sobol' indices of any function: the share of each argument in its variance, over ranges of the
+//! arguments.
 
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -19,7 +19,7 @@ const MOST_ARGUMENTS: usize = 64;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SamplingSettings {
-    /// Rows of the sample, in [8, 1e6]; of d arguments a row takes d + 2 evaluations for Sobol' indices, and
+    /// Rows of the sample, in [8, 1e6]; for d arguments a row takes d + 2 evaluations for Sobol' indices, and
     /// d + 1 for elementary effects. Default 256.
     pub rows: usize,
     /// Seed of the sample and of the resampling that gives the errors. Default 1.
@@ -43,11 +43,11 @@ impl SamplingSettings {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct SobolIndices {
-    /// First order: the share of the variance that goes if this argument alone is known. An estimate near
+    /// First order: the share of the variance that vanishes if this argument alone is known. An estimate near
     /// zero may be negative.
     pub first: Estimate,
-    /// Total: the share of the variance that is left if all others are known; it exceeds the first order by
-    /// what the argument does together with others.
+    /// Total: the share of the variance that remains if all others are known; it exceeds the first order by
+    /// the argument's interactions with others.
     pub total: Estimate,
 }
 
@@ -81,8 +81,8 @@ pub(crate) fn evaluated(
 /// order.
 ///
 /// `function` is given a batch of points, each with its arguments in the order of the ranges, and returns
-/// their values. A batch is a row of the sample: two random points A and B, and A with one argument after the
-/// other from B. Jansen's estimators; rows are drawn independently, so that resampling them gives the
+/// their values. A batch is a row of the sample: two random points A and B, and A with each argument in turn
+/// from B. The estimators are Jansen's; rows are drawn independently, so that resampling them gives the
 /// standard errors.
 ///
 /// The items of `observer` are the rows.
@@ -101,7 +101,7 @@ pub(crate) fn evaluated(
 ///
 /// # Errors
 /// [`Error::OutOfRange`] for illegal ranges or settings, for a value that is not finite, and for a function
-/// that returns another number of values than it was given points; its own errors.
+/// that does not return one value for each point; its own errors.
 pub fn sobol_indices(
     mut function: impl FnMut(&[Vec<f64>]) -> Result<Vec<f64>, Error>,
     ranges: &[[f64; 2]],

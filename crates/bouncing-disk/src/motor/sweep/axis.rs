@@ -7,7 +7,7 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 /// Most cells of a sweep: a map of 300 by 300, say.
 pub const MAX_SWEEP_CELLS: usize = 100_000;
 
-/// A parameter and the values that it takes, in any order, in the unit of the parameter. A value may be there twice.
+/// A parameter and the values that it takes, in any order, in the unit of the parameter. Values may repeat.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

@@ -7,12 +7,12 @@ use crate::motor::sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
     /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has units in the
-    /// names; numbers are written so that they are read to the last bit.
+    /// names; numbers are written so that reading them back is exact.
     ///
     /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`, `unsettled` or
-    /// `runaway`; `shortfall`, what an unsettled one lacks: `error`, `drift` or `power-balance`; each
+    /// `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
     /// [`SweepQuantity`] followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
-    /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. What a cell does not have is
+    /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing values are
     /// empty.
     #[must_use]
     pub fn to_csv(&self) -> String {

@@ -16,8 +16,9 @@ use crate::store::provenance::Provenance;
 
 impl MotorSweep {
     /// [`Self::run`] with a [`Journal`]: each group of cells ([`Self::groups`]) is appended when it is
-    /// finished, and those that an earlier call has appended, in a process that was stopped or killed at any time, are
-    /// taken from there. The result is that of one call without a journal, bit for bit. The items of the observer
+    /// finished, and those appended by an earlier call, in a process that was stopped or killed at any time,
+    /// are read from it. The result is that of one call without a journal, bit for bit. The items of the
+    /// observer
     /// are the cells.
     ///
     /// ```
@@ -51,9 +52,9 @@ impl MotorSweep {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Journal::open`] and [`Journal::append`]: a journal of another sweep is refused by the name of what
-    /// differs. Those of [`MotorSweepRun::advance`], in [`StorageError::Model`]; what other groups have is in the
-    /// journal then.
+    /// Those of [`Journal::open`] and [`Journal::append`]: a journal of another sweep is refused, naming the
+    /// difference. Those of [`MotorSweepRun::advance`], in [`StorageError::Model`]; the other groups are then
+    /// in the journal.
     pub fn run_with_journal(
         &self,
         path: impl AsRef<Path>,

@@ -1,4 +1,4 @@
-//! What a sweep has a number for in each cell.
+//! The quantities that a sweep computes in each cell.
 
 use crate::motor::operation::point::{Estimate, Operation};
 
@@ -55,7 +55,7 @@ impl SweepQuantity {
         }
     }
 
-    /// Its value, however well it is known; `None` for a runaway, and for an efficiency that there is not.
+    /// Its value, however well it is known; `None` for a runaway and for an undefined efficiency.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;

@@ -1,4 +1,4 @@
-//! What comes out of a sweep.
+//! The result of a sweep.
 
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
@@ -7,7 +7,8 @@ use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sweep::axis::{SweepAxis, values_of_cell};
 use crate::motor::sweep::quantity::SweepQuantity;
 
-/// The operation of each cell of a [`MotorSweep`](crate::motor::MotorSweep), with what was computed.
+/// The operation of each cell of a [`MotorSweep`](crate::motor::MotorSweep), with the input of the
+/// computation.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MotorSweepResult {
@@ -66,8 +67,8 @@ impl MotorSweepResult {
         self.cells.chunks(columns.max(1))
     }
 
-    /// A quantity as a matrix, `[row][column]` as in [`Self::rows`]: its values, however well they are known. `None` for a
-    /// runaway, and for an efficiency that there is not.
+    /// A quantity as a matrix, `[row][column]` as in [`Self::rows`]: its values, however well they are known.
+    /// `None` for a runaway and for an undefined efficiency.
     #[must_use]
     pub fn matrix(&self, quantity: SweepQuantity) -> Vec<Vec<Option<f64>>> {
         let of = |operation: &Operation| quantity.of(operation).map(|estimate| estimate.value);

@@ -1,4 +1,4 @@
-//! A sweep under way: it may be stopped, stored and gone on with.
+//! A sweep in progress, which can be stopped, stored and resumed.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -14,10 +14,11 @@ use crate::motor::sweep::MotorSweep;
 use crate::motor::sweep::axis::sheet_of_cell;
 use crate::motor::sweep::result::MotorSweepResult;
 
-/// A [`MotorSweep`] under way: the groups of cells that are finished.
+/// A [`MotorSweep`] in progress: the groups of cells that are finished.
 ///
-/// A run that is stopped, written, read and gone on with gives the result of one call of [`MotorSweep::run`] without a
-/// stop, bit for bit, for any number of threads. The sweep is not stored: whoever goes on brings the same one.
+/// A run that is stopped, written, read and resumed gives the result of one uninterrupted
+/// [`MotorSweep::run`], bit for bit, for any number of threads. The sweep is not stored: whoever resumes
+/// supplies the same one.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -58,26 +59,25 @@ impl From<PartialResults<Vec<Operation>>> for MotorSweepRun {
 }
 
 impl MotorSweepRun {
-    /// A run of a sweep of which nothing is finished.
+    /// A run of a sweep with nothing finished.
     #[must_use]
     pub fn new(sweep: &MotorSweep) -> Self {
         Self { groups: PartialResults::new(sweep.groups().len()) }
     }
 
-    /// Computes the groups that are not finished. What an earlier call has finished stays; so it does when this call
-    /// returns an error. The items of the observer are cells; groups under way when it breaks are begun again by
-    /// the next call.
+    /// Computes the groups that are not finished. Finished ones stay, also when this call returns an error.
+    /// The items of the observer are cells; groups under way when it breaks are restarted by the next call.
     ///
     /// # Errors
     /// Errors of the core: [`Stopped`](bouncing_disk_core::Error::Stopped) if the observer breaks,
-    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for another sweep than that of the run, as far as their
-    /// groups differ in number or size. The error of the first group that has one: it is not finished, all
+    /// [`Unfitting`](bouncing_disk_core::Error::Unfitting) for a sweep other than that of the run, if their
+    /// groups differ in number or size. The error of the first group that fails: it is not finished, all
     /// others are.
     pub fn advance(&mut self, sweep: &MotorSweep, observer: &dyn Observer) -> Result<(), Error> {
         self.advance_recording(sweep, observer, &|_, _| {})
     }
 
-    /// [`Self::advance`] which tells the operations of each group as soon as it is finished: for those who store them.
+    /// [`Self::advance`] that passes on the operations of each group as soon as it is finished, to be stored.
     /// `record` is given the index of the group; it is called by the threads that do the work, several at a time and in no
     /// certain order.
     ///
@@ -162,7 +162,8 @@ impl MotorSweepRun {
     /// The operation of each cell, row by row; `None` where it is not finished.
     ///
     /// # Errors
-    /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) for another sweep than that of the run.
+    /// An error of the core ([`Unfitting`](bouncing_disk_core::Error::Unfitting)) for a sweep other than that
+    /// of the run.
     pub fn cells(&self, sweep: &MotorSweep) -> Result<Vec<Option<Operation>>, Error> {
         self.open(sweep)?;
         let mut all = vec![None; sweep.cells()];
@@ -189,11 +190,11 @@ impl MotorSweepRun {
 impl MotorSweep {
     /// Computes all cells, over the threads of rayon's pool with the feature `parallel`.
     ///
-    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps what a call that is stopped has
-    /// finished.
+    /// The items of `observer` are the cells. A [`MotorSweepRun`] keeps the finished groups of a
+    /// stopped call.
     ///
     /// # Errors
-    /// Those of the flights, of the first group that has one: a [`MotorSweepRun`] keeps the others.
+    /// Those of the flights, for the first group that fails: a [`MotorSweepRun`] keeps the others.
     pub fn run(&self, observer: &dyn Observer) -> Result<MotorSweepResult, Error> {
         let mut run = MotorSweepRun::new(self);
         run.advance(self, observer)?;

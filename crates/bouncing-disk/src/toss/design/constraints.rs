@@ -1,4 +1,4 @@
-//! What a hand motion may be, what it is to be best at, and how an optimum is certified.
+//! The constraints on a hand motion, its objective, and how an optimum is certified.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -10,7 +10,7 @@ use crate::parameters::stroke::Stroke;
 use crate::parameters::system::System;
 use crate::toss::single::InitialSpin;
 
-/// What a toss is to be best at.
+/// The objective of a toss.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -38,29 +38,29 @@ pub enum OverFriction {
     Mean,
 }
 
-/// What a hand motion may be, and what it is to be best at.
+/// The constraints on a hand motion, and its objective.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TossConstraints {
-    /// The dough. Its friction is not looked at ([`Self::friction`] is), nor is its restitution.
+    /// The dough. Its friction is ignored in favour of [`Self::friction`], and so is its restitution.
     pub dough: DiskParameters,
     /// How the dough turns at the start.
     pub initial: InitialSpin,
     /// Stroke c (m), positive: the half length of the path of the hand at the contact radius (Eq. 13).
     pub stroke: f64,
-    /// Least and most coefficient of friction mu, not negative; twice the same if it is known.
+    /// Least and largest coefficient of friction mu, not negative; equal if it is known.
     pub friction: [f64; 2],
-    /// Least and most angular frequency omega (rad/s), positive.
+    /// Least and largest angular frequency omega (rad/s), positive.
     pub angular_frequency: [f64; 2],
-    /// Least and most phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the dough
-    /// as fast the other way, so that half a circle holds all that can be had.
+    /// Least and largest phase lag theta (rad), at most 2 pi apart. A lag that is larger by pi turns the
+    /// dough as fast the other way, so that half a circle covers all results.
     pub phase_lag: [f64; 2],
     /// The highest that the dough may fly above the place where it leaves the hand (m), positive; `None` for
     /// no limit.
     pub highest_flight: Option<f64>,
-    /// What the toss is to be best at.
+    /// The objective.
     pub objective: TossObjective,
-    /// How that is taken over the range of friction.
+    /// How it is taken over the range of friction.
     pub over_friction: OverFriction,
 }
 
@@ -140,8 +140,8 @@ pub struct TossCertificate {
     pub grid_points: usize,
     /// The best of them: the refined optimum is not below it.
     pub best_on_grid: f64,
-    /// What the objective could be above the optimum at most, farther from it than the next points of the
-    /// grid, if between two points it changes nowhere faster than it does from one to the other, or from
-    /// either to the next one beyond: zero if the optimum is sure under this premise.
+    /// Bound on how far the objective could exceed the optimum, farther from it than the next points of
+    /// the grid, if between two points it nowhere changes faster than from one to the other, or from
+    /// either to the next one beyond: zero if the optimum is certain under this premise.
     pub hidden_gain: f64,
 }

@@ -1,4 +1,4 @@
-//! How much of the objective is left where the inputs are off (docs/numerics/design.md, "Robustness").
+//! How much of the objective remains if the inputs are off (docs/numerics/design.md, "Robustness").
 
 use crate::error::{Error, check};
 use crate::parameters::disk::DiskParameters;
@@ -53,7 +53,7 @@ const ALL: [TossInput; INPUTS] = [
 ];
 
 /// Half a unit in the last digit to which each input is known or kept, not negative: 0.005 m for a stroke of
-/// 0.25 m. The default is none: all inputs are exact. Friction has its range in
+/// 0.25 m. The default is zero: all inputs are exact. Friction has its range in
 /// [`TossConstraints::friction`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -98,18 +98,18 @@ pub struct Robustness {
     pub least: f64,
     /// The most.
     pub most: f64,
-    /// The input that alone takes most of the objective away; `None` if none does.
+    /// The input that alone reduces the objective most; `None` if no input does.
     pub worst_input: Option<TossInput>,
-    /// What it takes away, not negative.
+    /// The reduction, not negative.
     pub worst_loss: f64,
 }
 
-/// What is left of a toss where hand and dough are not quite those of the design.
+/// The robustness of a toss whose hand and dough are not quite those of the design.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TossRobustness {
     /// Over everything that rounds to the same digits; the objective is taken over the range of friction, as
-    /// in the design. A dough that never leaves has none of it.
+    /// in the design. For a dough that never leaves it is zero.
     pub digits: Robustness,
     /// Over the range of friction, the other inputs as given; nominal is its middle.
     pub friction: Robustness,
@@ -236,7 +236,7 @@ impl<'a> Inputs<'a> {
 }
 
 impl TossDesign {
-    /// How much of the objective is left where hand and dough are not quite those of the design: over
+    /// How much of the objective remains if hand and dough are not quite those of the design: over
     /// everything that rounds to the same digits, and over the range of friction.
     ///
     /// # Errors

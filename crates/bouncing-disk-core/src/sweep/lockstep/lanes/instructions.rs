@@ -8,7 +8,7 @@ use pulp::WithSimd;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum InstructionSet {
-    /// What every processor of the compilation target has (SSE2 on x86-64).
+    /// The instructions of every processor of the compilation target (SSE2 on x86-64).
     Baseline,
     /// The fixed-width vectors of WebAssembly, where it is compiled for them: two lanes at once.
     Simd128,

@@ -1,4 +1,4 @@
-//! What the lanes fly above: one platform for all of them, or each its own.
+//! The platforms below the lanes: one for all of them, or one for each.
 
 use super::{ROW, Row};
 use crate::flight::platform::vibration::Crests;

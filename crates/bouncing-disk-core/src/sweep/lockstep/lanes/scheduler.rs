@@ -18,8 +18,8 @@ use crate::sweep::lockstep::lanes::{
 /// What flights are computed for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
-    /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and nobody asks how long
-    /// a flight takes. Launches that are set are ignored.
+    /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and
+    /// durations are not computed. Launches that are set are ignored.
     Orbits,
     /// Launches that are set; the impacts get their turns and durations.
     Launches,

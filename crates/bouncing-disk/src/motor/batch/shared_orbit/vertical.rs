@@ -1,4 +1,4 @@
-//! The vertical motion of a motor, with its perturbed relaunches: what all rotors on it share.
+//! The vertical motion of a motor, with its perturbed relaunches, shared by all rotors on it.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, Launch, Orbit, OrbitEvent, Phase};
