@@ -44,7 +44,7 @@ impl Counts {
         let [reproduced, differs, depends, no_data, ..] = self.row();
         format!(
             "Of {} numbers and statements of the paper, {reproduced} are reproduced, {differs} differ (for {} causes), {depends} depend on \
-             digits that it does not print, and for {no_data} its text has not what is needed to compute them.",
+             digits that it does not print, and for {no_data} its text lacks the data to compute them.",
             reproduced + differs + depends + no_data,
             self.causes.len(),
         )

@@ -1,4 +1,4 @@
-//! Roots and minima of functions of one variable inside a bracket.
+//! Roots and minima of functions of one variable inside a bracket. (The root of Eq. 11 is in `flight/gap.rs`.)
 
 /// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings: the
 /// middle of the last bracket. `is_below` is not called at the ends, which count as true and false.

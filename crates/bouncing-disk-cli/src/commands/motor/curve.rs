@@ -13,7 +13,7 @@ const POINTS: usize = 11;
 /// The torque-speed curve, with power and efficiency
 #[derive(Debug, Args)]
 #[command(after_help = "\
-All loads ride on one vertical motion: a curve costs little more than a point. Errors are standard errors at exactly these \
+All loads ride on one vertical motion: a curve costs little more than a point, unless loads settle slowly. Errors are standard errors at exactly these \
 inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
 a decade: 95 of 100 further ones lie between its ends. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \

@@ -72,7 +72,7 @@ pub(super) fn warn(motor: &Motor, context: Context) {
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
 pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
     let regime = motor.report(&Unobserved)?.regime;
-    let note = "the errors hold at exactly these inputs, the spread over their tolerances";
+    let note = "the errors hold at exactly these inputs; `motor traps` lists such preloads";
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }
 

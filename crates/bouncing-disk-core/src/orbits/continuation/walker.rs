@@ -1,4 +1,4 @@
-//! From point to point along a branch.
+//! From point to point along a branch, by pseudo-arclength.
 
 use core::cell::RefCell;
 use core::f64::consts::TAU;

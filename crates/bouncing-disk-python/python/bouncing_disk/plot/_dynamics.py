@@ -129,7 +129,15 @@ def orbit_diagram(
 
 def forcing_ends(axial_forcing: tuple[float, float]) -> tuple[float, float]:
     """The lowest and the highest forcing of a diagram."""
-    lowest, highest = (number("axial_forcing", end) for end in axial_forcing)
+    ends = tuple(axial_forcing)
+    if len(ends) != 2:
+        raise bd.InvalidError(
+            f"axial_forcing must be two numbers, the lowest and the highest, and has {len(ends)}; for other "
+            "forcings pass bd.orbit_diagram(...)",
+            "axial-forcing",
+            {},
+        )
+    lowest, highest = (number("axial_forcing", end) for end in ends)
     if not lowest <= highest:
         raise out_of_range("axial_forcing", highest, f"[{lowest}, infinity), the lowest one first")
     return lowest, highest

@@ -31,7 +31,14 @@ pub enum MotorFileError {
 
 impl MotorFileError {
     fn text(line: usize, column: usize, reason: &str) -> Self {
-        Self::Text { line: line.max(1), column: column.max(1), reason: reason.replace(char::is_control, " ") }
+        // The readers speak of their own types, and of texts where somebody wrote a unit.
+        let reason = match reason {
+            "string values must be quoted, expected literal string" => {
+                "a value must be a number without a unit, such as 40e3".to_owned()
+            }
+            other => other.replace("expected f64", "expected a number").replace(char::is_control, " "),
+        };
+        Self::Text { line: line.max(1), column: column.max(1), reason }
     }
 }
 

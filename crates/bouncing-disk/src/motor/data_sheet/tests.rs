@@ -487,6 +487,21 @@ mod stored {
     }
 }
 
+#[cfg(feature = "toml")]
+#[test]
+fn a_unit_in_a_data_sheet_is_refused_in_words_of_data_sheets() {
+    let text = Motor::paper_70_khz().to_toml();
+    for (frequency, complaint) in [
+        ("drive_frequency = 40 kHz", "a number without a unit"),
+        ("drive_frequency = \"40 kHz\"", "expected a number"),
+    ] {
+        let lines =
+            text.lines().map(|line| if line.starts_with("drive_frequency") { frequency } else { line });
+        let error = Motor::from_toml(&lines.collect::<Vec<_>>().join("\n")).expect_err(frequency).to_string();
+        assert!(error.contains(complaint) && error.starts_with("line 3"), "{error}");
+    }
+}
+
 proptest! {
     /// Written and read again, a data sheet has the same bits.
     #[test]

@@ -1,4 +1,4 @@
-//! A designer's questions about a motor in steady operation.
+//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load, best phase lag.
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
@@ -56,7 +56,7 @@ impl Motor {
     }
 
     /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
-    /// motion, so that a curve costs little more than a point. The points share their perturbations: the
+    /// motion, so that a curve costs little more than a point unless loads settle slowly. The points share their perturbations: the
     /// curve is smooth, and the difference of two points is more precise than either.
     ///
     /// The items of `observer` are the impacts that may be spent.
