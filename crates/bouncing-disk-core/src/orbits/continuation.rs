@@ -192,9 +192,8 @@ pub struct Bifurcation {
     pub kind: BifurcationKind,
     /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have
     /// the signs of an orbit, to their accuracy: rounding decides which impact the map finds first, and the
-    /// last of
-    /// [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its period, with
-    /// half the impacts.
+    /// last of [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its
+    /// period, with half the impacts.
     pub point: BranchPoint,
 }
 
