@@ -18,7 +18,7 @@
 //! ```
 //!
 //! [`verdicts`] tells whether single orbits rest, repeat or are chaotic; [`BasinEntropy`] and
-//! [`BoundaryScaling`] measure basins. A [`BasinRun`] can be stopped, stored and resumed. How it is decided:
+//! [`BoundaryScaling`] measure basins. A [`BasinRun`] can be stopped, stored and resumed. The methods:
 //! docs/numerics/dynamics.md.
 
 pub(crate) mod attraction;

@@ -2,9 +2,8 @@
 //!
 //! The largest Lyapunov exponent is the mean logarithm of the growth of a tangent vector per impact; both
 //! exponents sum to 2 ln r, because the map contracts areas by r^2. An attractor ends in a boundary crisis
-//! where the stable and
-//! the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181, 1983); beyond it the disk stays
-//! for a mean time that falls as a power of the distance.
+//! where the stable and the unstable manifold of a saddle touch (Grebogi, Ott and Yorke, Physica D 7, 181,
+//! 1983); beyond it the disk stays for a mean time that falls as a power of the distance.
 //!
 //! ```
 //! use bouncing_disk_core::chaos::lyapunov_exponents;

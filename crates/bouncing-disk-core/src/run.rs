@@ -1,8 +1,8 @@
 //! Long calls: their progress, how to stop them, and how a loop of your own counts its work.
 //!
-//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] if nobody looks;
-//! every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored and
-//! resumed is a type of its own: [`SweepRun`](crate::sweep::SweepRun),
+//! Every call that may take longer than 0.1 s takes an [`Observer`] as its last argument, [`Unobserved`] for
+//! none; every thread calls it at least once in [`FLIGHTS_BETWEEN_CALLS`] flights. A run that can be stored
+//! and resumed is a type of its own: [`SweepRun`](crate::sweep::SweepRun),
 //! [`BasinRun`](crate::attractors::BasinRun).
 
 use core::ops::ControlFlow;
@@ -39,11 +39,12 @@ impl Progress {
 
 /// Sees the progress of a long call, and may stop it.
 ///
-/// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] if nobody
-/// looks. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread, and
-/// when all is done. Where it breaks, the call returns [`Error::Stopped`], except at the last call, when all is
-/// done. The calls come from the threads that do the work, several at a time and in no certain order, so that
-/// `done` of one call may be less than that of the one before. No bit of a result depends on an observer.
+/// Every call that may take longer than 0.1 s takes an observer as its last argument, [`Unobserved`] for
+/// none. It is called before the first work, after every [`FLIGHTS_BETWEEN_CALLS`] flights of each thread,
+/// and when all is done. Where it breaks, the call returns [`Error::Stopped`], except at the last call, when
+/// all is done. The calls come from the threads that do the work, several at a time and in no certain order,
+/// so that `done` of one call may be less than that of the one before. No bit of a result depends on an
+/// observer.
 ///
 /// A function or closure of this form is an observer; the core looks at no clock, but the observer may.
 ///
@@ -84,7 +85,7 @@ impl<F: Fn(Progress) -> ControlFlow<()> + Sync> Observer for F {
     }
 }
 
-/// Nobody looks, nobody stops.
+/// No observer: nothing is watched or stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unobserved;
 

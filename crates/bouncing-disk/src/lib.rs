@@ -32,8 +32,7 @@
 //! | feature | default | what it does |
 //! | --- | --- | --- |
 //! | `parallel` | yes | ensembles, grids and sweeps over the threads of rayon's pool, with the same bits |
-//! | `serde` | yes | `Serialize` for results; `Deserialize` for input that users write and for runs to resume
-//! |
+//! | `serde` | yes | `Serialize` for results; `Deserialize` for users' input and for runs to resume |
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |

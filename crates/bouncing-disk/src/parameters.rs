@@ -4,8 +4,7 @@
 //! The platform moves by s = A sin(omega t) and turns by beta = Phi sin(omega t + theta) (Eq. 1 of Liu,
 //! Friend and Yeo); a [`Stroke`] gives A and Phi from the path of a hand (Eqs. 13 and 14). In the units
 //! 1/omega and g/omega^2 the [`DimensionlessParameters`] remain. The first of them is pi Gamma, with the
-//! axial forcing
-//! Gamma = A omega^2/(pi g): the disk leaves the platform if Gamma > 1/pi.
+//! axial forcing Gamma = A omega^2/(pi g): the disk leaves the platform if Gamma > 1/pi.
 //!
 //! ```
 //! use std::f64::consts::PI;

@@ -19,7 +19,7 @@ use crate::run::Observer;
 
 pub use run::BasinRun;
 
-/// What became of a start: one byte a cell.
+/// The fate of a start: one byte a cell.
 pub type Label = u8;
 /// Neither at rest nor near a known orbit after the allowed number of impacts: undecided, or on a chaotic attractor.
 pub const UNDECIDED: Label = 0;
@@ -80,7 +80,7 @@ impl Axis {
         self.cells
     }
 
-    /// Centre of cell `index`; of the last cell for an index beyond it.
+    /// Centre of cell `index`; that of the last cell for an index beyond it.
     #[must_use]
     pub fn centre(&self, index: usize) -> f64 {
         let index = index.min(self.cells - 1);
@@ -197,7 +197,7 @@ pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
 pub struct BasinSettings {
     /// Impacts after which a start is left [`UNDECIDED`].
     pub max_impacts: u32,
-    /// What ends a chattering sequence.
+    /// How a chattering sequence ends.
     pub policy: ChatterPolicy,
 }
 
@@ -325,7 +325,7 @@ impl Basins {
 }
 
 impl ImpactMap {
-    /// What becomes of one start: [`ATTACHED`], the index of a known orbit + [`FIRST_ORBIT`], or [`UNDECIDED`].
+    /// The label of one start: [`ATTACHED`], the index of a known orbit + [`FIRST_ORBIT`], or [`UNDECIDED`].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for more than 250 known orbits; those of [`crate::Vibration::first_impact`].

@@ -93,7 +93,7 @@ impl Recurrence {
     }
 }
 
-/// What an attractor is.
+/// The kind of an attractor.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedKind"))]
@@ -212,7 +212,7 @@ impl core::fmt::Display for AttractorKind {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Attractor {
-    /// What it is.
+    /// Its kind.
     pub kind: AttractorKind,
     /// How many of the starts ended on it: 0 if it was only a candidate. Its interval is that of the basin's
     /// share of the trapping region.

@@ -68,7 +68,7 @@ pub enum Verdict {
     /// The disk comes to rest on the platform, separates, and comes to rest again: as it always separates in
     /// the same way, this repeats for ever, and no perturbation survives the rest.
     Chattering {
-        /// What repeats.
+        /// The cycle that repeats.
         cycle: RestCycle,
         /// Impacts before the first rest.
         after: u64,
@@ -99,7 +99,7 @@ pub struct RestCycle {
     /// Periods of the platform, at least 1.
     pub platform_periods: u64,
     /// Flights that last longer than half a period of the platform. The short ones of a chatter get shorter
-    /// without end: their number says how they are summed rather than what the disk does.
+    /// without end: their number depends on how they are summed rather than on the motion.
     pub long_flights: u64,
     /// How far rounding may have carried the impacts of the round away from those of exact arithmetic (rad
     /// and g/omega), to first order; 1 where it is 1 or more.
@@ -332,7 +332,7 @@ impl ImpactMap {
 /// with the bits of
 /// [`ImpactMap::verdict`].
 ///
-/// The items of `observer` are the orbits. [`each_verdict`] keeps what a call that is stopped has found.
+/// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
 ///
 /// ```
 /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};

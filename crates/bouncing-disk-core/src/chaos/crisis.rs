@@ -77,8 +77,8 @@ pub struct Crisis {
     pub restitution: f64,
     /// Gamma of the tangency, or without one the middle of the bracket.
     pub forcing: f64,
-    /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from above to
-    /// what the last flights along the saddle changed and the rounding.
+    /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from
+    /// above up to the last change along the saddle and rounding.
     pub forcing_error: f64,
     /// The values of Gamma between which the lives of orbits place the crisis. At the second an orbit came to
     /// rest, which is certain; if the crisis lay below the first, 95 of 100 searches would have seen a rest
@@ -189,11 +189,11 @@ pub enum NoTangency {
     },
 }
 
-/// Why no crisis was found, with what there was instead.
+/// Why no crisis was found, with the observation instead.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoCrisis {
-    /// There is no periodic orbit yet that the attractor could come from.
+    /// The periodic orbit that would lead to the attractor is not yet born.
     #[error("there is no orbit of one impact per period up to Gamma = {forcing}: it appears at {birth}")]
     NotBorn {
         /// The upper end.

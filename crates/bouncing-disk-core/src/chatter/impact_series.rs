@@ -1,9 +1,8 @@
 //! A chatter in closed form: every impact, and every sum over impacts, as a power series in r^n.
 //!
 //! The accumulation point is the same from impact to impact, and near it the remaining time R has a
-//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
-//! = r^n.
-//! A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
+//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at
+//! y = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
 //! coefficients and the sums that do not cancel are derived in docs/numerics/chattering.md.
 
 use crate::flight::platform::phase::Phase;

@@ -352,7 +352,7 @@ pub enum OrbitEvent {
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttachment"))]
 pub struct Attachment {
     /// The accumulation point, where the disk attaches. Under [`ChatterPolicy::Cut`] the last impact itself,
-    /// with duration zero. A constant restitution has no bound on what was cut off (`error_bound` is infinite
+    /// with duration zero. A constant restitution has no bound on the remainder (`error_bound` is infinite
     /// unless the speed was 0); another law has that of [`ImpactMap::comes_to_rest_within`], infinite where
     /// there is none.
     pub accumulation: Accumulation,
@@ -495,7 +495,7 @@ impl<L: RestitutionLaw> Orbit<L> {
         Ok(())
     }
 
-    /// What ends a chatter.
+    /// How a chatter ends.
     #[must_use]
     pub const fn policy(&self) -> ChatterPolicy {
         self.policy

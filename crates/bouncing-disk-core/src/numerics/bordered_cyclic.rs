@@ -1,5 +1,5 @@
 //! The linear system of a closed sequence of equations with one parameter and one condition more, in time and
-//! memory proportional to its length: what Newton's method on a branch of periodic orbits solves.
+//! memory proportional to its length, for Newton's method on a branch of periodic orbits.
 
 use glam::{DMat2, DVec2};
 

@@ -126,7 +126,7 @@ pub enum Error {
         index: usize,
         /// How long the list is.
         count: usize,
-        /// What was meant.
+        /// The expected kind.
         expected: &'static str,
     },
     /// A text is not a decimal number.
@@ -140,7 +140,7 @@ pub enum Error {
         "the law of restitution gives {restitution:?} at the impact speed {impact_speed:?} g/omega, outside of [0, 1]"
     )]
     IllegalRestitution {
-        /// What the law gives.
+        /// The value of the law.
         restitution: f64,
         /// The impact speed, in units of g/omega.
         impact_speed: f64,

@@ -47,7 +47,7 @@ impl Fraction {
         self.of
     }
 
-    /// The share, in [0, 1]; of an empty sample 0.
+    /// The share, in [0, 1]; 0 for an empty sample.
     #[must_use]
     pub fn value(&self) -> f64 {
         if self.of == 0 { 0.0 } else { self.count as f64 / self.of as f64 }

@@ -159,7 +159,7 @@ impl BranchPoint {
     }
 }
 
-/// What happens at a special point of a branch.
+/// The kind of a special point of a branch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -188,13 +188,12 @@ pub enum BifurcationKind {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Bifurcation {
-    /// What happens.
+    /// Its kind.
     pub kind: BifurcationKind,
     /// The orbit there. At a graze and at a vanishing impact it is the last one whose speeds and gaps have
     /// the signs of an orbit, to their accuracy: rounding decides which impact the map finds first, and the
-    /// last of
-    /// [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its period, with
-    /// half the impacts.
+    /// last of [`Branch::points`] is one that the map confirms. At a birth it is the orbit that doubles its
+    /// period, with half the impacts.
     pub point: BranchPoint,
 }
 

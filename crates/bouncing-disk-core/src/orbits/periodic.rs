@@ -345,8 +345,8 @@ impl ImpactMap {
     }
 
     /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from `state` repeats
-    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if there is none or the disk comes
-    /// to rest (judged by [`ChatterPolicy::Complete`]).
+    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if no such period
+    /// exists or the disk comes to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`](crate::Vibration::first_impact).

@@ -15,9 +15,8 @@ const FEWEST_ROUNDS: usize = 4;
 ///
 /// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to
 /// settle, and a record after a fixed number of them is a transient; so is the spin of a disk that slides in
-/// each impact. Values that
-/// repeat, those of chaos and those that spiral in are not on their way in this sense; the latter settle as fast as the impacts
-/// lose energy.
+/// each impact. Values that repeat, those of chaos and those that spiral in are not on their way in this
+/// sense; the latter settle as fast as the impacts lose energy.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::is_settling;

@@ -4,7 +4,7 @@ use crate::display::numbers;
 use crate::error::{Error, check, finite};
 use std::fmt::{self, Display, Formatter};
 
-/// An estimated value and the 95 % interval about it, in the unit that stands with the field.
+/// An estimated value and the 95 % interval about it, in the unit of the field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct IntervalEstimate {

@@ -2,8 +2,7 @@
 //!
 //! The mean curve of an ensemble is fitted, not its members one by one: the mean of fits to scattered curves
 //! is not the fit to their mean. Errors come from resampling. docs/numerics/motors.md, "Fits with intervals",
-//! derives
-//! how.
+//! derives how.
 
 mod blocks;
 mod members;

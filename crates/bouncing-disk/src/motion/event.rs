@@ -52,7 +52,7 @@ pub enum Event {
 pub struct EventRecord {
     /// When it happened.
     pub time: PhaseTime,
-    /// What happened.
+    /// The event.
     pub event: Event,
     /// The disk just before.
     pub before: DiskState,

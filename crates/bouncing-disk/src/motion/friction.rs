@@ -9,10 +9,10 @@
 //!
 //! A disk at the platform's speed begins to slip in direction s exactly where this is positive, and sticks
 //! where it is positive for neither direction; the two add up to -2 mu N, so in contact it is never positive
-//! for both. Each of the two
-//! is positive over one interval of the period, known in closed form. Where the phase lies relative to these intervals
-//! (the *windows*) decides whether friction holds and when a slip ends; the sign of a rounded force never
-//! does. The event that follows, and the state after it, are decided in `contact_motion.rs`.
+//! for both. Each of the two is positive over one interval of the period, known in closed form. Where the
+//! phase lies relative to these intervals (the *windows*) decides whether friction holds and when a slip
+//! ends; the sign of a rounded force never does. The event that follows, and the state after it, are decided
+//! in `contact_motion.rs`.
 
 use std::cmp::Ordering;
 use std::f64::consts::{FRAC_PI_2, TAU};

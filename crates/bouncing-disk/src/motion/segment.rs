@@ -65,8 +65,7 @@ impl Segment {
 
     /// The energy balance from the start to `span` later, on the assumption that no event comes before:
     /// [`EventRecord::ledger`](crate::EventRecord) of a whole segment, without the impact that ends it. A
-    /// chatter speed
-    /// counts as in [`Self::state_after`].
+    /// chatter speed counts as in [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, system: &DimensionlessSystem, span: PhaseSpan) -> EnergyLedger {
         let span = span.normalised();

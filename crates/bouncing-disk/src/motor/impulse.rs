@@ -14,12 +14,12 @@
 //! few impacts the speed rises in straight lines that break where the rotor catches up with the stator at one
 //! of them.
 //!
-//! The *stall load* is the T/(m a_g^2) of a constant load torque T at which the mean speed of the rotor over a long run
-//! is zero. The vertical motion does not depend on the load, so all loads share one seeded list of impulses,
-//! along which the speed is computed and the load bisected ([`ImpulseTrain`]). Friction never holds the rotor
-//! meanwhile: at speed zero it would
-//! have to follow the stator, whose angular acceleration is some thousand times what friction can give in a motor
-//! ([`ImpulseTrain::hold_share`] is the inverse), so that no range of loads stalls it.
+//! The *stall load* is the T/(m a_g^2) of a constant load torque T at which the mean speed of the rotor over
+//! a long run is zero. The vertical motion does not depend on the load, so all loads share one seeded list of
+//! impulses, along which the speed is computed and the load bisected ([`ImpulseTrain`]). Friction never holds
+//! the rotor meanwhile: at speed zero it would have to follow the stator, whose angular acceleration is some
+//! thousand times the largest by friction in a motor ([`ImpulseTrain::hold_share`] is the inverse), so that
+//! no range of loads stalls it.
 
 use std::convert::Infallible;
 use std::f64::consts::TAU;

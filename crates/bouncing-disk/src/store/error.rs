@@ -118,7 +118,7 @@ pub enum StorageError {
     /// A value that cannot be read back from JSON, such as a number that is not finite.
     #[error("{what} cannot be stored")]
     NotStorable {
-        /// What it is: `the parameter "system"`, `the result of item 17`.
+        /// The value: `the parameter "system"`, `the result of item 17`.
         what: String,
         /// Why.
         source: serde_json::Error,

@@ -126,7 +126,7 @@ impl Provenance {
         self
     }
 
-    /// Sets what ends a chattering sequence.
+    /// Sets how a chattering sequence ends.
     #[must_use]
     pub const fn with_chatter_policy(mut self, policy: ChatterPolicy) -> Self {
         self.chatter_policy = Some(policy);
@@ -181,7 +181,7 @@ impl Provenance {
         self.seed
     }
 
-    /// What ends a chattering sequence, where it matters.
+    /// How a chattering sequence ends, where it matters.
     #[must_use]
     pub const fn chatter_policy(&self) -> Option<ChatterPolicy> {
         self.chatter_policy

@@ -76,7 +76,7 @@ pub struct Collision {
     pub capped: bool,
 }
 
-/// What [`Collisions`] reports.
+/// An item of [`Collisions`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -76,8 +76,8 @@ impl TossDesign {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] names what is illegal; [`Error::NeverLeaves`] if the dough does not leave the hand
-/// at any of the frequencies, with c omega^2/g at the highest; those of
+/// [`Error::OutOfRange`] names the illegal number; [`Error::NeverLeaves`] if the dough does not leave the
+/// hand at any of the frequencies, with c omega^2/g at the highest; those of
 /// [`single_toss`](crate::toss::single_toss).
 pub fn best_toss(constraints: &TossConstraints, observer: &dyn Observer) -> Result<TossDesign, Error> {
     constraints.check()?;

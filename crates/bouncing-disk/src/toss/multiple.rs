@@ -26,7 +26,7 @@ const FLIGHTS_OF_EVENT: u64 = 4;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct MultiTossSettings {
-    /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
+    /// How a chattering sequence ends. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
     /// Impacts that are skipped. Default 4000.
     pub transient_impacts: usize,
@@ -107,7 +107,7 @@ pub enum OrbitClass {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct TossOrbit {
-    /// What it has settled on.
+    /// The class of the orbit.
     pub class: OrbitClass,
     /// One round of a periodic orbit, one cycle of a chattering one, else all impacts examined.
     pub collisions: Vec<Collision>,

@@ -24,7 +24,7 @@ pub struct BasinEntropy {
     pub entropy: f64,
     /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box that a
     /// smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small beside the
-    /// basins says that the boundary is not smooth, a smaller one says nothing.
+    /// basins shows that the boundary is not smooth, a smaller one shows nothing.
     pub boundary_entropy: Option<f64>,
 }
 

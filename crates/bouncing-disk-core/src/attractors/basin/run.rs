@@ -55,8 +55,8 @@ impl BasinRun {
     }
 
     /// Labels the rows that are not finished. Finished rows stay, also when this call returns an error. The
-    /// items of the observer are rows; some thousand cells are under way on each
-    /// thread and begun again by the next call.
+    /// items of the observer are rows; each thread works on some thousand cells, which the next
+    /// call restarts.
     ///
     /// # Errors
     /// [`Error::Stopped`] if the observer breaks; those of [`crate::Vibration::first_impact`].

@@ -168,9 +168,8 @@ pub(super) fn matched(
 
 /// The attractors at each of `forcings` (Gamma, in the order in which they are to be followed) for this
 /// restitution, matched from forcing to forcing: each is the one of the forcing before that is nearest to it,
-/// if within
-/// `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that none continues vanishes. An
-/// orbit that doubles its period continues as the doubled one next to it.
+/// if within `reach` (rad, in [0, 100]); one without such a neighbour appears, and one that none continues
+/// vanishes. An orbit that doubles its period continues as the doubled one next to it.
 ///
 /// The items of `observer` are the forcings.
 ///

@@ -67,8 +67,7 @@ pub struct CrisisLives {
 
 impl Crisis {
     /// How long orbits live at these distances above 0 beyond the crisis (in Gamma), and the power law of
-    /// their mean life. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below
-    /// the
+    /// their mean life. `orbits` orbits, in [1, 1e6], start from one orbit on the attractor just below the
     /// crisis, and are followed for at most `impacts` >= 1.
     ///
     /// The items of `observer` are the orbits at one distance, from 0 on for each.

@@ -36,7 +36,8 @@ impl Branch {
     /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each continued
     /// anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part, however narrow the range is
     /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a part that ends in a birth
-    /// by doubling and is short: close to it the two halves of the orbit cannot be told apart, and the birth follows at once.
+    /// by doubling and is short: close to it the two halves of the orbit are indistinguishable, and the birth
+    /// follows at once.
     ///
     /// The range only selects: it neither begins nor ends a branch. The birth by doubling that ends a branch
     /// is part of it, as the halved orbit run through twice.

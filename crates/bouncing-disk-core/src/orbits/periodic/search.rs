@@ -99,7 +99,7 @@ impl OrbitSearch {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitCoverage {
-    /// What was searched for, and from how many starts.
+    /// The settings: limits and starts.
     pub search: OrbitSearch,
     /// The largest speed of a start: no impact of a periodic orbit is faster
     /// ([`ImpactMap::impact_speed_bound`], less where the periods of the platform are limited; units of
@@ -130,7 +130,7 @@ pub struct OrbitCoverage {
     pub found_once: u64,
 }
 
-/// The periodic orbits that were found, and what was covered.
+/// The periodic orbits that were found, and the coverage.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct OrbitsFound {
@@ -138,7 +138,7 @@ pub struct OrbitsFound {
     /// of impacts, then of platform periods, then by falling speed of their fastest impact, which is the
     /// first of each.
     pub orbits: Vec<PeriodicOrbit>,
-    /// What was covered.
+    /// The coverage.
     pub coverage: OrbitCoverage,
 }
 

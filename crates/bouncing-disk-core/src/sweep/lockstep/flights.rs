@@ -149,8 +149,8 @@ impl Flights {
         Some(Launch::known(batch.launch_phase(lane), batch.launches().speed[lane]))
     }
 
-    /// Sets the next launch of every lane of a batch to what follows its impact with a coefficient of restitution of its own
-    /// in [0, 1); another number counts as zero.
+    /// Sets the next launch of every lane of a batch to the rebound from its impact, with a coefficient of
+    /// restitution of its own in [0, 1); another number counts as zero.
     ///
     /// Where the bits of `may_rest` are then zero, the disk keeps bouncing:
     /// [`crate::ImpactMap::accumulation`] is `None`.

@@ -58,12 +58,12 @@ impl MeasuredSpeeds {
     /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs,
     /// `member` (a whole number), or with times and speeds in other units stated in the file. Feature `csv`.
     ///
-    /// The header is the first line that names the columns, in any order; text before it, a row of units below it, blank
-    /// lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by commas, semicolons or tabs;
-    /// numbers have a decimal point or, if commas do not separate columns, a decimal comma. Another column is
-    /// refused, not ignored: it may be a misspelt one. Within a run the times rise; runs may follow each
-    /// other or alternate. At
-    /// most 64 MiB, 4,000,000 lines of numbers and 65,536 bytes of one line are read.
+    /// The header is the first line that names the columns, in any order; text before it, a row of units
+    /// below it, blank lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by
+    /// commas, semicolons or tabs; numbers have a decimal point or, if commas do not separate columns, a
+    /// decimal comma. Another column is refused, not ignored: it may be a misspelt one. Within a run the
+    /// times rise; runs may follow each other or alternate. At most 64 MiB, 4,000,000 lines of numbers and
+    /// 65,536 bytes of one line are read.
     ///
     /// # Errors
     /// [`MeasuredSpeedsError`](crate::estimate::MeasuredSpeedsError) names file, line and field, and how to

@@ -1,4 +1,4 @@
-//! What can be wrong with a file of measured speeds.
+//! The errors of files of measured speeds.
 
 use crate::error::Error;
 
@@ -51,7 +51,7 @@ pub enum CsvFault {
     /// A line is longer than this number of bytes.
     #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
     LongLine(usize),
-    /// There is no header.
+    /// The header is missing.
     #[error("it is empty; a line must name the columns: {HEADER}")]
     Empty,
     /// A column has no known unit, or not the one stated by the caller or the row below the header.

@@ -1,4 +1,4 @@
-//! What the data determine: the directions in the space of the parameters, each by itself.
+//! The directions in the space of the parameters that the data determine, each by itself.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 

@@ -25,7 +25,7 @@ pub struct UndeterminedDirection {
     /// of a size, of the restitution, of the phase lag (rad). The largest change is 1; no parameter is named
     /// twice.
     pub direction: Vec<(FitParameter, f64)>,
-    /// The standard error along it, in multiples of the direction as it stands, positive; infinite where the
+    /// The standard error along it, in multiples of the direction as given, positive; infinite where the
     /// transients do not change at all.
     pub standard_error: f64,
 }

@@ -22,9 +22,9 @@ pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 impl<L: RestitutionLaw> Engine<L> {
-    /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included. No
-    /// event is kept, so that a long motion takes no more memory than a short one. Afterwards the engine
-    /// stands just after the first event at or after the last instant.
+    /// Disk and platform at `count` instants at equal distances, from now to `span` later, both included.
+    /// Events are not kept, so that a long motion takes no more memory than a short one. Afterwards the
+    /// engine stands just after the first event at or after the last instant.
     ///
     /// At an event, the state is that just after it, as in [`Trajectory::at`](crate::Trajectory::at). A
     /// disk that rests for ever is followed as well.

@@ -88,8 +88,8 @@ impl MotorParameters {
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
     /// acceleration of the system, and the torque m a_g^2 d alpha/dt of its load. It is not yet checked. The
-    /// frequency omega/(2 pi) is
-    /// rounded, so that the angular frequency of the motor may differ in the last bit.
+    /// frequency omega/(2 pi) is rounded, so that the angular frequency of the motor may differ in the last
+    /// bit.
     ///
     /// ```
     /// use bouncing_disk::System;

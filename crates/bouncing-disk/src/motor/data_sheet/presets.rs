@@ -48,8 +48,8 @@ impl Motor {
     /// The motor of Table III at its second operating frequency, 184 kHz.
     ///
     /// For this frequency the paper prints the frequency, says that the default values of omega Phi and theta
-    /// were used, and shows amplitudes of 1e-9, 1e-8 and 1e-7 m; the middle one, the default of Table III,
-    /// stands here. What the stator really does at 184 kHz is not printed: the measured rotor turns the other
+    /// were used, and shows amplitudes of 1e-9, 1e-8 and 1e-7 m; the middle one, the default of Table III, is
+    /// used here. The true motion of the stator at 184 kHz is not printed: the measured rotor turns the other
     /// way, as it does in the model with a phase lag of pi, while the printed default is 0. The mass is that
     /// of [`Self::paper_70_khz`].
     #[must_use]

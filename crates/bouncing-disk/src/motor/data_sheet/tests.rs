@@ -498,7 +498,7 @@ fn a_unit_in_a_data_sheet_is_refused_in_words_of_data_sheets() {
         let lines =
             text.lines().map(|line| if line.starts_with("drive_frequency") { frequency } else { line });
         let error = Motor::from_toml(&lines.collect::<Vec<_>>().join("\n")).expect_err(frequency).to_string();
-        assert!(error.contains(complaint) && error.starts_with("line 3"), "{error}");
+        assert!(error.contains(complaint) && error.starts_with("line 1:"), "{error}");
     }
 }
 

@@ -118,7 +118,7 @@ pub enum Shortfall {
     },
 }
 
-/// What became of a motor under a load.
+/// The outcome for a motor under a load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]

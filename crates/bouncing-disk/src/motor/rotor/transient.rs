@@ -43,7 +43,7 @@ pub struct TransientSettings {
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations and of the starting phases. Default 1.
     pub seed: u64,
-    /// What ends a chattering sequence. Default [`ChatterPolicy::Complete`].
+    /// How a chattering sequence ends. Default [`ChatterPolicy::Complete`].
     pub policy: ChatterPolicy,
 }
 

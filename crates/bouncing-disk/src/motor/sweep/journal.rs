@@ -18,8 +18,7 @@ impl MotorSweep {
     /// [`Self::run`] with a [`Journal`]: each group of cells ([`Self::groups`]) is appended when it is
     /// finished, and those appended by an earlier call, in a process that was stopped or killed at any time,
     /// are read from it. The result is that of one call without a journal, bit for bit. The items of the
-    /// observer
-    /// are the cells.
+    /// observer are the cells.
     ///
     /// ```
     /// use std::ops::ControlFlow;

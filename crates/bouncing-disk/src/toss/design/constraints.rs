@@ -31,7 +31,7 @@ pub enum TossObjective {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum OverFriction {
-    /// Its least value: what the hand motion gives at any friction of the range.
+    /// Its least value, which the hand motion reaches at any friction of the range.
     #[default]
     Worst,
     /// Its mean, each friction of the range as likely as any other.

@@ -74,7 +74,7 @@ fn values_are_read_as_instruments_write_them() {
     let units = CsvColumns { time_unit: ms, speed_unit: rpm, ..CsvColumns::default() };
     assert_eq!(of(&PLAIN.replace("_s,", ","), &units).expect_err("rad_s is not rpm").to_string(), {
         "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal are rad/s, rpm, rev/s, deg/s, in the \
-         name, in the row below it, or by the caller (--speed-unit), and the same in all places"
+         name, in the row below it, or as an option (--speed-unit), and the same in all places"
     });
     assert!(fault("t,n\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"\" here"));
     assert!(fault("t (h),n (rpm)\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"h\" here"));
@@ -134,7 +134,7 @@ fn a_wrong_line_is_named_with_what_to_do() {
     );
     assert_eq!(
         fault_of("0,5,1,25"),
-        "\"demo.csv\", line 3: it has 4 fields where the header has 2; write numbers with a decimal point, or separate the columns by \
+        "\"demo.csv\", line 3: it has 4 fields, but the header has 2; write numbers with a decimal point, or separate the columns by \
          semicolons"
     );
     assert!(fault_of("0.5").contains("it has 1 fields where the header has 2"));

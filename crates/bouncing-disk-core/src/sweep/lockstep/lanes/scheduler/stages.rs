@@ -1,4 +1,4 @@
-//! The stages of the flights of each kind: computed once their queue is full, and sorted by what became of them.
+//! The stages of the flights of each kind: computed once their queue is full, and sorted by outcome.
 
 use super::FlightScheduler;
 use super::Queue;
