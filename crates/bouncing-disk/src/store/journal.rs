@@ -355,7 +355,7 @@ fn check_regular(file: &std::fs::Metadata, path: &Path) -> Result<(), StorageErr
     if file.is_file() {
         return Ok(());
     }
-    let source = io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file");
+    let source = io::Error::new(io::ErrorKind::InvalidInput, "it is not a regular file");
     Err(StorageError::Io { action: "read", path: path.to_owned(), source })
 }
 
@@ -372,7 +372,11 @@ fn check_header(found: &[u8], expected: &[u8], path: &Path) -> Result<(), Storag
         return Err(StorageError::Damaged { path: path.to_owned(), line: 1 });
     }
     let parts = |key: &Value| json!({ "items": key["items"], "provenance": key["provenance"] });
-    match first_difference(&parts(&stored), &parts(&wanted), &mut String::new()) {
+    // The version first: what else differs between two versions does not help to find the right program.
+    let version = |key: &Value| json!({ "provenance": { "version": key["provenance"]["version"] } });
+    let differ =
+        |of: &dyn Fn(&Value) -> Value| first_difference(&of(&stored), &of(&wanted), &mut String::new());
+    match differ(&version).or_else(|| differ(&parts)) {
         None => Ok(()),
         Some(Difference { field, found, expected }) => {
             Err(StorageError::OtherKey { path: path.to_owned(), field, found, expected })

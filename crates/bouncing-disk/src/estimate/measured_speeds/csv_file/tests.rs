@@ -137,7 +137,7 @@ fn a_wrong_line_is_named_with_what_to_do() {
         "\"demo.csv\", line 3: it has 4 fields, but the header has 2; write numbers with a decimal point, or separate the columns by \
          semicolons"
     );
-    assert!(fault_of("0.5").contains("it has 1 fields where the header has 2"));
+    assert!(fault_of("0.5").contains("it has 1 fields, but the header has 2"));
     assert!(fault_of("0,5;1,25").contains("it has 3 fields"));
     assert!(fault_of("0.5,\"1").contains("line 3, field 2: a quotation mark is not closed"));
     assert!(fault_of("0.5,\"1\n2\"").contains("line 3, field 2: a quotation mark is not closed"));
