@@ -2,9 +2,9 @@
 //!
 //! Python owns the signatures: a function there hands over its `locals()`, and what it returns is made here.
 
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Observer, Orbit, Vibration};
+use bouncing_disk::Error;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Orbit, Vibration};
 use bouncing_disk::estimate::FitError;
-use bouncing_disk::{Error, Motor as MotorModel, System as SystemModel};
 use numpy::{PyArrayDyn, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::PyClass;
 use pyo3::exceptions::{PyKeyError, PyOverflowError, PyTypeError, PyValueError};

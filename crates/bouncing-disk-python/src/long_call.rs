@@ -13,6 +13,8 @@ use std::time::Duration;
 
 use bouncing_disk::estimate::FitError;
 use bouncing_disk::{Error, Observer, Progress};
+use pyo3::exceptions::PyTypeError;
+use pyo3::intern;
 use pyo3::prelude::*;
 
 use crate::arguments::Arguments;

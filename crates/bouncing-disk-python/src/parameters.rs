@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk::core::{ChatterCut as Cut, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
 use bouncing_disk::parameters::Stroke;
@@ -15,7 +15,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
-use crate::arguments::{Arguments, Count, Made, Real, extracted};
+use crate::arguments::{Arguments, Count, Made, Real, extracted, held};
 use crate::results::{array, matrix};
 use crate::{errors, long_call};
 
