@@ -262,11 +262,6 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// One number.
-    pub(crate) fn one(value: f64) -> Self {
-        Self { values: vec![value], scalar: true }
-    }
-
     /// The number of an item of a call that has so many: one number is that of all.
     pub(crate) fn get(&self, index: usize) -> f64 {
         if self.scalar { self.values[0] } else { self.values[index] }

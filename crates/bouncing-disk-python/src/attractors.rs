@@ -4,8 +4,8 @@ use bouncing_disk::core::{
     Error as CoreError, ImpactMap,
     attractors::{
         AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors as AttractorsModel, Axis,
-        BasinFractions as FractionsModel, BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label,
-        RestCycle,
+        BasinSettings, Basins, BoundaryFit, Grid, KnownOrbit, Label, RestCycle,
+        basin_fractions_over as fractions_over,
     },
     orbits::PeriodicOrbit as OrbitModel,
 };
@@ -24,8 +24,6 @@ use crate::results::{array, column, holders, holding, make, matrix, room_for};
 holders! {
     /// What an `Attractors` holds.
     Attractors(AttractorsModel) = shown_attractors;
-    /// What a `BasinFractions` holds.
-    BasinFractions(FractionsModel) = shown_fractions;
 }
 
 /// Starts on each circle that is tried for the radius of a known orbit.
@@ -266,7 +264,14 @@ pub(crate) fn boundary_scaling(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-fn shown_fractions(py: Python<'_>, found: FractionsModel) -> Made<'_> {
+/// Attractors and the shares of their basins, followed over the forcing.
+#[pyfunction]
+pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
+    let (restitution, forcings, py) = (a.real("restitution")?, a.row("axial_forcing")?, a.py());
+    let (search, reach) = (search(&a)?, a.real("reach")?);
+    let found = a.run(|observer| {
+        Ok(fractions_over(restitution, &forcings, &search, reach, observer)?)
+    })?;
     let (attractors, forcings) = (found.followed.len(), found.at.len());
     // A number of each attractor at each forcing, NaN where it is not there.
     let table = |of: &dyn Fn(&Attractor) -> f64| {
@@ -281,7 +286,7 @@ fn shown_fractions(py: Python<'_>, found: FractionsModel) -> Made<'_> {
         }
     }
     let each = found.at.iter().map(|at| shown_attractors(py, at.attractors.clone()));
-    let made = make!(
+    make!(
         py,
         "BasinFractions",
         found.restitution,
@@ -294,33 +299,5 @@ fn shown_fractions(py: Python<'_>, found: FractionsModel) -> Made<'_> {
         table(&|own| own.starts.interval().0)?,
         table(&|own| own.starts.interval().1)?,
         matrix(py, moved, [attractors, forcings])?,
-    )?;
-    holding(made, BasinFractions(found))
-}
-
-/// Attractors and the shares of their basins, followed over the forcing.
-#[pyfunction]
-pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
-    let (forcings, search, reach) = (a.row("axial_forcing")?, search(&a)?, a.real("reach")?);
-    let restitution = a.real("restitution")?;
-    let found = a.run(|observer| {
-        Ok(bouncing_disk::core::attractors::basin_fractions_over(
-            restitution,
-            &forcings,
-            &search,
-            reach,
-            observer,
-        )?)
-    })?;
-    shown_fractions(a.py(), found)
-}
-
-/// The same with more forcings.
-#[pyfunction]
-pub(crate) fn extended(a: Arguments<'_>) -> Made<'_> {
-    let (forcings, search, reach) = (a.row("axial_forcing")?, search(&a)?, a.real("reach")?);
-    let fractions = a.held::<BasinFractions>("self")?;
-    let fractions = &fractions.get().0;
-    let found = a.run(|observer| Ok(fractions.extended(&forcings, &search, reach, observer)?))?;
-    shown_fractions(a.py(), found)
+    )
 }

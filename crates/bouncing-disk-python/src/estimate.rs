@@ -1,124 +1,23 @@
-//! Speed transients of motors, and what measured ones say: fits of rises, of braking and of parameters.
+//! Speed transients of motors, and fits of measured ones: of their rise and of the motor's parameters.
 
 use std::str::FromStr;
 
 use bouncing_disk::Error;
-use bouncing_disk::core::Phase;
 use bouncing_disk::estimate::{
-    BrakingFit, BrakingRotor, CsvColumns, ExponentialFit, FitParameter, FitRange, FitSettings,
-    IntervalEstimate, MeasuredRun, MeasuredSpeeds, MeasuredTransient, ParameterFit, ParameterFitSettings,
-    RiseEstimate, RiseForm, RunPreload, Spread, TransientFit, UnknownUnit,
+    CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds,
+    MeasuredTransient, ParameterFit, ParameterFitSettings, RiseEstimate, RiseForm, RunPreload, Spread,
+    TransientEnsemble, TransientFit, UnknownUnit,
 };
-use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings};
-use numpy::{PyArray1, PyArray2};
+use bouncing_disk::motor::{SpeedCurve, TransientSettings};
+use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyTuple};
 
-use crate::arguments::{Arguments, Count, Made, Numbers, Pair, Real, common_length, held, row, runs};
+use crate::arguments::{Arguments, Made, Pair, Real, row, runs};
 use crate::errors;
-use crate::parameters::{System, shown_motor};
+use crate::parameters::shown_motor;
 use crate::results::{array, column, make, matrix, room_for};
-
-/// Curves as two matrices, time by member.
-struct Matrices {
-    shape: [usize; 2],
-    times: Vec<f64>,
-    speeds: Vec<f64>,
-    impacts: Vec<i64>,
-    separations: Vec<i64>,
-}
-
-impl Matrices {
-    /// Those of curves of the same number of points.
-    fn of(curves: &[SpeedCurve], points: usize) -> Result<Self, Error> {
-        let shape = [points, curves.len()];
-        let (mut times, mut speeds) = (room_for(points * curves.len())?, room_for(points * curves.len())?);
-        for point in 0..points {
-            times.extend(curves.iter().map(|curve| curve.times.get(point).copied().unwrap_or(f64::NAN)));
-            speeds.extend(curves.iter().map(|curve| curve.speeds.get(point).copied().unwrap_or(f64::NAN)));
-        }
-        let impacts = curves.iter().map(|curve| curve.impacts as i64).collect();
-        let separations = curves.iter().map(|curve| curve.separations as i64).collect();
-        Ok(Self { shape, times, speeds, impacts, separations })
-    }
-
-    fn shown(self, py: Python<'_>) -> PyResult<Shown<'_>> {
-        let times = matrix(py, self.times, self.shape)?;
-        let speeds = matrix(py, self.speeds, self.shape)?;
-        Ok((times, speeds, array(py, self.impacts), array(py, self.separations)))
-    }
-}
-
-/// The same as NumPy has it.
-type Shown<'py> = (
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray1<i64>>,
-    Bound<'py, PyArray1<i64>>,
-);
-
-fn settings(a: &Arguments<'_>, seed: u64) -> PyResult<TransientSettings> {
-    Ok(TransientSettings {
-        duration: a.real("duration")?,
-        intervals: a.usize("intervals")?,
-        relaunch_perturbation: a.real("relaunch_perturbation")?,
-        seed,
-        policy: a.policy()?,
-    })
-}
-
-/// The speed of one motor from rest.
-#[pyfunction]
-pub(crate) fn transient(a: Arguments<'_>) -> Made<'_> {
-    let (system, settings, phase) = (a.system()?, settings(&a, a.u64("seed")?)?, a.real("phase")?);
-    let curve =
-        a.run(|observer| bouncing_disk::motor::transient(&system, Phase::new(phase)?, &settings, observer))?;
-    let (py, impacts, separations) = (a.py(), curve.impacts, curve.separations);
-    make!(py, "SpeedCurve", array(py, curve.times), array(py, curve.speeds), impacts, separations)
-}
-
-/// One of some kind, or as many as there are members.
-fn each<'py, T>(
-    given: &Bound<'py, PyAny>,
-    one: impl Fn(&Bound<'py, PyAny>) -> PyResult<T>,
-) -> PyResult<(Vec<T>, Option<usize>)> {
-    if let Ok(own) = one(given) {
-        return Ok((vec![own], None));
-    }
-    let all = given.try_iter()?.map(|item| one(&item?)).collect::<PyResult<Vec<_>>>()?;
-    let count = all.len();
-    Ok((all, Some(count)))
-}
-
-/// The speeds of many motors from rest.
-#[pyfunction]
-pub(crate) fn transients(a: Arguments<'_>) -> Made<'_> {
-    let py = a.py();
-    let system = |item: &Bound<'_, PyAny>| Ok(held::<System>(item, "systems")?.get().0);
-    let (systems, many_systems) = each(&a.get("systems")?, system)?;
-    let phases = a.given("phases")?.map_or_else(|| Ok(Numbers::one(0.0)), |_| a.numbers("phases"))?;
-    let seed = |item: &Bound<'_, PyAny>| item.extract::<Count>()?.u64(py, "seeds");
-    let (seeds, many_seeds) =
-        a.given("seeds")?.map_or_else(|| Ok((vec![1], None)), |seeds| each(&seeds, seed))?;
-    let members =
-        common_length(&[("systems", many_systems), ("phases", phases.len()), ("seeds", many_seeds)])?;
-    let common = settings(&a, 1)?;
-    let matrices = a.run(|observer| {
-        let mut all = room_for(members)?;
-        for member in 0..members {
-            let system = systems[if many_systems.is_some() { member } else { 0 }];
-            let seed = seeds[if many_seeds.is_some() { member } else { 0 }];
-            let settings = TransientSettings { seed, ..common };
-            all.push(TransientMember { system, phase: Phase::new(phases.get(member))?, settings });
-        }
-        let curves =
-            bouncing_disk::motor::transients(&all, observer)?.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Matrices::of(&curves, common.intervals)
-    })?;
-    let (times, speeds, impacts, separations) = matrices.shown(py)?;
-    make!(py, "SpeedCurves", times, speeds, impacts, separations)
-}
 
 /// One value tells neither deviation nor error.
 fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'py> {
@@ -129,21 +28,35 @@ fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'
 /// The transients of one motor from many phases.
 #[pyfunction]
 pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
-    let (system, members, settings) = (a.system()?, a.usize("members")?, settings(&a, a.u64("seed")?)?);
-    let (runs, matrices) = a.run(|observer| {
-        let runs = bouncing_disk::estimate::TransientEnsemble::new(&system, &settings, members, observer)?;
-        let matrices = Matrices::of(&runs.curves, settings.intervals)?;
-        Ok((runs, matrices))
+    let (system, members, py) = (a.system()?, a.usize("members")?, a.py());
+    let settings = TransientSettings {
+        duration: a.real("duration")?,
+        intervals: a.usize("intervals")?,
+        relaunch_perturbation: a.real("relaunch_perturbation")?,
+        seed: a.u64("seed")?,
+        policy: a.policy()?,
+    };
+    let (runs, times, speeds) = a.run(|observer| {
+        let runs = TransientEnsemble::new(&system, &settings, members, observer)?;
+        // A number of each member at each time, time by member.
+        let table = |of: fn(&SpeedCurve) -> &[f64]| {
+            let mut numbers = room_for(settings.intervals * members)?;
+            for point in 0..settings.intervals {
+                numbers.extend(runs.curves.iter().map(|curve| of(curve)[point]));
+            }
+            Ok::<_, Error>(numbers)
+        };
+        let (times, speeds) = (table(|curve| &curve.times)?, table(|curve| &curve.speeds)?);
+        Ok((runs, times, speeds))
     })?;
-    let py = a.py();
-    let (times, speeds, impacts, separations) = matrices.shown(py)?;
+    let shape = [settings.intervals, members];
     make!(
         py,
         "TransientEnsemble",
-        times,
-        speeds,
-        impacts,
-        separations,
+        matrix(py, times, shape)?,
+        matrix(py, speeds, shape)?,
+        column(py, &runs.curves, |curve| curve.impacts as i64),
+        column(py, &runs.curves, |curve| curve.separations as i64),
         column(py, &runs.fits, |fit| fit.steady_speed),
         column(py, &runs.fits, |fit| fit.time_constant),
         column(py, &runs.fits, |fit| fit.residual),
@@ -151,15 +64,6 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         shown_spread(py, &runs.time_constant, members)?,
         shown_spread(py, &runs.stall_acceleration, members)?,
     )
-}
-
-/// The exponential rise that fits a speed curve best.
-#[pyfunction]
-pub(crate) fn fit_exponential(a: Arguments<'_>) -> Made<'_> {
-    let (times, speeds) = (a.row("times")?, a.row("speeds")?);
-    let fit = a.run(|observer| ExponentialFit::new(&times, &speeds, observer))?;
-    let stall = fit.stall_acceleration();
-    make!(a.py(), "ExponentialFit", fit.steady_speed, fit.time_constant, fit.residual, stall)
 }
 
 fn interval<'py>(py: Python<'py>, estimate: &IntervalEstimate) -> Made<'py> {
@@ -205,29 +109,6 @@ pub(crate) fn fit_transients(a: Arguments<'_>) -> Made<'_> {
         fit.duration,
         fit.points,
         fit.members,
-    )
-}
-
-/// The coefficient of friction from the speeds of a rotor that slides on a platform at rest.
-#[pyfunction]
-pub(crate) fn fit_braking(a: Arguments<'_>) -> Made<'_> {
-    let (times, speeds, py) = (a.row("times")?, a.row("speeds")?, a.py());
-    let rotor = BrakingRotor {
-        normal_force: a.real("normal_force")?,
-        mass: a.real("mass")?,
-        contact_radius: a.real("contact_radius")?,
-        gyration_radius: a.real("gyration_radius")?,
-    };
-    let fit = py.detach(|| BrakingFit::new(&times, &speeds, &rotor)).map_err(|error| a.refused(error))?;
-    make!(
-        py,
-        "BrakingFit",
-        interval(py, &fit.friction)?,
-        interval(py, &fit.deceleration)?,
-        fit.sliding_until,
-        fit.points,
-        fit.correlation_time,
-        fit.residual,
     )
 }
 

@@ -25,8 +25,7 @@ use pyo3::prelude::*;
 mod _native {
     #[pymodule_export]
     use crate::attractors::{
-        Attractors, BasinFractions, attractors, basin_entropy, basin_fractions_over, basins, basins_of,
-        boundary_scaling, extended,
+        Attractors, attractors, basin_entropy, basin_fractions_over, basins, basins_of, boundary_scaling,
     };
     #[pymodule_export]
     use crate::chaos::{
@@ -34,30 +33,26 @@ mod _native {
         verdicts,
     };
     #[pymodule_export]
-    use crate::estimate::{
-        ensemble, fit_braking, fit_exponential, fit_parameters, fit_transients, read_speeds, transient,
-        transients,
-    };
+    use crate::estimate::{ensemble, fit_parameters, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::motor::{
         best_phase_lag, elementary_effects, input_spreads, local_sensitivities, low_period_traps, motor_map,
-        nearest_trap, operating_point, report, sobol_indices, stall_load, torque_speed_curve,
+        nearest_trap, report, sobol_indices, stall_load, torque_speed_curve,
     };
     #[pymodule_export]
     use crate::orbits::{
-        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, iterate_orbits,
-        periodic_orbits, proven_radius, refine, settled_orbit, switched, trapping_radius,
+        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, periodic_orbits,
+        proven_radius, refine, settled_orbit, switched, trapping_radius,
     };
     #[pymodule_export]
     use crate::parameters::{
-        amplitudes_of_stroke, chatter_cut, excluded_by, impact_map, known_motor, known_system,
-        load_acceleration, motor, paper_cut, platform_motion, system,
+        chatter_cut, excluded_by, impact_map, known_motor, known_system, motor, paper_cut, system,
     };
     #[pymodule_export]
     use crate::threads::{set_threads, threads};
     #[pymodule_export]
     use crate::toss::{
-        Trajectory, best_toss, events, multi_toss, rotary_response, samples, simulate, single_toss,
+        Trajectory, events, multi_toss, rotary_response, samples, simulate, single_toss,
         toss_trajectory,
     };
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.

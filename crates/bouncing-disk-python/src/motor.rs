@@ -3,8 +3,7 @@
 use bouncing_disk::motor::{
     ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
     OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
-    SensitivityParameter, SensitivityQuantity, SensitivitySettings, Shortfall, SobolIndices, SweepAxis,
-    TrapVerdict,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, TrapVerdict,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -58,16 +57,10 @@ pub(crate) fn report(a: Arguments<'_>) -> Made<'_> {
 /// How many doubles an operation has.
 const COLUMNS: usize = 18;
 
-/// The numbers of an operation; NaN where there are none.
-struct Numbers {
-    values: [f64; COLUMNS],
-    impacts: i64,
-    /// The place in `OperatingPoints.STATUSES`.
-    status: u8,
-    shortfall: String,
-}
+/// The numbers of an operation in the order of the fields of `OperatingPoints`, NaN where there are none; its
+/// impacts, and the place in `OperatingPoints.STATUSES`.
+type Numbers = ([f64; COLUMNS], i64, u8);
 
-/// Those of a point, in the order of the fields of `OperatingPoint`.
 fn of_point(point: &OperatingPoint) -> [f64; COLUMNS] {
     let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
     let efficiency = point.efficiency.unwrap_or(none);
@@ -93,49 +86,27 @@ fn of_point(point: &OperatingPoint) -> [f64; COLUMNS] {
     ]
 }
 
-fn shortfall(shortfall: &Shortfall) -> String {
-    match shortfall {
-        Shortfall::Error { standard_error, wanted } => {
-            format!("standard error of the speed {standard_error:?} rad/s, asked for {wanted:?} rad/s")
-        }
-        Shortfall::Drift { drift, standard_error } => {
-            format!("the speed drifts by {drift:?} rad/s, with a standard error of {standard_error:?} rad/s")
-        }
-        Shortfall::PowerBalance { stored_power, input_power } => {
-            format!("the disk stores {stored_power:?} W of the {input_power:?} W that are put in")
-        }
-        _ => "not settled".to_owned(),
-    }
-}
-
 fn numbers(operation: &Operation) -> Numbers {
-    let nothing =
-        Numbers { values: [f64::NAN; COLUMNS], impacts: 0, status: 1, shortfall: "unknown".to_owned() };
-    let of = |point: &OperatingPoint, status, shortfall| Numbers {
-        values: of_point(point),
-        impacts: signed(point.impacts),
-        status,
-        shortfall,
-    };
+    let nothing = [f64::NAN; COLUMNS];
     match operation {
-        Operation::Steady(point) => of(point, 0, String::new()),
-        Operation::Unsettled(point, lack) => of(point, 1, shortfall(lack)),
+        Operation::Steady(point) => (of_point(point), signed(point.impacts), 0),
+        Operation::Unsettled(point, _) => (of_point(point), signed(point.impacts), 1),
         Operation::Runaway { load_torque, acceleration, .. } => {
-            let mut values = nothing.values;
-            (values[0], values[17]) = (*load_torque, *acceleration);
-            Numbers { values, status: 2, shortfall: String::new(), ..nothing }
+            let mut values = nothing;
+            (values[0], values[COLUMNS - 1]) = (*load_torque, *acceleration);
+            (values, 0, 2)
         }
-        _ => nothing,
+        _ => (nothing, 0, 1),
     }
 }
 
 /// The columns of many operations.
 fn columns<'py>(py: Python<'py>, operations: &[Operation]) -> Vec<Bound<'py, PyAny>> {
     let all: Vec<_> = operations.iter().map(numbers).collect();
-    let doubles = (0..COLUMNS).map(|index| column(py, &all, |one| one.values[index]).into_any());
+    let doubles = (0..COLUMNS).map(|index| column(py, &all, |(values, ..)| values[index]).into_any());
     let mut fields: Vec<_> = doubles.collect();
-    fields.push(column(py, &all, |one| one.impacts).into_any());
-    fields.push(column(py, &all, |one| one.status).into_any());
+    fields.push(column(py, &all, |(_, impacts, _)| *impacts).into_any());
+    fields.push(column(py, &all, |(.., status)| *status).into_any());
     fields
 }
 
@@ -147,24 +118,6 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
         relaunch_perturbation: a.real("relaunch_perturbation")?,
         seed: a.u64("seed")?,
     })
-}
-
-/// How a motor runs under its load.
-#[pyfunction]
-pub(crate) fn operating_point(a: Arguments<'_>) -> Made<'_> {
-    let (motor, settings, py) = (a.motor()?, settings(&a)?, a.py());
-    let load = a.optional("load_torque")?.unwrap_or_else(|| motor.load_torque());
-    let operation = a.run(|observer| motor.operating_point(load, &settings, observer))?;
-    let Numbers { values, impacts, status, shortfall } = numbers(&operation);
-    let mut fields = Vec::new();
-    for value in values {
-        fields.push(value.into_pyobject(py)?.into_any());
-    }
-    fields.push(impacts.into_pyobject(py)?.into_any());
-    for text in [["steady", "unsettled", "runaway"][usize::from(status)], &shortfall] {
-        fields.push(text.into_pyobject(py)?.into_any());
-    }
-    made(py, "OperatingPoint", fields)
 }
 
 /// Speed, power and efficiency of a motor against its load.

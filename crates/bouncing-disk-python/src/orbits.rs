@@ -7,19 +7,14 @@ use bouncing_disk::core::{
         BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter, OrbitSearch,
         PeriodicOrbit as OrbitModel, Stability, feigenbaum_estimates,
     },
-    run::Watch,
-    sweep::OrbitBatch,
 };
-use numpy::PyArray1;
-use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
-use rayon::prelude::*;
 
-use crate::arguments::{Arguments, Made, Starts, common_length, first_impact};
+use crate::arguments::{Arguments, Made, common_length, first_impact};
 use crate::errors;
 use crate::parameters::{pair, state};
-use crate::results::{array, column, complex, holders, holding, make, matrix, room_for};
+use crate::results::{array, column, complex, holders, holding, make, matrix};
 
 holders! {
     /// What a `PeriodicOrbit` holds.
@@ -226,45 +221,4 @@ pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
         column(py, &estimates, |one| one.alpha),
         column(py, &estimates, |one| one.alpha_error),
     )
-}
-
-/// Orbits that one thread advances together: what stays in its cache.
-const TOGETHER: usize = 1024;
-
-/// The impacts that so many steps lead to, of one share of the orbits.
-fn advanced(
-    starts: &[(ImpactMap, ImpactState)],
-    impacts: u64,
-    watch: &Watch<'_>,
-) -> Result<Vec<ImpactState>, Error> {
-    let mut batch = OrbitBatch::new(starts.iter().copied());
-    let mut work = watch.work();
-    for _ in 0..impacts {
-        batch.step()?;
-        watch.finish(starts.len() as u64);
-        work.spend(starts.len() as u64)?;
-    }
-    Ok((0..batch.len()).filter_map(|index| batch.state(index)).collect())
-}
-
-/// The impacts of many orbits that are so many steps later: the bare map, without a question after each impact.
-#[pyfunction]
-pub(crate) fn iterate_orbits(a: Arguments<'_>) -> Made<'_> {
-    let (starts, impacts, py) = (Starts::of(&a)?, a.u64("impacts")?, a.py());
-    let last = a.run(|observer| {
-        let starts = starts.states()?;
-        let total = impacts.saturating_mul(starts.len() as u64);
-        let watch = Watch::begin(observer, 0, total)?;
-        // Collected in order, so that the error is that of the first share whatever the threads do.
-        let shares: Vec<Result<Vec<ImpactState>, Error>> =
-            starts.par_chunks(TOGETHER).map(|share| advanced(share, impacts, &watch)).collect();
-        let mut last = room_for(starts.len())?;
-        for share in shares {
-            last.extend(share?);
-        }
-        watch.end();
-        Ok(last)
-    })?;
-    let of = |number: fn(&ImpactState) -> f64| -> Bound<'_, PyArray1<f64>> { column(py, &last, number) };
-    (of(|state| state.phase().angle()), of(ImpactState::velocity)).into_bound_py_any(py)
 }

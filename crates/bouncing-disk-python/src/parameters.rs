@@ -5,18 +5,16 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
-use bouncing_disk::parameters::Stroke;
 use bouncing_disk::{
-    DiskParameters, Error, Motor as MotorModel, Platform, PlatformParameters, System as SystemModel,
+    DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel,
 };
 use numpy::PyArray2;
-use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::arguments::{Arguments, Count, Made, Real, extracted, held};
-use crate::results::{array, matrix};
+use crate::results::matrix;
 use crate::{errors, long_call};
 
 /// What a `System` holds. Its numbers are made when Python asks for the first one.
@@ -93,10 +91,6 @@ impl Motor {
     fn to_json(&self) -> String {
         self.0.to_json()
     }
-
-    fn warnings(&self) -> Vec<String> {
-        self.0.warnings().iter().map(ToString::to_string).collect()
-    }
 }
 
 /// What a `ChatterCut` holds.
@@ -137,17 +131,7 @@ impl Map {
 
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
     fn step(&self, py: Python<'_>, impact_phase: Real, axial_impact_velocity: Real) -> PyResult<(f64, f64)> {
-        stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step(state)?.into()))
-    }
-
-    #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
-    fn step_back(
-        &self,
-        py: Python<'_>,
-        impact_phase: Real,
-        axial_impact_velocity: Real,
-    ) -> PyResult<(f64, f64)> {
-        stepped(py, impact_phase, axial_impact_velocity, |state| Ok(self.0.step_back(state)?))
+        with_state(py, impact_phase, axial_impact_velocity, |state| Ok(pair(self.0.step(state)?.into())))
     }
 
     /// The derivative of the next impact.
@@ -173,15 +157,6 @@ impl Map {
         }
         Ok(long_call::caught(|| Ok(self.0.period_one(periods).map(pair)))?.unwrap_or(None))
     }
-}
-
-fn stepped(
-    py: Python<'_>,
-    phase: Real,
-    velocity: Real,
-    step: impl FnOnce(ImpactState) -> Result<ImpactState, Error>,
-) -> PyResult<(f64, f64)> {
-    with_state(py, phase, velocity, |state| Ok(pair(step(state)?)))
 }
 
 /// What becomes of an impact of these two numbers.
@@ -294,39 +269,6 @@ pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<
 pub(crate) fn known_system<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
     let system = if name == "motor" { SystemModel::motor() } else { SystemModel::pizza_toss() };
     named(numbers_of(&system)).into_py_dict(py)
-}
-
-/// Both amplitudes of a platform that moves along a stroke.
-#[pyfunction]
-pub(crate) fn amplitudes_of_stroke(a: Arguments<'_>) -> PyResult<(f64, f64)> {
-    let stroke = Stroke {
-        stroke: a.real("stroke")?,
-        amplitude_angle: a.real("amplitude_angle")?,
-        contact_radius: a.real("contact_radius")?,
-        angular_frequency: a.real("angular_frequency")?,
-        phase_lag: a.real("phase_lag")?,
-    };
-    let platform = Platform::from_stroke(stroke).map_err(|error| a.refused(error))?.parameters();
-    Ok((platform.amplitude, platform.twist_amplitude))
-}
-
-/// The acceleration by a load torque.
-#[pyfunction]
-pub(crate) fn load_acceleration(a: Arguments<'_>) -> PyResult<f64> {
-    let loaded = a.system()?.with_load_torque(a.real("torque")?, a.real("mass")?);
-    Ok(loaded.map_err(|error| a.refused(error))?.disk().load_acceleration())
-}
-
-/// Height and angle of the platform at many phases.
-#[pyfunction]
-pub(crate) fn platform_motion(a: Arguments<'_>) -> Made<'_> {
-    let (system, py) = (a.system()?, a.py());
-    let phases = a.row("phases")?.into_iter().map(Phase::new).collect::<Result<Vec<_>, _>>();
-    let phases = phases.map_err(|error| a.refused(error))?;
-    let of = |value: &dyn Fn(Phase) -> f64| array(py, phases.iter().copied().map(value).collect());
-    let platform = system.platform();
-    let both = (of(&|phase| platform.height(phase)), of(&|phase| platform.angle(phase)));
-    both.into_bound_py_any(py)
 }
 
 /// A data sheet as the library has it.
@@ -460,7 +402,7 @@ impl<'py> Arguments<'py> {
     }
 
     pub(crate) fn system(&self) -> PyResult<SystemModel> {
-        Ok(self.held::<System>(self.or_self("system")?)?.get().0)
+        Ok(self.held::<System>("system")?.get().0)
     }
 
     pub(crate) fn motor(&self) -> PyResult<MotorModel> {

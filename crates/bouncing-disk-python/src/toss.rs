@@ -6,18 +6,16 @@ use bouncing_disk::motion::{
 };
 use bouncing_disk::parameters::Scales;
 use bouncing_disk::toss::{
-    InitialSpin, MultiTossSettings, OrbitClass, OverFriction, RotaryOutcome, TossConstraints, TossObjective,
-    TossOrbit, TossPerformance, rotary_response as response, single_toss as toss,
-    toss_trajectory as toss_motion,
+    InitialSpin, MultiTossSettings, OrbitClass, RotaryOutcome, TossOrbit, TossPerformance,
+    rotary_response as response, single_toss as toss, toss_trajectory as toss_motion,
 };
 use bouncing_disk::{
-    DiskParameters, Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel,
-    Trajectory as Motion,
+    Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel, Trajectory as Motion,
 };
 use numpy::Complex64;
 use pyo3::prelude::*;
 
-use crate::arguments::{Arguments, Made, Pair, choice, held};
+use crate::arguments::{Arguments, Made, choice, held};
 use crate::orbits::PeriodicOrbit;
 use crate::parameters::{System, python_system};
 use crate::results::{array, column, complex, holders, holding, make, room_for};
@@ -336,55 +334,6 @@ pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
         Ok(motion)
     })?;
     shown_trajectory(py, (system, motion))
-}
-
-/// The hand motion that tosses best.
-#[pyfunction]
-pub(crate) fn best_toss(a: Arguments<'_>) -> Made<'_> {
-    let (table, py) = (TossConstraints::pizza_toss(), a.py());
-    let or = |name: &str, own: f64| PyResult::Ok(a.optional(name)?.unwrap_or(own));
-    let pair = |name: &str, own: [f64; 2]| {
-        PyResult::Ok(a.of::<Option<Pair>>(name)?.map_or(own, |Pair(low, high)| [low, high]))
-    };
-    let objectives = [
-        ("airborne-speed", TossObjective::AirborneSpeed),
-        ("efficiency", TossObjective::Efficiency),
-        ("turns-per-toss", TossObjective::TurnsPerToss),
-    ];
-    let constraints = TossConstraints {
-        dough: DiskParameters {
-            contact_radius: or("contact_radius", table.dough.contact_radius)?,
-            gyration_radius: or("gyration_radius", table.dough.gyration_radius)?,
-            preload_acceleration: or("preload_acceleration", table.dough.preload_acceleration)?,
-            ..table.dough
-        },
-        initial: a.choice("initial_spin", &SPINS)?,
-        stroke: or("stroke", table.stroke)?,
-        friction: pair("friction", table.friction)?,
-        angular_frequency: pair("angular_frequency", table.angular_frequency)?,
-        phase_lag: pair("phase_lag", table.phase_lag)?,
-        highest_flight: a.optional("highest_flight")?,
-        objective: a.choice("objective", &objectives)?,
-        over_friction: a
-            .choice("over_friction", &[("worst", OverFriction::Worst), ("mean", OverFriction::Mean)])?,
-    };
-    let design = a.run(|observer| bouncing_disk::toss::best_toss(&constraints, observer))?;
-    make!(
-        py,
-        "TossDesign",
-        design.hand.stroke,
-        design.hand.amplitude_angle,
-        design.hand.angular_frequency,
-        design.hand.phase_lag,
-        design.amplitude_ratio,
-        design.value,
-        shown_toss(py, &design.toss)?,
-        design.flight_height,
-        design.turns,
-        design.certificate.grid_points,
-        design.certificate.best_on_grid,
-        design.certificate.hidden_gain,
-    )
 }
 
 /// What becomes of the spin of a disk on a periodic orbit.

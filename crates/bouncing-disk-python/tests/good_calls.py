@@ -41,7 +41,6 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         "cells": 8,
         "progress": None,
     }
-    followed = bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.34], **search)
     saddle = next(
         one
         for one in bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
@@ -69,27 +68,8 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
     return [
         (bd.System, [], TOSS.to_dict()["platform"] | TOSS.to_dict()["disk"]),
         (TOSS.replace, [], {"friction": 0.5}),
-        (TOSS.with_load_torque, [], {"torque": 0.1, "mass": 1.0}),
         (bd.System.from_dict, [TOSS.to_dict()], {}),
         (bd.System.from_json, [TOSS.to_json()], {}),
-        (
-            bd.System.from_stroke,
-            [],
-            {"stroke": 0.2, "amplitude_angle": 0.5, "angular_frequency": 15.0} | TOSS.to_dict()["disk"],
-        ),
-        (TOSS.platform_motion, [], {"phases": [0.0, 1.0, -7.0]}),
-        (
-            bd.fit_braking,
-            [],
-            {
-                "times": np.arange(100) * 0.03,
-                "speeds": np.maximum(50.0 - 20.0 * 0.03 * np.arange(100), 0.0),
-                "normal_force": 0.5,
-                "mass": 0.05,
-                "contact_radius": 0.002,
-                "gyration_radius": 0.01,
-            },
-        ),
         (bd.ImpactMap, [], {"axial_forcing": 0.5, "restitution": 0.5}),
         (bd.ImpactMap, [], {"peak_acceleration": 0.5, "restitution": 0.5}),
         (bd.ImpactMap.of_system, [TOSS], {}),
@@ -101,7 +81,6 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.Motor.paper_184_khz, [], {}),
         (bd.ChatterCut, [], bd.ChatterCut.paper().to_dict()),
         (MAP.step, [], impact),
-        (MAP.step_back, [], impact),
         (MAP.derivative, [], impact),
         (MAP.iterate, [], impact | {"impacts": 10, "progress": None}),
         (MAP.period_one, [], {"platform_periods": 1}),
@@ -129,8 +108,6 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.basin_entropy, [rows], {"box_side": 3}),
         (bd.boundary_scaling, [rows], {"distances": [1, 2, 3], "progress": None}),
         (bd.basin_fractions_over, [], search | {"restitution": 0.5, "axial_forcing": [0.34, 0.36]}),
-        (followed.extended, [], search | {"axial_forcing": [0.38]}),
-        (bd.BasinFractions.from_json, [followed.to_json()], {}),
         (
             bd.continued,
             [MAP, orbit],
@@ -142,34 +119,26 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.single_toss, [TOSS], {"initial_spin": "with-hand"}),
         (bd.toss_trajectory, [TOSS], {"initial_spin": "with-hand"}),
         (trajectory.samples, [], {"count": 5}),
+        (trajectory.events, [], {}),
         (bd.simulate, [TOSS], toss | {"events": 5, "duration": 1.0, "chatter": None, "progress": None}),
         (bd.multi_toss, [TOSS], toss | {"transient_impacts": 5, "examined_impacts": 5, "longest_period": 2}),
-        (bd.transient, [TOSS], run | {"phase": 0.0, "seed": 1, "chatter": None}),
-        (bd.transients, [[TOSS, TOSS]], run | {"phases": [0.0, 1.0], "seeds": [1, 2], "chatter": None}),
-        (bd.ensemble, [TOSS], run | {"members": 3, "seed": 1}),
-        (bd.operating_point, [MOTOR], quick | {"load_torque": 0.0}),
+        (bd.ensemble, [TOSS], run | {"members": 3, "seed": 1, "chatter": None}),
         (bd.torque_speed_curve, [MOTOR], quick | {"load_torques": [0.0, 1e-9]}),
         (bd.stall_load, [MOTOR], quick),
         (bd.input_spreads, [MOTOR], quick | {"load_torques": [0.0], "tolerance": 0.01, "draws": 8}),
         (bd.best_phase_lag, [MOTOR], quick),
         (bd.low_period_traps, [MOTOR], {"preload_accelerations": [9.8, 10.0], "progress": None}),
-        (bd.nearest_trap, [MOTOR], {"relative_range": 1e-4, "progress": None}),
+        (bd.nearest_trap, [bd.Motor.paper_70_khz()], {"relative_range": 0.01, "progress": None}),
         (bd.rotary_response, [TOSS, toss_orbit], {}),
-        (bd.fit_exponential, [], {"times": times, "speeds": speeds, "progress": None}),
         (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
-        (
-            bd.best_toss,
-            [],
-            {"friction": (0.6, 0.6), "objective": "efficiency", "stroke": 0.2, "progress": None},
-        ),
         (
             bd.fit_parameters,
             [MOTOR],
             {"transients": [(times, speeds, 9.8)], "ranges": {"friction": (0.05, 0.2)}, "progress": None},
         ),
         (bd.set_threads, [], {"count": 2}),
-        (bd.iterate_orbits, [], starts | {"impacts": 3}),
         (MOTOR.replace, [], {"friction": 0.2}),
+        (MOTOR.report, [], {}),
         (crisis.lives, [], {"beyond": [1e-3], "orbits": 2, "impacts": 10, "progress": None}),
         (bd.lyapunov_spectra, [], starts | {"transient": 10, "impacts": 16}),
         (

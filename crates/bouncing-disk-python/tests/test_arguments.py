@@ -48,8 +48,8 @@ def spoilt(value: Any) -> list[Any]:
 
 
 def is_argument(name: str, call: Callable[..., Any], keywords: dict[str, Any]) -> bool:
-    # The restitution of a map is no argument of its methods, nor are the amplitudes that a stroke is divided into.
-    others = {"self", "restitution", "amplitude", "twist_amplitude"}
+    # The restitution of a map is no argument of its methods.
+    others = {"self", "restitution"}
     return name in {*inspect.signature(call).parameters, *keywords, *others}
 
 
@@ -83,13 +83,13 @@ def test_an_error_names_an_argument_and_its_value(
             pass
         except TypeError as error:
             # These are counts, which floats are not.
-            assert name in ("seeds", "distances"), str(error)
+            assert name == "distances", str(error)
 
 
 def test_no_call_is_left_out() -> None:
     # What takes a whole object, a text or a file, and no number.
     plain = {"threads", "of_system", "read_speeds", "sweep", "read_sweep", "to_json", "to_dict", "from_json"}
-    plain |= {"from_dict", "pizza_toss", "motor", "paper", "events", "report", "warnings", "names", "reasons"}
+    plain |= {"from_dict", "pizza_toss", "motor", "paper", "names", "reasons"}
     plain |= {"of", "column", "share", "branch_end_names", "to_xarray", "to_netcdf"}
     surface = set()
     for name in bd.__all__:
@@ -109,16 +109,14 @@ def test_no_call_is_left_out() -> None:
         ("impact_phase", math.inf, ".*", lambda: MAP.step(impact_phase=math.inf, axial_impact_velocity=-1.0)),
         ("speed_range", -1.0, ".*", lambda: bd.basins(MAP, speed_range=(-1.0, 1.0))),
         ("phase_range", 0.0, ".*", lambda: bd.basins(MAP, phase_range=(1.0, 0.0))),
-        ("friction", 0.5, ".*", lambda: bd.best_toss(friction=(0.7, 0.5))),
         ("restitution", 1.5, r"\[0, 1\)", lambda: bd.System.from_json(TOSS.replace(restitution=0.125).to_json().replace("0.125", "1.5"))),
         # A value and its range have the unit of the argument.
         ("gap", -1.0, r"\[[0-9.e-]+, [0-9.e+]+\] m", lambda: bd.simulate(TOSS, gap=-1.0)),
         ("relative_velocity", 1e300, r"\[-[0-9.e+]+, [0-9.e+]+\] m/s", lambda: bd.multi_toss(TOSS, gap=1.0, relative_velocity=1e300)),
         ("relative_velocity", -1.0, r"\[0, inf\) m/s", lambda: bd.simulate(TOSS, relative_velocity=-1.0)),
         ("angular_speed", 1e308, r"\[-[0-9.e+]+, [0-9.e+]+\] rad/s", lambda: bd.simulate(TOSS, angular_speed=1e308)),
-        ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transient(TOSS, duration=1e300)),
-        ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.transients([TOSS, bd.System.motor()], duration=1e300)),
-        ("load_torque", 1e200, r"\[-[0-9.e+]+, [0-9.e+]+\] N m", lambda: bd.operating_point(MOTOR, load_torque=1e200)),
+        ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.ensemble(TOSS, members=3, duration=1e300)),
+        ("load_torque", 1e200, r"\[-[0-9.e+]+, [0-9.e+]+\] N m", lambda: MOTOR.replace(load_torque=1e200)),
         # Whole numbers stand without a fraction.
         ("recorded", -1.0, r"\[0, 4294967295\]", lambda: bd.orbit_diagram(axial_forcing=0.5, **STARTS, recorded=-1)),
         ("starts", 300_000.0, r"\[0, 262144\]", lambda: bd.attractors(MAP, starts=300_000)),
@@ -158,7 +156,6 @@ def test_nothing_and_one_are_numbers_of_orbits() -> None:
     assert one.offsets.tolist() == [0, 1]
     assert one == bd.orbit_diagram(axial_forcing=[0.45], recorded=1, **STARTS)
     assert bd.orbit_diagram(axial_forcing=0.45, recorded=0, **STARTS).offsets.tolist() == [0, 0]
-    assert bd.transients([], duration=0.01, intervals=5).speeds.shape == (5, 0)
     resting = bd.orbit_diagram(axial_forcing=[0.2, 0.45], recorded=10, **STARTS)
     assert np.diff(resting.offsets).tolist() == [0, 10]
 
@@ -187,7 +184,7 @@ def test_counts_that_are_none_are_refused() -> None:
         for call in (
             lambda count=count: bd.orbit_diagram(axial_forcing=0.5, recorded=count, **STARTS),
             lambda count=count: bd.basins(MAP, phases=count),
-            lambda count=count: bd.transient(TOSS, intervals=count),
+            lambda count=count: bd.ensemble(TOSS, members=3, intervals=count),
             lambda count=count: MAP.period_one(platform_periods=count),
         ):
             with pytest.raises(bd.OutOfRangeError) as refused:
@@ -252,11 +249,11 @@ def test_arrays_of_other_shapes_are_value_errors(value: Any) -> None:
 def test_masked_values_are_refused() -> None:
     times = np.linspace(0.01, 5.0, 200)
     speeds: Any = np.ma.array(30.0 * (1.0 - np.exp(-times / 0.8)))
-    expected = bd.fit_exponential(times=times, speeds=speeds.data).steady_speed
-    assert bd.fit_exponential(times=times, speeds=speeds).steady_speed == expected
+    expected = bd.fit_transients(times=times, speeds=speeds.data, resamples=200)
+    assert bd.fit_transients(times=times, speeds=speeds, resamples=200) == expected
     speeds[50] = np.ma.masked
     with pytest.raises(TypeError, match="masked values"):
-        bd.fit_exponential(times=times, speeds=speeds)
+        bd.fit_transients(times=times, speeds=speeds)
     with pytest.raises(TypeError, match="masked values"):
         bd.orbit_diagram(axial_forcing=np.ma.array([0.45, 0.5], mask=[True, False]), **STARTS)
 
@@ -267,7 +264,7 @@ def test_words_and_objects_that_are_wrong_are_named() -> None:
         bd.single_toss(TOSS, initial_spin=wrong)
     with pytest.raises(ValueError, match="parameter"):
         bd.continued(MAP, ORBIT, parameter=wrong, parameter_range=(0.1, 0.6))
-    for call, name in ((bd.single_toss, "system"), (bd.operating_point, "motor"), (bd.basins, "impact_map")):
+    for call, name in ((bd.single_toss, "system"), (bd.stall_load, "motor"), (bd.basins, "impact_map")):
         with pytest.raises(TypeError, match=f"'{name}' must be a"):
             call(wrong)
 
@@ -443,8 +440,8 @@ def test_what_is_no_real_number_is_a_type_error(value: Any) -> None:
         lambda: bd.ImpactMap(axial_forcing=value, restitution=0.5),
         lambda: MAP.step(impact_phase=value, axial_impact_velocity=-1.0),
         lambda: bd.simulate(TOSS, gap=value),
-        lambda: bd.transient(TOSS, duration=value),
-        lambda: bd.operating_point(MOTOR, load_torque=value),
+        lambda: bd.ensemble(TOSS, members=3, duration=value),
+        lambda: bd.best_phase_lag(MOTOR, relative_error=value),
         lambda: bd.basins(MAP, phase_range=(0.0, value)),
         lambda: bd.System.from_dict({**TOSS.to_dict(), "disk": {**TOSS.to_dict()["disk"], "friction": value}}),
         lambda: bd.basins(MAP, known_orbits=[(ORBIT, value)]),
@@ -484,7 +481,7 @@ def test_what_is_no_count_is_a_type_error(value: Any) -> None:
     with pytest.raises(TypeError):
         bd.basins(MAP, phases=value)
     with pytest.raises(TypeError):
-        bd.transients(TOSS, seeds=[value], duration=0.01)
+        bd.ensemble(TOSS, members=value, duration=0.01)
 
 
 def test_an_error_of_the_number_itself_comes_through() -> None:

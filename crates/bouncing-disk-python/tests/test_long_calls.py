@@ -34,9 +34,7 @@ ENDLESS = {
     "periodic orbits": "bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.8, restitution=0.7), max_impacts=64,"
     " max_platform_periods=10000, phases=4096, speeds=4096)",
     "multi_toss": "bd.multi_toss(bd.System.pizza_toss(), phase=4.7, transient_impacts=4 * 10**9)",
-    "transient": "bd.transient(bd.System.motor(), duration=1e6)",
     "ensemble": "bd.ensemble(bd.System.motor(), members=1000, duration=1e4)",
-    "operating point": "bd.operating_point(MOTOR, relative_error=1e-6, most_impacts=10**15)",
     "curve": "bd.torque_speed_curve(MOTOR, load_torques=np.linspace(0, 1e-6, 8), relative_error=1e-6,"
     " most_impacts=10**15)",
     "stall load": "bd.stall_load(MOTOR, relative_error=1e-6, most_impacts=10**15)",
@@ -46,7 +44,6 @@ ENDLESS = {
     "exponents": "bd.lyapunov_exponents(axial_forcing=0.56, impacts=2**32 - 1, **STARTS)",
     "settled orbit": "bd.ImpactMap(axial_forcing=0.56, restitution=0.5).settled_orbit("
     "impact_phase=1.2, normalised_speed=1.3, transient=2**32 - 1)",
-    "transients": "bd.transients(bd.System.motor(), seeds=range(100), duration=1e5)",
     "spectra": "bd.lyapunov_spectra(axial_forcing=0.56, impacts=10**12, **STARTS)",
     "manifold": "bd.manifold(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), SADDLE, arclength=1e6,"
     " max_points=10**7, chord=1e-6, turn=0.001, max_generations=10**4)",

@@ -18,8 +18,9 @@ def test_a_data_sheet_is_its_system() -> None:
     assert MOTOR.system == system
     assert MOTOR.largest_torque == pytest.approx(0.1 * 1e-3 * 9.8 * 1.25e-3)
     assert MOTOR.inertia == pytest.approx(1e-3 * 6.3e-3**2)
-    loaded = MOTOR.replace(load_torque=1e-7)
-    assert loaded.system == system.with_load_torque(torque=1e-7, mass=1e-3)
+    loaded = MOTOR.replace(load_torque=1e-7).system
+    assert loaded.load_acceleration == pytest.approx(1e-7 / MOTOR.inertia)
+    assert loaded == system.replace(load_acceleration=loaded.load_acceleration)
     same = MOTOR.replace(peak_angular_speed=None, twist_amplitude=system.twist_amplitude)
     assert same.peak_angular_speed == pytest.approx(30.0)
     # A value takes the place of its alternative, as on the command line.
@@ -36,12 +37,12 @@ def test_a_report_tells_what_is_known_before_anything_turns() -> None:
     assert report.axial_forcing == MOTOR.system.axial_forcing
     assert report.angular_forcing == MOTOR.system.angular_forcing
     assert report.regime in ("long-chattering", "chaotic")
-    assert report.warnings == MOTOR.warnings() == ()
+    assert report.warnings == ()
     assert str(report) == report.text and "\n" in report.text
     resting = MOTOR.replace(amplitude=1e-12).report()
     assert resting.regime == "no-lift-off" and resting.periods_per_flight is None
     # Radii in millimetres.
-    assert len(MOTOR.replace(contact_radius=1.25, gyration_radius=6.3).warnings()) == 2
+    assert len(MOTOR.replace(contact_radius=1.25, gyration_radius=6.3).report().warnings) == 2
 
 
 def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
@@ -60,12 +61,11 @@ def test_a_curve_falls_from_the_speed_without_load_to_stall() -> None:
     assert curve.mechanical_power[1] == pytest.approx(curve.load_torque[1] * curve.speed[1])
     assert curve.efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.input_power[1])
     assert (np.abs(curve.energy_residual[:2]) < 1e-9).all()
-    point = bd.operating_point(MOTOR, load_torque=loads[1], relative_error=0.05)
-    own = bd.operating_point(MOTOR.replace(load_torque=loads[1]), relative_error=0.05)
-    assert point == own
-    assert point.status == "steady" and point.shortfall == "" and point.impacts > 0
-    few = bd.operating_point(MOTOR, relative_error=1e-6, most_impacts=1)
-    assert few.status == "unsettled" and few.shortfall != ""
+    assert (curve.impacts[:2] > 0).all()
+    own = bd.torque_speed_curve(MOTOR.replace(load_torque=1.0), load_torques=loads, relative_error=0.05)
+    assert own == curve
+    few = bd.torque_speed_curve(MOTOR, load_torques=[0.0], relative_error=1e-6, most_impacts=1)
+    assert few.names() == ["unsettled"]
 
 
 def test_the_spread_over_inputs_is_more_than_an_error() -> None:
@@ -93,29 +93,9 @@ def test_measured_speeds_are_read_as_instruments_write_them(tmp_path: Path) -> N
         bd.read_speeds(tmp_path / "absent.csv")
 
 
-def test_many_transients_are_those_of_one_by_one() -> None:
-    systems = [MOTOR.system, MOTOR.system.replace(friction=0.2)]
-    many = bd.transients(systems, phases=[0.5, 1.5], seeds=[3, 4], duration=0.02, intervals=20)
-    assert many.times.shape == many.speeds.shape == (20, 2)
-    for k, (system, phase, seed) in enumerate(zip(systems, (0.5, 1.5), (3, 4), strict=True)):
-        one = bd.transient(system, phase=phase, seed=seed, duration=0.02, intervals=20)
-        assert many.times[:, k].tolist() == one.times.tolist()
-        assert many.speeds[:, k].tolist() == one.speeds.tolist()
-        assert (many.impacts[k], many.separations[k]) == (one.impacts, one.separations)
-    spread = bd.transients(MOTOR.system, phases=0.5, seeds=[3, 3], duration=0.02, intervals=20)
-    assert spread.speeds[:, 0].tolist() == spread.speeds[:, 1].tolist() == many.speeds[:, 0].tolist()
-    with pytest.raises(ValueError, match="systems and seeds"):
-        bd.transients(systems, seeds=[1, 2, 3])
-    with pytest.raises(TypeError, match="systems"):
-        bd.transients([MOTOR.system, 1])  # type: ignore[list-item]
-
-
 def test_fits_find_what_made_the_runs() -> None:
     runs = bd.ensemble(MOTOR.system, members=8, duration=4.0, intervals=200, seed=77)
     assert runs.steady_speed.mean == pytest.approx(runs.steady_speeds.mean())
-    single = bd.fit_exponential(times=runs.times[:, 0], speeds=runs.speeds[:, 0])
-    assert single.steady_speed == runs.steady_speeds[0] and single.time_constant == runs.time_constants[0]
-    assert single.stall_acceleration == pytest.approx(single.steady_speed / single.time_constant)
     fit = bd.fit_transients(times=runs.times[:, 0], speeds=runs.speeds, resamples=200)
     low, high = fit.exponential.steady_speed.low, fit.exponential.steady_speed.high
     assert fit.members == 8 and low < runs.steady_speed.mean < high
@@ -137,7 +117,8 @@ def test_fits_find_what_made_the_runs() -> None:
 def test_the_best_lag_turns_the_motor_fastest() -> None:
     best = bd.best_phase_lag(MOTOR, relative_error=0.05)
     assert best.good_from_to[0] < best.phase_lag < best.good_from_to[1]
-    there = bd.operating_point(MOTOR.replace(phase_lag=best.phase_lag), relative_error=0.05)
+    sheet = MOTOR.replace(phase_lag=best.phase_lag)
+    there = bd.torque_speed_curve(sheet, load_torques=[0.0], relative_error=0.05)
     assert there.speed == pytest.approx(best.speed, rel=0.2)
 
 
@@ -165,8 +146,8 @@ def test_a_map_has_the_operating_points_of_its_cells() -> None:
         and np.isnan(found.speed[0, 2])
         and found.acceleration[0, 2] < 0.0
     )
-    one = bd.operating_point(MOTOR, **LOOSE)
-    assert abs(found.speed[0, 0] - one.speed) < 6.0 * np.hypot(found.speed_error[0, 0], one.speed_error) + 0.5
+    one = bd.torque_speed_curve(MOTOR, load_torques=[0.0], **LOOSE)
+    assert (np.abs(found.speed[0, 0] - one.speed) < 6.0 * np.hypot(found.speed_error[0, 0], one.speed_error) + 0.5).all()
     line = bd.motor_map(MOTOR, axes={"amplitude": [1e-8]}, **LOOSE)
     assert line.speed.shape == (1,) and line.names() == [["steady"]]
 

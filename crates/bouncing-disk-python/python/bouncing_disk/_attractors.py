@@ -319,7 +319,7 @@ def boundary_scaling(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class BasinFractions(Stored):
+class BasinFractions(Result):
     """The attractors of impact maps over the axial forcing, each followed from one forcing to the next, with the
     shares of their basins.
 
@@ -353,27 +353,6 @@ class BasinFractions(Stored):
     share_low: FloatArray
     share_high: FloatArray
     moved: FloatArray
-
-    def extended(
-        self,
-        *,
-        axial_forcing: ArrayLike,
-        reach: Float = 0.3,
-        starts: Int = 1024,
-        transient: Int = 2000,
-        impacts: Int = 100_000,
-        longest_period: Int = 256,
-        cells: Int = 256,
-        progress: Progress = None,
-    ) -> BasinFractions:
-        """Adds the attractors at more forcings after the present ones: the same result as if all had been given
-        at once.
-
-        Args:
-            axial_forcing: more values of Gamma, shape (k,).
-            reach, starts, transient, impacts, longest_period, cells: as of :func:`basin_fractions_over`.
-        """
-        return native.extended(locals())
 
     def __len__(self) -> int:
         """Number of attractors."""

@@ -14,113 +14,17 @@ from bouncing_disk._motor import Motor
 from bouncing_disk._system import ChatterCut, System
 
 __all__ = [
-    "BrakingFit",
-    "ExponentialFit",
     "IntervalEstimate",
     "ParameterFit",
     "RiseEstimate",
-    "SpeedCurve",
-    "SpeedCurves",
     "Spread",
     "TransientEnsemble",
     "TransientFit",
     "ensemble",
-    "fit_braking",
-    "fit_exponential",
     "fit_parameters",
     "fit_transients",
     "read_speeds",
-    "transient",
-    "transients",
 ]
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SpeedCurve(Result):
-    """The speed of one motor from rest.
-
-    Attributes:
-        times: middle of each interval (s), shape (n,).
-        speeds: mean angular speed over it (rad/s), shape (n,).
-        impacts, separations: how many impacts, and separations from rest, there were.
-    """
-
-    times: FloatArray
-    speeds: FloatArray
-    impacts: int
-    separations: int
-
-
-def transient(
-    system: System,
-    *,
-    phase: Float = 0.0,
-    duration: Float = 3.0,
-    intervals: Int = 600,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
-    chatter: ChatterCut | None = None,
-    progress: Progress = None,
-) -> SpeedCurve:
-    """The speed of a motor from rest, averaged over equal intervals.
-
-    Args:
-        phase: phase of the stator at the start (rad).
-        duration: duration (s), positive.
-        intervals: intervals of equal length, in [3, 1000000].
-        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
-        seed: seed of the perturbations.
-        chatter: how a chatter ends; ``None`` sums it.
-
-    >>> import bouncing_disk as bd
-    >>> curve = bd.transient(bd.System.motor(), duration=0.01, intervals=10)
-    >>> curve.speeds.shape
-    (10,)
-    """
-    return native.transient(locals())
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SpeedCurves(Result):
-    """The speeds of many motors from rest, time by member.
-
-    Attributes:
-        times: middle of each interval (s), shape (n, m).
-        speeds: mean angular speed over it (rad/s), shape (n, m).
-        impacts, separations: how many impacts, and separations from rest, there were, shape (m,).
-    """
-
-    times: FloatArray
-    speeds: FloatArray
-    impacts: IntArray
-    separations: IntArray
-
-
-def transients(
-    systems: System | Iterable[System],
-    *,
-    phases: ArrayLike | None = None,
-    seeds: Int | Iterable[Int] | None = None,
-    duration: Float = 3.0,
-    intervals: Int = 600,
-    relaunch_perturbation: Float = 0.001,
-    chatter: ChatterCut | None = None,
-    progress: Progress = None,
-) -> SpeedCurves:
-    """The transients of many motors, each with its own phase and seed.
-
-    Args:
-        systems: the motors; a single one serves all members.
-        phases: phase of the stator at the start of each (rad), shape (m,).
-        seeds: seeds of the perturbations.
-        duration, intervals, relaunch_perturbation, chatter: as of :func:`transient`, the same for all.
-
-    >>> import bouncing_disk as bd
-    >>> curves = bd.transients(bd.System.motor(), phases=[0.0, 1.0, 2.0], duration=0.01, intervals=10)
-    >>> curves.speeds.shape
-    (10, 3)
-    """
-    return native.transients(locals())
 
 
 class Spread(NamedTuple):
@@ -174,7 +78,11 @@ def ensemble(
 
     Args:
         members: number of transients, in [1, 1000000].
-        duration, intervals, relaunch_perturbation, seed, chatter: as of :func:`transient`.
+        duration: duration (s), positive.
+        intervals: intervals of equal length over which speeds are averaged, in [3, 1000000].
+        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
+        seed: seed of the perturbations.
+        chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
     >>> runs = bd.ensemble(bd.System.motor(), members=4, duration=0.5, intervals=50)
@@ -182,40 +90,6 @@ def ensemble(
     ((50, 4), (4,))
     """
     return native.ensemble(locals())
-
-
-@dataclass(frozen=True)
-class ExponentialFit:
-    """A speed that rises as steady_speed (1 - exp(-t/time_constant)).
-
-    Attributes:
-        steady_speed: steady speed (rad/s).
-        time_constant: time constant t_c (s).
-        residual: root mean square of what is left (rad/s).
-        stall_acceleration: steady speed by time constant (rad/s^2).
-    """
-
-    steady_speed: float
-    time_constant: float
-    residual: float
-    stall_acceleration: float
-
-
-def fit_exponential(*, times: ArrayLike, speeds: ArrayLike, progress: Progress = None) -> ExponentialFit:
-    """The exponential rise 1 - exp(-t/t_c) that fits a speed curve best.
-
-    Args:
-        times: times (s), rising, not negative, shape (n,).
-        speeds: speeds (rad/s), shape (n,).
-
-    >>> import bouncing_disk as bd
-    >>> import numpy as np
-    >>> times = np.linspace(0.0, 5.0, 100)
-    >>> fit = bd.fit_exponential(times=times, speeds=30.0 * (1.0 - np.exp(-times / 0.8)))
-    >>> round(fit.steady_speed, 3), round(fit.time_constant, 3)
-    (30.0, 0.8)
-    """
-    return native.fit_exponential(locals())
 
 
 class IntervalEstimate(NamedTuple):
@@ -304,63 +178,6 @@ def fit_transients(
     ('exponential', 6, True)
     """
     return native.fit_transients(locals())
-
-
-@dataclass(frozen=True)
-class BrakingFit:
-    """The straight line of a rotor that slows down, and the friction that follows.
-
-    Attributes:
-        friction: coefficient of friction mu (Eq. 17). Its interval is that of the deceleration, without
-            the uncertainty of the rotor.
-        deceleration: angular deceleration (rad/s^2), positive whichever way the rotor turns.
-        sliding_until: last time of the sliding part (s).
-        points: points of the sliding part.
-        correlation_time: integrated correlation time of the residuals (s).
-        residual: root mean square of the residuals of the sliding part (rad/s).
-    """
-
-    friction: IntervalEstimate
-    deceleration: IntervalEstimate
-    sliding_until: float
-    points: int
-    correlation_time: float
-    residual: float
-
-
-def fit_braking(
-    *,
-    times: ArrayLike,
-    speeds: ArrayLike,
-    normal_force: Float,
-    mass: Float,
-    contact_radius: Float,
-    gyration_radius: Float,
-) -> BrakingFit:
-    """The coefficient of friction from the speeds of a rotor that slides on a platform at rest (Eq. 17).
-
-    Args:
-        times: times (s), rising, not negative, shape (n,).
-        speeds: angular speeds (rad/s), sliding from the first point on; the standstill at the end is left
-            out, shape (n,).
-        normal_force: normal force N (N), positive: the preload.
-        mass: mass m of the disk (kg), positive.
-        contact_radius: effective contact radius a_e (m), positive.
-        gyration_radius: radius of gyration a_g (m), positive.
-
-    Raises:
-        ComputationError: The curve does not fall, has fewer than eight points of sliding, or is not straight.
-
-    >>> import bouncing_disk as bd
-    >>> import numpy as np
-    >>> times = np.arange(300) * 0.01
-    >>> speeds = np.maximum(50.0 - 20.0 * times, 0.0)
-    >>> fit = bd.fit_braking(times=times, speeds=speeds, normal_force=0.5, mass=0.05, contact_radius=0.002,
-    ...     gyration_radius=0.01)
-    >>> round(fit.friction.value, 9), round(fit.deceleration.value, 9)
-    (0.1, 20.0)
-    """
-    return native.fit_braking(locals())
 
 
 def read_speeds(

@@ -21,7 +21,6 @@ __all__ = [
     "MotorMap",
     "MotorReport",
     "NearestTrap",
-    "OperatingPoint",
     "OperatingPoints",
     "SobolIndices",
     "StallLoad",
@@ -33,7 +32,6 @@ __all__ = [
     "low_period_traps",
     "motor_map",
     "nearest_trap",
-    "operating_point",
     "sobol_indices",
     "stall_load",
     "torque_speed_curve",
@@ -185,10 +183,6 @@ class Motor(Parameters):
                 kept.pop(other, None)
         return Motor._of({**kept, **changes})
 
-    def warnings(self) -> tuple[str, ...]:
-        """Values in the data sheet that are unlikely to be intended, in words."""
-        return tuple(self._native.warnings())
-
     def report(self, *, progress: Progress = None) -> MotorReport:
         """The consequences of the data sheet, before any run: forcing, regime, largest torque."""
         return native.report(locals())
@@ -231,8 +225,10 @@ class Motor(Parameters):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class OperatingPoint(Result):
-    """How a motor runs under a load; ``..._error`` are standard errors, and undefined numbers are NaN.
+class OperatingPoints(Result):
+    """How motors run under their loads: arrays of one shape.
+
+    ``..._error`` are standard errors, and undefined numbers are NaN.
 
     Attributes:
         load_torque: load torque (N m).
@@ -247,63 +243,6 @@ class OperatingPoint(Result):
         averaged_time, start_up: averaged time, of all members together, and time left out, of each (s).
         acceleration: acceleration (rad/s^2) to which a motor tends if its load overpowers it, else NaN.
         impacts: impacts of all members.
-        status: ``"steady"``, ``"unsettled"`` or ``"runaway"``.
-        shortfall: what an unsettled one lacks.
-    """
-
-    load_torque: float
-    speed: float
-    speed_error: float
-    mechanical_power: float
-    mechanical_power_error: float
-    input_power: float
-    input_power_error: float
-    restitution_loss: float
-    restitution_loss_error: float
-    friction_loss: float
-    friction_loss_error: float
-    efficiency: float
-    efficiency_error: float
-    perturbation_power: float
-    energy_residual: float
-    averaged_time: float
-    start_up: float
-    acceleration: float
-    impacts: int
-    status: str
-    shortfall: str
-
-
-def operating_point(
-    motor: Motor,
-    *,
-    load_torque: Float | None = None,
-    relative_error: Float = 0.01,
-    members: Int = 16,
-    most_impacts: Int = 20_000_000,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
-    progress: Progress = None,
-) -> OperatingPoint:
-    """How a motor runs under its load.
-
-    Args:
-        load_torque: load torque (N m); by default that of the data sheet.
-        relative_error: requested standard error of the mean speed, relative to the speed without load,
-            in [1e-6, 0.5].
-        members: vertical motions to average over, in [4, 4096].
-        most_impacts: most impacts of all members together, in [1, 1e15].
-        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
-        seed: seed of the perturbations.
-    """
-    return native.operating_point(locals())
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class OperatingPoints(Result):
-    """How motors run under their loads: arrays of one shape, as of :class:`OperatingPoint`.
-
-    Attributes:
         status: a place in :attr:`STATUSES`.
     """
 
@@ -355,7 +294,12 @@ def torque_speed_curve(
 
     Args:
         load_torques: load torques (N m) in place of that of the data sheet, shape (n,).
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error: requested standard error of the mean speed, relative to the speed without load,
+            in [1e-6, 0.5].
+        members: vertical motions to average over, in [4, 4096].
+        most_impacts: most impacts of all members together, in [1, 1e15].
+        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
+        seed: seed of the perturbations.
     """
     return native.torque_speed_curve(locals())
 
@@ -392,7 +336,7 @@ def stall_load(
     """The load at which a motor stops.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
     """
     return native.stall_load(locals())
 
@@ -447,7 +391,7 @@ def input_spreads(
         tolerance: relative tolerance of preload and amplitude, in [0, 0.5].
         perturbation_decades: decades over which the size of the relaunch perturbation is drawn, in [0, 6].
         draws: motors that are drawn, in [8, 10000].
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     Returns:
         One for each load, or that of the stall load alone; None where fewer than four draws have a speed.
@@ -485,7 +429,7 @@ def best_phase_lag(
     """The phase lag at which a motor turns fastest.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
     """
     return native.best_phase_lag(locals())
 
@@ -529,7 +473,7 @@ def motor_map(
     Args:
         axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
             rows, shape (n,).
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`, for
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`, for
             each cell.
 
     >>> import bouncing_disk as bd
@@ -689,7 +633,7 @@ def local_sensitivities(
         half_range: half the range, in the logarithm of a parameter of the vertical motion, over which motors
             are drawn, in (0, 2].
         points: motors that are drawn over it, in [5, 10000].
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
@@ -744,7 +688,7 @@ def sobol_indices(
         quantity: what is asked for.
         rows: rows of the sample, in [8, 1000000]; with d parameters each takes d + 2 motors.
         sampling_seed: seed of the sample.
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`operating_point`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
     """
     return native.sobol_indices(locals())
 

@@ -18,7 +18,6 @@ __all__ = [
     "PeriodicOrbit",
     "continued",
     "doubling_cascade",
-    "iterate_orbits",
     "periodic_orbits",
 ]
 
@@ -84,20 +83,6 @@ class ImpactMap(Parameters):
         # The next call is that of the compiled method itself, here and below, so that loops pay for one call alone.
         self.__dict__["step"] = self._native.step
         return self._native.step(
-            impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
-        )
-
-    def step_back(self, *, impact_phase: Float, axial_impact_velocity: Float) -> tuple[float, float]:
-        """The impact before this one: the only one that :meth:`step` maps to it.
-
-        Args:
-            impact_phase, axial_impact_velocity: as of :meth:`step`.
-
-        Returns:
-            Phase and velocity of the impact before.
-        """
-        self.__dict__["step_back"] = self._native.step_back
-        return self._native.step_back(
             impact_phase=impact_phase, axial_impact_velocity=axial_impact_velocity
         )
 
@@ -270,39 +255,6 @@ def periodic_orbits(
     [2]
     """
     return native.periodic_orbits(locals())
-
-
-def iterate_orbits(
-    *,
-    axial_forcing: ArrayLike,
-    restitution: ArrayLike,
-    impact_phase: ArrayLike,
-    normalised_speed: ArrayLike,
-    impacts: Int,
-    progress: Progress = None,
-) -> tuple[FloatArray, FloatArray]:
-    """The impacts of many orbits a number of steps later, each from its own start: the fastest way through the map.
-
-    Unlike :func:`orbit_diagram` it does not check whether the disk comes to rest: a chatter continues impact by impact.
-
-    Args:
-        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        impacts: number of steps.
-
-    Returns:
-        Phase (rad) and relative velocity (not positive, in units of g/omega) of the last impact of each
-            orbit.
-
-    Raises:
-        ComputationError: An orbit has no next impact.
-
-    >>> import bouncing_disk as bd
-    >>> phases, velocities = bd.iterate_orbits(axial_forcing=0.45, restitution=0.5, impact_phase=[0.7, 0.8],
-    ...     normalised_speed=1.3, impacts=200)
-    >>> bool(abs(phases[0] - phases[1]) < 1e-12)  # Both are on the period-1 orbit.
-    True
-    """
-    return native.iterate_orbits(locals())
 
 
 @dataclass(frozen=True, eq=False)

@@ -97,71 +97,11 @@ class System(Parameters):
         """The motor of Table III of the paper."""
         return System._of(native.known_system("motor"))
 
-    @staticmethod
-    def from_stroke(
-        *,
-        stroke: Float,
-        amplitude_angle: Float,
-        angular_frequency: Float,
-        phase_lag: Float = 0.0,
-        contact_radius: Float,
-        gyration_radius: Float,
-        friction: Float,
-        restitution: Float,
-        preload_acceleration: Float,
-        load_acceleration: Float = 0.0,
-    ) -> System:
-        """A system whose platform moves along a stroke that is shared between lift and twist (Eq. 13 of the
-        paper).
-
-        Args:
-            stroke: stroke c (m), not negative.
-            amplitude_angle: amplitude angle phi_L (rad), in [0, pi/2]: 0 lifts only, pi/2 twists only.
-            friction, restitution, preload_acceleration, load_acceleration: as of :class:`System`.
-
-        >>> import bouncing_disk as bd
-        >>> bd.System.from_stroke(stroke=0.25, amplitude_angle=0.55, angular_frequency=15.0, contact_radius=0.135,
-        ...     gyration_radius=0.11, friction=0.6, restitution=0.5,
-        ...     preload_acceleration=9.8) == bd.System.pizza_toss()
-        True
-        """
-        arguments = locals()
-        amplitude, twist_amplitude = native.amplitudes_of_stroke(arguments)
-        del arguments["stroke"], arguments["amplitude_angle"]
-        return System(amplitude=amplitude, twist_amplitude=twist_amplitude, **arguments)
-
     def replace(self, **changes: Any) -> System:
         """The same system with other arguments."""
         made = System.__new__(System)
         made.__dict__["_native"] = self._native.replaced(changes)
         return made
-
-    def with_load_torque(self, *, torque: Float, mass: Float) -> System:
-        """The same system with a load torque.
-
-        Args:
-            torque: load torque T_L (N m); a positive one decelerates a positive rotation.
-            mass: mass m of the disk (kg), positive.
-        """
-        return self.replace(load_acceleration=native.load_acceleration(locals()))
-
-    def platform_motion(self, *, phases: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Height and angle of the platform.
-
-        Args:
-            phases: phases omega t (rad), shape (n,).
-
-        Returns:
-            A sin(omega t) (m) and Phi sin(omega t + theta) (rad), Eq. (1).
-
-        >>> import bouncing_disk as bd
-        >>> import numpy as np
-        >>> pizza = bd.System.pizza_toss()
-        >>> height, angle = pizza.platform_motion(phases=[0.5 * np.pi])
-        >>> float(height[0]) == pizza.amplitude, float(angle[0]) == pizza.twist_amplitude
-        (True, True)
-        """
-        return native.platform_motion(locals())
 
     def to_dict(self) -> dict[str, Any]:
         """The parameters as the Rust library stores them: ``{"platform": {...}, "disk": {...}}``."""

@@ -15,12 +15,10 @@ __all__ = [
     "Energy",
     "EventTable",
     "RotaryResponse",
-    "TossDesign",
     "TossOrbit",
     "TossPerformance",
     "Trajectory",
     "TrajectorySamples",
-    "best_toss",
     "multi_toss",
     "rotary_response",
     "simulate",
@@ -336,75 +334,6 @@ def simulate(
     100
     """
     return native.simulate(locals())
-
-
-@dataclass(frozen=True)
-class TossDesign:
-    """The best hand motion, and its toss.
-
-    Attributes:
-        stroke, amplitude_angle, angular_frequency, phase_lag: the hand motion (m, rad, rad/s, rad).
-        amplitude_ratio: the tangent of the amplitude angle.
-        value: the objective, over the range of friction: rad/s, a share, or turns.
-        toss: the toss at the middle of the range of friction.
-        flight_height: how high the dough flies above the place where it leaves the hand (m).
-        turns: turns until it is back there.
-        grid_points: hand motions on the grid from which the optimum was found.
-        best_on_grid: the best of them.
-        hidden_gain: bound on how far the objective could exceed the optimum.
-    """
-
-    stroke: float
-    amplitude_angle: float
-    angular_frequency: float
-    phase_lag: float
-    amplitude_ratio: float
-    value: float
-    toss: TossPerformance
-    flight_height: float
-    turns: float
-    grid_points: int
-    best_on_grid: float
-    hidden_gain: float
-
-
-def best_toss(
-    *,
-    contact_radius: Float | None = None,
-    gyration_radius: Float | None = None,
-    preload_acceleration: Float | None = None,
-    initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
-    stroke: Float | None = None,
-    friction: Pair | None = None,
-    angular_frequency: Pair | None = None,
-    phase_lag: Pair | None = None,
-    highest_flight: Float | None = None,
-    objective: Literal["airborne-speed", "efficiency", "turns-per-toss"] = "airborne-speed",
-    over_friction: Literal["worst", "mean"] = "worst",
-    progress: Progress = None,
-) -> TossDesign:
-    """The hand motion that tosses best: its frequency, its amplitude angle and its phase lag.
-
-    Defaults are those of the paper's Table I.
-
-    Args:
-        contact_radius, gyration_radius, preload_acceleration: of the dough (m, m, m/s^2), positive.
-        initial_spin: whether the dough does not turn at first, or turns with the hand.
-        stroke: stroke c (m), positive.
-        friction: least and largest coefficient of friction, not negative.
-        angular_frequency: least and largest angular frequency (rad/s), positive.
-        phase_lag: least and largest phase lag (rad).
-        highest_flight: the highest that the dough may fly above the place where it leaves the hand (m),
-            positive.
-        objective: the quantity to maximise.
-        over_friction: how it is taken over the range of friction.
-
-    >>> import bouncing_disk as bd
-    >>> design = bd.best_toss(friction=(0.5, 0.7), angular_frequency=(10.0, 16.0), highest_flight=0.5)
-    >>> design.value > 15.0 and design.flight_height < 0.5 + 1e-9
-    True
-    """
-    return native.best_toss(locals())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
