@@ -9,9 +9,7 @@ import pytest
 
 import bouncing_disk as bd
 from bouncing_disk._sweep.runners import check_versions, unlike
-from bouncing_disk._sweep.folder import PACKAGES, versions
-
-OWN = versions()
+from bouncing_disk._sweep.folder import PACKAGES, VERSIONS as OWN
 
 
 class Answers:

@@ -138,11 +138,11 @@ def other_versions() -> None:
     """Has a worker report another NumPy than it has, as a badly installed node would."""
     from importlib import metadata
 
-    from bouncing_disk._sweep import folder as identity
+    from bouncing_disk._sweep.folder import VERSIONS
 
     own = metadata.version
     setattr(metadata, "version", lambda package: "1.0.0" if package == "numpy" else own(package))
-    identity._KNOWN["numpy"] = "1.0.0"
+    VERSIONS["numpy"] = "1.0.0"
 
 
 def test_workers_with_other_versions_are_refused_before_the_work(tmp_path: Path) -> None:

@@ -21,6 +21,7 @@ import pytest
 import sweep_functions as functions
 
 import bouncing_disk as bd
+from bouncing_disk._sweep.folder import VERSIONS
 
 GRID = {"a": [1.0, 2.0, 3.0, 4.0], "b": [10.0, 20.0, 30.0]}
 EXPECTED = np.add.outer(GRID["a"], GRID["b"])
@@ -166,7 +167,7 @@ def test_another_function_source_or_version_is_refused(folder: Path, monkeypatch
     with pytest.raises(bd.SweepFolderError, match="function is 'sweep_functions.product' there"):
         bd.sweep(functions.nothing_or_ratio, GRID, "serial", folder=folder)
     with monkeypatch.context() as patch:
-        patch.setattr("bouncing_disk._sweep.folder.package_version", lambda: "9.9.9")
+        patch.setitem(VERSIONS, "bouncing-disk", "9.9.9")
         with pytest.raises(bd.SweepFolderError, match="program.version is .* there, '9.9.9' here"):
             bd.sweep(functions.product, GRID, "serial", folder=folder)
     monkeypatch.setattr("inspect.getsource", lambda function: "def product(a, b): return a + b")

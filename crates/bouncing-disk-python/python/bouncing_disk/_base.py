@@ -148,8 +148,11 @@ def _restored(cls: Any, json: str) -> Any:
 def _same(one: Any, other: Any) -> bool:
     """Whether two values are equal, where NaN is equal to itself."""
     if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        if one.dtype != other.dtype or one.shape != other.shape:
+            return False
+        # By their bits, because only plain numbers can be compared with NaN equal to itself.
         inexact = np.issubdtype(one.dtype, np.inexact)
-        return one.dtype == other.dtype and np.array_equal(one, other, equal_nan=bool(inexact))
+        return one.tobytes() == other.tobytes() or np.array_equal(one, other, equal_nan=bool(inexact))
     if isinstance(one, float) and isinstance(other, float) and one != one:
         return other != other
     if isinstance(one, (tuple, list)) and type(one) is type(other):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,18 +15,19 @@ import numpy.typing as npt
 from bouncing_disk._errors import OutOfRangeError
 from bouncing_disk._sweep.errors import SweepFolderError
 from bouncing_disk._sweep.folder import (
+    VERSIONS,
     Damaged,
-    Identity,
     Journal,
     StoredChunk,
     check_foreign,
     chunk_path,
+    described,
     digest_of,
     function_name,
     open_description,
-    package_version,
     read_axes,
     read_chunk,
+    refused,
 )
 from bouncing_disk._sweep.grid import Array, Assembly, Chunks, Grid
 from bouncing_disk._sweep.job import Failure, Job, Outcome
@@ -110,14 +112,24 @@ def sweep(
            [ 6.,  8., 10.]])
     """
     check_client(client)
-    run = _Run(function, grid, arguments, folder, chunk_size, pointwise, max_failures, progress)
+    if not callable(function):
+        raise TypeError(f"function must be callable, not {type(function).__name__}")
+    if max_failures < 0:
+        message = f"max_failures is {max_failures}, outside [0, infinity)"
+        raise OutOfRangeError(message, "max_failures", float(max_failures), "[0, infinity)")
+    points, constants = Grid(grid), dict(arguments or {})
+    if doubled := [name for name in constants if name in points.axes]:
+        raise TypeError(f"{doubled[0]!r} is an axis of the grid and one of the arguments")
+    chunks = Chunks(points, chunk_size)
+    job = Job(function, points, constants, bool(pointwise), max_failures)
     with ExitStack() as stack:
-        if run.journal is not None:
-            stack.callback(run.journal.close)
-        tasks = run.tasks()
-        if tasks:
-            outcomes = stack.enter_context(closing(_outcomes(run.job, tasks, client, stack)))
-            run.collect(outcomes)
+        journal = None
+        if folder is not None:
+            about = described(function, points, constants, chunks.size, bool(pointwise))
+            journal = stack.enter_context(closing(Journal(_lasting_path(folder), about, points)))
+        run = _Run(job, chunks, Assembly(points, function_name(function)), journal, progress)
+        if tasks := run.tasks():
+            run.collect(stack.enter_context(closing(_outcomes(job, tasks, client, stack))))
         return run.result()
 
 
@@ -130,41 +142,19 @@ def _outcomes(job: Job, tasks: list[Task], client: Any, stack: ExitStack) -> Any
     return distributed_outcomes(job, tasks, client)
 
 
+@dataclass
 class _Run:
     """One sweep: its stored, open and incoming chunks."""
 
-    def __init__(
-        self,
-        function: Callable[..., Any],
-        grid: Mapping[str, npt.ArrayLike],
-        arguments: Mapping[str, Any] | None,
-        folder: str | os.PathLike[str] | None,
-        chunk_size: int | None,
-        pointwise: bool,
-        max_failures: int,
-        progress: Progress | None,
-    ) -> None:
-        if not callable(function):
-            raise TypeError(f"function must be callable, not {type(function).__name__}")
-        if max_failures < 0:
-            message = f"max_failures is {max_failures}, outside [0, infinity)"
-            raise OutOfRangeError(message, "max_failures", float(max_failures), "[0, infinity)")
-        self.grid = Grid(grid)
-        self.arguments = dict(arguments or {})
-        if doubled := [name for name in self.arguments if name in self.grid.axes]:
-            raise TypeError(f"{doubled[0]!r} is an axis of the grid and one of the arguments")
-        self.chunks = Chunks(self.grid, chunk_size)
-        self.job = Job(function, self.grid, self.arguments, bool(pointwise), max_failures)
-        self.assembly = Assembly(self.grid, function_name(function))
-        self.progress = progress
-        self.done = 0
-        self.failures: dict[int, tuple[Failure, ...]] = {}
-        #: Stored chunks with points that failed, which are tried again.
-        self.to_mend: dict[int, StoredChunk] = {}
-        self.journal: Journal | None = None
-        if folder is not None:
-            identity = Identity(function, self.grid, self.arguments, self.chunks.size, bool(pointwise))
-            self.journal = Journal(_lasting_path(folder), identity, self.grid)
+    job: Job
+    chunks: Chunks
+    assembly: Assembly
+    journal: Journal | None
+    progress: Progress | None
+    done: int = 0
+    failures: dict[int, tuple[Failure, ...]] = field(default_factory=dict)
+    #: Stored chunks with points that failed, which are tried again.
+    to_mend: dict[int, StoredChunk] = field(default_factory=dict)
 
     def tasks(self) -> list[Task]:
         """The points of each chunk that must be computed, after reading the stored ones."""
@@ -214,19 +204,21 @@ class _Run:
 
     def _tell(self) -> None:
         if self.progress is not None:
-            self.progress(self.done, self.grid.points)
+            self.progress(self.done, self.job.grid.points)
 
     def _failed_points(self) -> tuple[Any, ...]:
         failures = [failure for chunk in sorted(self.failures) for failure in self.failures[chunk]]
-        return tuple(failure.at(self.grid) for failure in failures)
+        return tuple(failure.at(self.job.grid) for failure in failures)
 
     def result(self) -> SweepResult:
         """The whole result, or the error that carries it."""
-        failed: npt.NDArray[np.bool_] = np.zeros(self.grid.shape, dtype=np.bool_)
+        failed: npt.NDArray[np.bool_] = np.zeros(self.job.grid.shape, dtype=np.bool_)
         points = self._failed_points()
         for point in points:
             failed[point.place] = True
-        result = _result(self.assembly.whole(failed), self.grid, failed, self.job)
+        values, job = self.assembly.whole(failed), self.job
+        name, version = function_name(job.function), VERSIONS["bouncing-disk"]
+        result = SweepResult(values, dict(job.grid.axes), failed, name, dict(job.arguments), version)
         if points:
             raise SweepFailedError.of(points, result)
         return result
@@ -237,11 +229,6 @@ def _lasting_path(folder: str | os.PathLike[str]) -> Path:
     if not os.fspath(folder):
         raise SweepFolderError("the name of the folder is empty", "", "cannot-write")
     return Path(os.path.abspath(Path(folder).expanduser()))
-
-
-def _result(values: Array, grid: Grid, failed: npt.NDArray[np.bool_], job: Job) -> SweepResult:
-    name = function_name(job.function)
-    return SweepResult(values, dict(grid.axes), failed, name, dict(job.arguments), package_version())
 
 
 def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
@@ -258,31 +245,24 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
         SweepFolderError: The folder has no sweep, a chunk is missing or damaged, or a file belongs to another one.
     """
     path = _lasting_path(folder)
-    described = open_description(path)
-    grid = read_axes(path, described)
-    chunks = Chunks(grid, int(described["chunk_size"]))
-    assembly = Assembly(grid, str(described["function"]))
+    about = open_description(path)
+    grid = read_axes(path, about)
+    chunks = Chunks(grid, int(about["chunk_size"]))
+    assembly = Assembly(grid, str(about["function"]))
     failed: npt.NDArray[np.bool_] = np.zeros(grid.points, dtype=np.bool_)
-    digest = digest_of(described)
-    for chunk in range(chunks.count):
+    files = [chunk_path(path, chunk) for chunk in range(chunks.count)]
+    if missing := [file.name for file in files if not file.exists()]:
+        why = f"is not finished: {len(missing)} of {chunks.count} chunks are missing, the first is {missing[0]}"
+        raise refused(path, why, "incomplete")
+    for chunk, file in enumerate(files):
         start, _ = chunks.span(chunk)
-        file = chunk_path(path, chunk)
-        if not file.exists():
-            missing = sum(not chunk_path(path, number).exists() for number in range(chunks.count))
-            message = f"{path} is not finished: {missing} of {chunks.count} chunks are missing, the first is {file.name}"
-            raise SweepFolderError(message, str(path), "incomplete")
         try:
             stored = read_chunk(file)
         except Damaged as damage:
-            raise SweepFolderError(f"{file}: {damage}", str(path), "damaged") from damage
-        check_foreign(path, file, stored, digest, chunk)
+            raise refused(path, f"is damaged: {damage}", "damaged", file) from damage
+        check_foreign(path, file, stored, digest_of(about), chunk)
         assembly.put(chunk, start, stored.values)
         failed[start + stored.failed] = True
-    return SweepResult(
-        assembly.whole(failed),
-        dict(grid.axes),
-        failed.reshape(grid.shape),
-        str(described["function"]),
-        dict(described["arguments"]),
-        str(described["program"]["version"]),
-    )
+    values, failed = assembly.whole(failed), failed.reshape(grid.shape)
+    name, arguments, version = about["function"], about["arguments"], about["program"]["version"]
+    return SweepResult(values, dict(grid.axes), failed, str(name), dict(arguments), str(version))

@@ -16,8 +16,8 @@ import re
 import socket
 import sys
 import warnings
-from collections.abc import Callable, Mapping
-from importlib.metadata import PackageNotFoundError, version
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -26,8 +26,29 @@ import numpy as np
 from bouncing_disk._sweep.errors import SweepFolderError, SweepFolderWarning, SweepFunctionError
 from bouncing_disk._sweep.grid import Array, Grid, array_digest, refuse_masked
 
-#: What must have the same version everywhere.
+#: The packages that must have the same version everywhere: the bits depend on both, if the function uses NumPy.
 PACKAGES = ("bouncing-disk", "numpy")
+
+
+def reader_of_versions() -> Callable[[tuple[str, ...]], dict[str, str]]:
+    """A function that is sent to workers with its text: they may have no module of ours."""
+
+    def found(packages: tuple[str, ...]) -> dict[str, str]:
+        from importlib.metadata import PackageNotFoundError, version
+
+        here = {}
+        for package in packages:
+            try:
+                here[package] = version(package)
+            except PackageNotFoundError:
+                here[package] = "unknown"
+        return here
+
+    return found
+
+
+#: The versions here.
+VERSIONS = reader_of_versions()(PACKAGES)
 
 #: The name and the version of the files; the version rises when who reads older files could misunderstand
 #: newer ones.
@@ -68,7 +89,7 @@ def lasting_name(function: Callable[..., Any]) -> str:
 def _source_digest(function: Callable[..., Any]) -> str | None:
     """The digest of the function's source text, where there is one (compiled functions have none)."""
     try:
-        return hashlib.sha256(inspect.getsource(function).encode()).hexdigest()
+        return _digest(inspect.getsource(function))
     except (OSError, TypeError):
         return None
 
@@ -99,37 +120,26 @@ def _plain(value: Any, where: str) -> Any:
     )
 
 
-class Identity:
-    """The description of a sweep, and its digest."""
-
-    def __init__(
-        self,
-        function: Callable[..., Any],
-        grid: Grid,
-        arguments: Mapping[str, Any],
-        chunk_size: int,
-        pointwise: bool,
-    ) -> None:
-        plain = {name: _plain(value, f"arguments[{name!r}]") for name, value in sorted(arguments.items())}
-        self.described: dict[str, Any] = {
-            "format": {"name": FORMAT, "version": FORMAT_VERSION},
-            "program": {"name": "bouncing-disk", "version": package_version()},
-            "function": lasting_name(function),
-            "source": _source_digest(function),
-            "pointwise": pointwise,
-            "arguments": plain,
-            "grid": grid.described(),
-            "points": grid.points,
-            "chunk_size": chunk_size,
-        }
-        self.digest = digest_of(self.described)
-
-    def difference(self, other: Mapping[str, Any]) -> str | None:
-        """In a few words, the first thing in which another description differs from this one."""
-        return _difference(self.described, other, "")
+def described(
+    function: Callable[..., Any], grid: Grid, arguments: Mapping[str, Any], chunk_size: int, pointwise: bool
+) -> dict[str, Any]:
+    """The description of a sweep, by which its folder is recognised."""
+    plain = {name: _plain(value, f"arguments[{name!r}]") for name, value in sorted(arguments.items())}
+    return {
+        "format": {"name": FORMAT, "version": FORMAT_VERSION},
+        "program": {"name": "bouncing-disk", "version": VERSIONS["bouncing-disk"]},
+        "function": lasting_name(function),
+        "source": _source_digest(function),
+        "pointwise": pointwise,
+        "arguments": plain,
+        "grid": grid.described(),
+        "points": grid.points,
+        "chunk_size": chunk_size,
+    }
 
 
-def _difference(ours: Any, theirs: Any, path: str) -> str | None:
+def difference(ours: Any, theirs: Any, path: str = "") -> str | None:
+    """In a few words, the first thing in which another description differs from ours."""
     if isinstance(ours, Mapping) and isinstance(theirs, Mapping):
         if path == "grid" and list(ours) != list(theirs):
             return f"the axes are {', '.join(theirs)} there, {', '.join(ours)} here"
@@ -137,7 +147,7 @@ def _difference(ours: Any, theirs: Any, path: str) -> str | None:
             inner = f"{path}.{name}" if path else str(name)
             if name not in ours or name not in theirs:
                 return f"{inner} is {'here' if name in ours else 'there'} alone"
-            if found := _difference(ours[name], theirs[name], inner):
+            if found := difference(ours[name], theirs[name], inner):
                 return found
         return None
     # Through JSON, as the other one was.
@@ -150,29 +160,27 @@ def _difference(ours: Any, theirs: Any, path: str) -> str | None:
     return f"{path} is {theirs!r} there, {ours!r} here"
 
 
+def _digest(text: str) -> str:
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
 def digest_of(described: Mapping[str, Any]) -> str:
     """The SHA-256 of a description; the order of the axes counts."""
-    return hashlib.sha256(json.dumps(described, ensure_ascii=True).encode()).hexdigest()
+    return _digest(json.dumps(described, ensure_ascii=True))
 
 
-def package_version() -> str:
-    """The version of this package."""
-    return versions()["bouncing-disk"]
+def refused(folder: Path, why: str, kind: str, file: Path | None = None) -> SweepFolderError:
+    """The error of a folder, or of a file in it."""
+    return SweepFolderError(f"{file or folder} {why}", str(folder), kind)
 
 
-#: The versions as they were read first: reading them takes milliseconds.
-_KNOWN: dict[str, str] = {}
-
-
-def versions() -> dict[str, str]:
-    """The versions on which the bits depend: of this package, and of NumPy for functions of the caller."""
-    if not _KNOWN:
-        for package in PACKAGES:
-            try:
-                _KNOWN[package] = version(package)
-            except PackageNotFoundError:
-                _KNOWN[package] = "unknown"
-    return dict(_KNOWN)
+@contextmanager
+def _writing(folder: Path) -> Iterator[None]:
+    """Names the folder in which something cannot be written."""
+    try:
+        yield
+    except OSError as error:
+        raise refused(folder, f"cannot be written in: {error.strerror or error}", "cannot-write") from error
 
 
 #: The end of the name of a file that is not finished.
@@ -225,11 +233,6 @@ def _check_format(found: dict[str, Any]) -> None:
         raise Damaged(f"it is not of the format {FORMAT!r}")
 
 
-def is_newer(described: dict[str, Any]) -> bool:
-    """Whether a later version of this package wrote it, in a format that this one does not know."""
-    return bool(described["format"]["version"] > FORMAT_VERSION)
-
-
 def write_chunk(path: Path, about: dict[str, Any], values: Array, failed: Array) -> None:
     """The file of a chunk: an NPZ archive of `values`, `failed`, and `about` (JSON) with digests."""
     about = {**about, "values_sha256": array_digest(values), "failed_sha256": array_digest(failed)}
@@ -260,46 +263,29 @@ def read_chunk(path: Path) -> StoredChunk:
     return StoredChunk(about, members["values"], members["failed"])
 
 
-def _digest(text: str) -> str:
-    return hashlib.sha256(text.encode()).hexdigest()
-
-
 LOCK_FILE = "sweep.lock"
 
 #: Where the byte lies that Windows locks: behind the text, which others may read.
 _LOCKED_BYTE = 1 << 20
 
 
-class FolderLock:
-    """A lock held from creation until :meth:`release`; never waited for."""
-
-    def __init__(self, folder: Path) -> None:
-        path = folder / LOCK_FILE
-        try:
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT, 0o644)
-        except OSError as error:
-            raise SweepFolderError(
-                f"{folder} cannot be written in: {error.strerror or error}", str(folder), "cannot-write"
-            ) from error
-        try:
-            _lock(self._file)
-        except OSError as error:
-            holder = os.pread(self._file, 200, 0).decode("ascii", "replace") if hasattr(os, "pread") else ""
-            os.close(self._file)
-            if error.errno in (errno.EACCES, errno.EAGAIN, errno.EDEADLK):
-                by = f" by {holder.strip()}" if holder.strip().isprintable() and holder.strip() else ""
-                message = f"{folder} is in use{by}: another sweep writes there"
-                raise SweepFolderError(message, str(folder), "in-use") from None
-            message = f"{folder} cannot be locked ({error.strerror or error}): two sweeps at once would not be noticed"
-            raise SweepFolderError(message, str(folder), "cannot-lock") from error
-        os.ftruncate(self._file, 0)
-        os.write(self._file, f"process {os.getpid()} on {socket.gethostname()}".encode("ascii", "replace"))
-
-    def release(self) -> None:
-        """Let others in; closing the file does so."""
-        if self._file >= 0:
-            os.close(self._file)
-            self._file = -1
+def _locked(folder: Path) -> int:
+    """The lock of a folder, held until this file is closed; never waited for."""
+    with _writing(folder):
+        file = os.open(folder / LOCK_FILE, os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        _lock(file)
+    except OSError as error:
+        holder = os.pread(file, 200, 0).decode("ascii", "replace").strip() if hasattr(os, "pread") else ""
+        os.close(file)
+        if error.errno in (errno.EACCES, errno.EAGAIN, errno.EDEADLK):
+            by = f" by {holder}" if holder and holder.isprintable() else ""
+            raise refused(folder, f"is in use{by}: another sweep writes there", "in-use") from None
+        why = f"cannot be locked ({error.strerror or error}): two sweeps at once would not be noticed"
+        raise refused(folder, why, "cannot-lock") from error
+    os.ftruncate(file, 0)
+    os.write(file, f"process {os.getpid()} on {socket.gethostname()}".encode("ascii", "replace"))
+    return file
 
 
 if sys.platform == "win32":
@@ -331,17 +317,17 @@ def chunk_path(folder: Path, chunk: int) -> Path:
 class Journal:
     """A folder that is locked for one sweep."""
 
-    def __init__(self, folder: Path, identity: Identity, grid: Grid) -> None:
+    def __init__(self, folder: Path, described: Mapping[str, Any], grid: Grid) -> None:
         self.folder = folder
-        self.identity = identity
+        self.described = {**described, "digest": digest_of(described)}
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise self._refused(f"cannot be made: {error.strerror or error}", "cannot-write") from error
+            raise refused(folder, f"cannot be made: {error.strerror or error}", "cannot-write") from error
         found = (folder / LOCK_FILE).exists()
-        self._lock = FolderLock(folder)
+        self._lock = _locked(folder)
         try:
-            self._open(grid)
+            self._open(described, grid)
         except BaseException as error:
             self.close()
             if not found and isinstance(error, SweepFolderError) and error.kind == "other-files":
@@ -351,36 +337,29 @@ class Journal:
 
     def close(self) -> None:
         """Let others in."""
-        self._lock.release()
+        os.close(self._lock)
 
-    def _open(self, grid: Grid) -> None:
+    def _open(self, described: Mapping[str, Any], grid: Grid) -> None:
         names = {path.name for path in self.folder.iterdir()}
         unfinished = {name for name in names if _UNFINISHED.fullmatch(name)}
         if DESCRIPTION not in names and (others := sorted(names - unfinished - {LOCK_FILE, AXES})):
-            raise self._refused(f"holds other files, such as {others[0]}, and no sweep", "other-files")
+            raise refused(self.folder, f"holds other files, such as {others[0]}, and no sweep", "other-files")
         # Under the lock an unfinished file is that of a process that was killed.
         for name in unfinished:
             (self.folder / name).unlink(missing_ok=True)
         if DESCRIPTION in names:
-            self._compare()
+            if found := difference(described, open_description(self.folder)):
+                raise refused(self.folder, f"holds another sweep: {found}", "another-sweep")
             if AXES in names:
                 return
         axes = io.BytesIO()
         # As `axis_NAME`, because NumPy has names of its own for two arguments.
         members: dict[str, Any] = {f"axis_{name}": axis for name, axis in grid.axes.items()}
         np.savez(axes, **members)
-        described = json.dumps({**self.identity.described, "digest": self.identity.digest}, indent=1)
-        try:
+        with _writing(self.folder):
             write_whole(self.folder / AXES, axes.getvalue())
             if DESCRIPTION not in names:
-                write_whole(self.folder / DESCRIPTION, described.encode())
-        except OSError as error:
-            raise self._refused(f"cannot be written in: {error.strerror or error}", "cannot-write") from error
-
-    def _compare(self) -> None:
-        described = open_description(self.folder)
-        if found := self.identity.difference(described):
-            raise self._refused(f"holds another sweep: {found}", "another-sweep")
+                write_whole(self.folder / DESCRIPTION, json.dumps(self.described, indent=1).encode())
 
     def read(self, chunk: int) -> StoredChunk | None:
         """A finished chunk; None if it is missing or damaged, with a warning in the latter case."""
@@ -393,56 +372,39 @@ class Journal:
             message = f"{path}: {damage}; the chunk is computed again"
             warnings.warn(SweepFolderWarning(message), stacklevel=4)
             return None
-        check_foreign(self.folder, path, stored, self.identity.digest, chunk)
+        check_foreign(self.folder, path, stored, self.described["digest"], chunk)
         return stored
 
     def write(self, chunk: int, start: int, values: Array, failed: Array) -> None:
         """Store a finished chunk."""
-        about = {
-            **self.identity.described,
-            "digest": self.identity.digest,
-            "chunk": chunk,
-            "first_point": start,
-            "last_point": start + len(values) - 1,
-        }
-        try:
+        last = start + len(values) - 1
+        about = {**self.described, "chunk": chunk, "first_point": start, "last_point": last}
+        with _writing(self.folder):
             write_chunk(chunk_path(self.folder, chunk), about, values, failed)
-        except OSError as error:
-            raise self._refused(f"cannot be written in: {error.strerror or error}", "cannot-write") from error
-
-    def _refused(self, what: str, kind: str) -> SweepFolderError:
-        return SweepFolderError(f"{self.folder} {what}", str(self.folder), kind)
 
 
 def check_foreign(folder: Path, path: Path, stored: StoredChunk, digest: str, chunk: int) -> None:
     """Refuse the whole file of another sweep, or of another place."""
     if stored.about.get("digest") != digest:
-        message = f"{path} is a chunk of another sweep"
-    elif stored.about.get("chunk") != chunk:
-        message = f"{path} is chunk {stored.about.get('chunk')}, not {chunk}"
-    else:
-        return
-    raise SweepFolderError(message, str(folder), "foreign-chunk")
+        raise refused(folder, "is a chunk of another sweep", "foreign-chunk", path)
+    if (found := stored.about.get("chunk")) != chunk:
+        raise refused(folder, f"is chunk {found}, not {chunk}", "foreign-chunk", path)
 
 
 def open_description(folder: Path) -> dict[str, Any]:
     """The description of the sweep in a folder, without its digest, which is compared."""
     path = folder / DESCRIPTION
     if not path.exists():
-        raise SweepFolderError(f"{folder} holds no sweep", str(folder), "not-a-sweep")
+        raise refused(folder, "holds no sweep", "not-a-sweep")
     try:
         described = read_json(path)
     except Damaged as damage:
-        raise SweepFolderError(f"{path}: {damage}", str(folder), "damaged") from damage
-    if is_newer(described):
-        program = described.get("program")
-        message = (
-            f"{path} was written by {program} in version {described['format']['version']}, which is newer"
-        )
-        raise SweepFolderError(message, str(folder), "newer-format")
-    digest = described.pop("digest", None)
-    if digest != digest_of(described):
-        raise SweepFolderError(f"{path}: it was changed", str(folder), "damaged")
+        raise refused(folder, f"is damaged: {damage}", "damaged", path) from damage
+    if described["format"]["version"] > FORMAT_VERSION:
+        found = f"was written by {described.get('program')} in version {described['format']['version']}"
+        raise refused(folder, f"{found}, which is newer", "newer-format", path)
+    if described.pop("digest", None) != digest_of(described):
+        raise refused(folder, "was changed", "damaged", path)
     return described
 
 
@@ -453,8 +415,7 @@ def read_axes(folder: Path, described: dict[str, Any]) -> Grid:
         with np.load(path, allow_pickle=False) as archive:
             grid = Grid({name: archive[f"axis_{name}"] for name in described["grid"]})
     except Exception as error:
-        message = f"{path}: it cannot be read ({type(error).__name__}: {error})"
-        raise SweepFolderError(message, str(folder), "damaged") from error
+        raise refused(folder, f"cannot be read ({type(error).__name__}: {error})", "damaged", path) from error
     if grid.described() != described["grid"]:
-        raise SweepFolderError(f"{path}: it was changed", str(folder), "damaged")
+        raise refused(folder, "was changed", "damaged", path)
     return grid

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bouncing_disk._sweep.errors import FailedPoint, SweepFunctionError
-from bouncing_disk._sweep.folder import function_name, versions
+from bouncing_disk._sweep.folder import VERSIONS, function_name
 from bouncing_disk._sweep.grid import Array, Grid, Lossy, converted, filled, joined
 
 Points = npt.NDArray[np.int64]
@@ -79,8 +79,8 @@ class Job:
             else:
                 self._together(points, pieces, failures)
         except _GivenUp:
-            return Outcome(None, tuple(failures), True, versions())
-        return Outcome(self.put_together(len(points), pieces), tuple(failures), False, versions())
+            return Outcome(None, tuple(failures), True, VERSIONS)
+        return Outcome(self.put_together(len(points), pieces), tuple(failures), False, VERSIONS)
 
     def _one_by_one(self, points: Points, pieces: list[Piece], failures: list[Failure]) -> None:
         for place, point in enumerate(points.tolist()):

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from bouncing_disk._base import Result
 from bouncing_disk._errors import BouncingDiskError, InvalidError
 from bouncing_disk._sweep.errors import FailedPoint, MissingDependencyError
 from bouncing_disk._sweep.grid import Array
@@ -79,15 +80,8 @@ def _is_installed(package: str) -> bool:
     return True
 
 
-def _same_bits(one: Array, other: Array) -> bool:
-    """Whether two arrays hold the same bits: those of objects are compared as objects."""
-    if one.dtype != other.dtype or one.shape != other.shape:
-        return False
-    return bool(np.array_equal(one, other)) if one.dtype.hasobject else one.tobytes() == other.tobytes()
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class SweepResult:
+class SweepResult(Result):
     """The results of a sweep on its grid. NumPy takes it for an array.
 
     Attributes:
@@ -116,21 +110,6 @@ class SweepResult:
     def __getitem__(self, key: Any) -> Any:
         """A part of the values, or a field of them."""
         return self.values[key]
-
-    def __eq__(self, other: object) -> bool:
-        """Whether all is the same, the values to the bit; NaN is equal to itself."""
-        if not isinstance(other, SweepResult):
-            return NotImplemented
-        one, two = (
-            (list(result.axes), result.function, result.arguments, result.version) for result in (self, other)
-        )
-        arrays = zip(
-            (self.values, self.failed, *self.axes.values()),
-            (other.values, other.failed, *other.axes.values()),
-        )
-        return one == two and all(_same_bits(first, second) for first, second in arrays)
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __repr__(self) -> str:
         """The function, the axes and the type of the values."""

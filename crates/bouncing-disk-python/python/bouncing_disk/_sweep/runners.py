@@ -5,7 +5,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import uuid
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from typing import Any
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from bouncing_disk._sweep.errors import SweepClusterError, SweepFunctionError
-from bouncing_disk._sweep.folder import PACKAGES, function_name, versions
+from bouncing_disk._sweep.folder import PACKAGES, VERSIONS, function_name, reader_of_versions
 from bouncing_disk._sweep.job import Job, Outcome
 
 
@@ -35,29 +35,12 @@ def check_client(client: Any) -> None:
         raise SweepClusterError(f"the client is {client.status}: make another one", "closed", {})
 
 
-def _asked() -> Callable[[tuple[str, ...]], dict[str, str]]:
-    """The question, as a function that is sent with its text: workers may have no module of ours."""
-
-    def found(packages: tuple[str, ...]) -> dict[str, str]:
-        from importlib.metadata import PackageNotFoundError, version
-
-        here = {}
-        for package in packages:
-            try:
-                here[package] = version(package)
-            except PackageNotFoundError:
-                here[package] = "unknown"
-        return here
-
-    return found
-
-
 def check_versions(client: Any) -> None:
     """Refuse workers with versions other than this process has. Later ones are checked with each chunk."""
-    told: Mapping[str, Any] = client.run(_asked(), PACKAGES, on_error="return")
+    told: Mapping[str, Any] = client.run(reader_of_versions(), PACKAGES, on_error="return")
     # One that died before it answered is none any more.
     answers = {worker: found for worker, found in told.items() if not isinstance(found, BaseException)}
-    other = {worker: dict(found) for worker, found in answers.items() if dict(found) != versions()}
+    other = {worker: dict(found) for worker, found in answers.items() if dict(found) != VERSIONS}
     if other:
         raise unlike(other)
 
@@ -67,7 +50,7 @@ def unlike(workers: Mapping[str, Mapping[str, str]]) -> SweepClusterError:
     worker, found = next(iter(workers.items()))
     differ = (
         f"no {package}" if theirs == "unknown" else f"{package} {theirs} instead of {here}"
-        for package, here in versions().items()
+        for package, here in VERSIONS.items()
         if (theirs := found.get(package, "of an older kind")) != here
     )
     more = f", and {len(workers) - 1} more have others, too" if len(workers) > 1 else ""
@@ -171,7 +154,7 @@ def distributed_outcomes(job: Job, tasks: Sequence[Task], client: Any) -> Iterat
         while pending:
             future = next(finished)
             outcome = future.result()
-            if outcome.versions != versions():
+            if outcome.versions != VERSIONS:
                 raise unlike({"a worker that joined later": outcome.versions})
             del pending[future.key]
             # Released, so that the workers forget what the client has.
