@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import doctest
 import io
 import re
 import sys
@@ -21,6 +20,9 @@ matplotlib.use("Agg")
 from bouncing_disk import plot  # noqa: E402
 from bouncing_disk.plot import _frame as words  # noqa: E402
 from matplotlib import pyplot as plt  # noqa: E402
+
+from good_calls import STARTS  # noqa: E402
+from test_documentation import failures_of  # noqa: E402
 
 PIZZA, MOTOR = bd.System.pizza_toss(), bd.System.motor()
 SHEET = bd.Motor(
@@ -62,16 +64,34 @@ def legend_of(ax: Any) -> Any:
     return legend
 
 
+def texts_of(ax: Any) -> list[str]:
+    return [text.get_text() for text in legend_of(ax).get_texts()]
+
+
 def drawn(line: Any) -> tuple[Any, Any]:
     return np.asarray(line.get_xdata()), np.asarray(line.get_ydata())
+
+
+def lines_of(ax: Any) -> dict[str, Any]:
+    return {line.get_label(): drawn(line) for line in ax.lines}
+
+
+def note_of(ax: Any) -> str:
+    return "".join(text.get_text() for text in ax.texts)
+
+
+def diagram_of(forcings: Any, recorded: int = 10) -> bd.OrbitDiagram:
+    return bd.orbit_diagram(axial_forcing=forcings, recorded=recorded, **STARTS)
+
+
+def runs_of(system: bd.System = MOTOR, **changes: Any) -> bd.TransientEnsemble:
+    return bd.ensemble(system, **{"members": 4, "duration": 0.5, "intervals": 30, **changes})
 
 
 @pytest.mark.parametrize("quantity", ["phase", "speed"])
 def test_an_orbit_diagram_has_every_impact(quantity: Any) -> None:
     forcings = np.linspace(0.4, 0.6, 7)
-    diagram = bd.orbit_diagram(
-        axial_forcing=forcings, restitution=0.5, impact_phase=1.2, normalised_speed=1.3, recorded=11
-    )
+    diagram = diagram_of(forcings, recorded=11)
     fig, ax = plot.orbit_diagram(diagram, quantity=quantity)
     ((line,), legend) = (ax.lines, ax.get_legend())
     x, y = drawn(line)
@@ -84,8 +104,7 @@ def test_an_orbit_diagram_has_every_impact(quantity: Any) -> None:
 
 def test_an_orbit_diagram_of_a_restitution_follows_two_starts() -> None:
     _, ax = plot.orbit_diagram(restitution=0.4, axial_forcing=(0.3, 0.6), **RUN)
-    names = [text.get_text() for text in legend_of(ax).get_texts()]
-    assert names == ["from the period-1 orbit", "from a slow impact"]
+    assert texts_of(ax) == ["from the period-1 orbit", "from a slow impact"]
     # The period-1 orbit is born at (1 - r)/(1 + r).
     assert drawn(ax.lines[0])[0].min() >= 0.6 / 1.4
     # Below it there is one start alone.
@@ -95,13 +114,10 @@ def test_an_orbit_diagram_of_a_restitution_follows_two_starts() -> None:
 
 def test_an_orbit_diagram_of_nothing_and_of_one_column() -> None:
     for forcings in ([], [0.5]):
-        diagram = bd.orbit_diagram(
-            axial_forcing=forcings, restitution=0.5, impact_phase=1.0, normalised_speed=1.0
-        )
-        _, ax = plot.orbit_diagram(diagram)
+        _, ax = plot.orbit_diagram(diagram_of(forcings, recorded=256))
         assert len(drawn(ax.lines[0])[0]) == 256 * len(forcings)
-    with pytest.raises(ValueError, match="quantity"):
-        plot.orbit_diagram(diagram, quantity="colour")  # type: ignore[arg-type]
+    _, ax = plot.orbit_diagram(axial_forcing=(0.5, 0.5), columns=1, transient=50, recorded=5)
+    assert ax.get_xlim() == pytest.approx((0.45, 0.55))
 
 
 def test_basins_are_where_they_were_computed() -> None:
@@ -117,7 +133,7 @@ def test_basins_are_where_they_were_computed() -> None:
     row, column = int(-velocity / np.pi / 5.0 * 30), int(phase / (2 * np.pi) * 40)
     assert pixels[row, column].max() < 0.2
     assert pixels[0].min() == 1.0
-    names = [text.get_text() for text in legend_of(ax).get_texts()]
+    names = texts_of(ax)
     assert names[0].startswith("comes to rest (") and names[1].startswith("period 1 (")
 
 
@@ -125,7 +141,7 @@ def test_basins_are_where_they_were_computed() -> None:
 def test_basins_of_the_panels_of_fig_7(forcing: float) -> None:
     bouncing = bd.ImpactMap(axial_forcing=forcing, restitution=0.5)
     _, ax = plot.basins(bouncing, phases=40, speeds=40, speed_range=(0.0, 5.0))
-    names = [text.get_text() for text in legend_of(ax).get_texts()]
+    names = texts_of(ax)
     assert names[0].startswith("comes to rest"), names
     expected = {
         0.34: ["period 1"],
@@ -140,70 +156,51 @@ def test_basins_of_the_panels_of_fig_7(forcing: float) -> None:
 
 def test_basins_of_many_labels_and_without_a_legend() -> None:
     result = bd.basins(bd.ImpactMap(axial_forcing=0.5, restitution=0.5), phases=6, speeds=5)
-    many = bd.Basins(
-        impact_map=result.impact_map,
-        labels=np.arange(30, dtype=np.uint8).reshape(5, 6),
-        phase=result.phase,
-        speed=result.speed,
-        phase_range=result.phase_range,
-        speed_range=result.speed_range,
-        meaning=tuple(f"label {k}" for k in range(30)),
-    )
+    labels = np.arange(30, dtype=np.uint8).reshape(5, 6)
+    many = dataclasses.replace(result, labels=labels, meaning=tuple(f"label {k}" for k in range(30)))
     _, ax = plot.basins(many, legend=False)
     colours = np.asarray(ax.images[0].get_array()).reshape(30, 3)
     assert len({tuple(colour) for colour in colours}) == 30 and ax.get_legend() is None
-    with pytest.raises(TypeError, match="not float"):
-        plot.basins(0.5)  # type: ignore[arg-type]
 
 
 def test_a_toss_shows_height_angle_and_events() -> None:
-    pizza = bd.System.pizza_toss()
-    fig, axes = plot.toss(pizza)
-    trajectory = bd.toss_trajectory(pizza)
+    fig, axes = plot.toss(PIZZA)
+    trajectory = bd.toss_trajectory(PIZZA)
     samples, events = trajectory.samples(count=2000), trajectory.events()
     for panel, values, unit in [(axes[0], samples.height, "(m)"), (axes[1], samples.angle, "(rad)")]:
-        lines = {line.get_label(): drawn(line) for line in panel.lines}
+        lines = lines_of(panel)
         assert set(lines) == {"platform", "disk", "separation", "impact"}
         assert np.array_equal(lines["disk"][1], values)
         assert lines["disk"][0][0] == 0.0
         assert lines["impact"][0][0] == events.time[-1] - trajectory.start_time
         assert unit in panel.get_ylabel()
     assert "(s)" in axes[1].get_xlabel() and fig is axes[0].figure
-    with pytest.raises(TypeError, match="not str"):
-        plot.toss("pizza")  # type: ignore[arg-type]
 
 
 def test_a_motion_without_impacts() -> None:
-    gentle = bd.System.pizza_toss().replace(amplitude=0.01)
-    _, axes = plot.toss(bd.simulate(gentle, phase=1.0, events=4))
-    assert "impact" not in {line.get_label() for line in axes[0].lines}
+    _, axes = plot.toss(bd.simulate(PIZZA.replace(amplitude=0.01), phase=1.0, events=4))
+    assert "impact" not in lines_of(axes[0])
 
 
 def test_a_run_up_shows_band_member_and_fit() -> None:
-    runs = bd.ensemble(bd.System.motor(), members=12, duration=4.0, intervals=50)
+    runs = runs_of(members=12, duration=4.0, intervals=50)
     _, ax = plot.motor_transient(runs, member=3)
-    lines = {line.get_label(): drawn(line) for line in ax.lines}
+    lines = lines_of(ax)
     assert np.array_equal(lines["one run"][1], runs.speeds[:, 3])
     time, speed = lines["exponential"]
     steady, constant = runs.steady_speed.mean, runs.time_constant.mean
     assert speed == pytest.approx(steady * (1.0 - np.exp(-time / constant)))
     assert ax.get_xlim() == pytest.approx((0.0, 4.0))
     title = legend_of(ax).get_title().get_text()
-    assert (
-        f"{steady:.1f}" in title
-        and "rad/s" in title
-        and "80 % of 12 runs" in legend_of(ax).get_texts()[0].get_text()
-    )
+    assert f"{steady:.1f}" in title and "rad/s" in title and "80 % of 12 runs" in texts_of(ax)[0]
 
 
 def test_a_run_up_of_a_motor_lasts_eight_time_constants() -> None:
     _, ax = plot.motor_transient(SHEET, members=8, intervals=60)
     trial = bd.ensemble(SHEET.system, members=64, duration=0.3)
     assert 4.0 < ax.get_xlim()[1] / trial.time_constant.mean < 16.0
-    _, ax = plot.motor_transient(bd.System.motor(), members=1, duration=2.0)
+    _, ax = plot.motor_transient(MOTOR, members=1, duration=2.0)
     assert not ax.collections
-    with pytest.raises(TypeError, match="not int"):
-        plot.motor_transient(3)  # type: ignore[arg-type]
 
 
 def test_a_torque_speed_curve_has_units_that_fit() -> None:
@@ -222,63 +219,51 @@ def test_a_torque_speed_curve_has_units_that_fit() -> None:
     _, ax = plot.torque_speed(SHEET, relative_error=0.1)
     speeds = drawn(ax.lines[0])[1]
     assert len(speeds) == 12 and speeds[0] > 5.0 and abs(speeds[-1]) < 0.2 * speeds[0]
-    with pytest.raises(TypeError, match="not NoneType"):
-        plot.torque_speed(None)  # type: ignore[arg-type]
 
 
 def test_axes_of_the_caller_are_used() -> None:
     fig, axes = plt.subplots(2, 2)
-    diagram = bd.orbit_diagram(axial_forcing=[0.5], restitution=0.5, impact_phase=1.0, normalised_speed=1.0)
-    assert plot.orbit_diagram(diagram, ax=axes[0, 0]) == (fig, axes[0, 0])
-    found, panels = plot.toss(bd.System.pizza_toss(), ax=axes[:, 1])
+    assert plot.orbit_diagram(diagram_of([0.5]), ax=axes[0, 0]) == (fig, axes[0, 0])
+    found, panels = plot.toss(PIZZA, ax=axes[:, 1])
     assert found is fig and panels[0] is axes[0, 1] and len(axes[1, 1].lines) == 4
     with pytest.raises(ValueError, match="2 axes, not 4"):
-        plot.toss(bd.System.pizza_toss(), ax=axes)
+        plot.toss(PIZZA, ax=axes)
     assert plt.get_fignums() == [fig.number]
 
 
 def test_an_animation_moves_disk_and_platform() -> None:
-    animation: Any = plot.toss_animation(bd.System.pizza_toss(), frames=20)
-    samples = bd.toss_trajectory(bd.System.pizza_toss()).samples(count=20)
-    seen = []
+    animation: Any = plot.toss_animation(PIZZA, frames=20)
+    samples = bd.toss_trajectory(PIZZA).samples(count=20)
+    seen = set()
     for frame in (0, 10, 19):
         platform, platform_dot, _, disk, disk_dot, _ = animation._func(frame)
-        assert (
-            disk.get_ydata()[0] == samples.height[frame]
-            and platform.get_ydata()[0] == samples.platform_height[frame]
-        )
-        radius = bd.System.pizza_toss().contact_radius
-        assert disk_dot.get_xdata()[0] == pytest.approx(radius * np.cos(samples.angle[frame]))
-        seen.append(platform_dot.get_xdata()[0])
-    assert len(set(seen)) == 3
+        heights = disk.get_ydata()[0], platform.get_ydata()[0]
+        assert heights == (samples.height[frame], samples.platform_height[frame])
+        across = PIZZA.contact_radius * np.cos(samples.angle[frame])
+        assert disk_dot.get_xdata()[0] == pytest.approx(across)
+        seen.add(platform_dot.get_xdata()[0])
+    assert len(seen) == 3
     animation._draw_was_started = True
-    with pytest.raises(bd.OutOfRangeError, match="slow_motion"):
-        plot.toss_animation(bd.System.pizza_toss(), slow_motion=0.0)
 
 
 def test_an_animation_can_be_saved(tmp_path: Any) -> None:
     pytest.importorskip("PIL")
     path = tmp_path / "toss.gif"
-    plot.toss_animation(bd.System.pizza_toss(), frames=5).save(path, writer="pillow")
+    plot.toss_animation(PIZZA, frames=5).save(path, writer="pillow")
     assert path.read_bytes()[:6] == b"GIF89a"
 
 
 def test_without_matplotlib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
     with pytest.raises(bd.MissingDependencyError) as missing:
-        plot.toss(bd.System.pizza_toss())
+        plot.toss(PIZZA)
     assert missing.value.install == "pip install 'bouncing-disk[plot]'"
 
 
 @pytest.mark.parametrize("name", plot.__all__)
 def test_examples_of_figures_run(name: str) -> None:
     text = getattr(plot, name).__doc__
-    assert len(text) > 80
-    test = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)
-    runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
-    report: list[str] = []
-    runner.run(test, out=report.append)
-    assert runner.summarize(verbose=False).failed == 0, "".join(report)
+    assert len(text) > 80 and failures_of(name, text) == ""
 
 
 @pytest.mark.parametrize(
@@ -331,20 +316,15 @@ def test_errors_stand_in_brackets(value: float, error: float, expected: str) -> 
     assert words.with_error(value, error) == expected
 
 
-
 def test_a_motor_tossed_is_drawn_in_its_units() -> None:
     trajectory = bd.toss_trajectory(MOTOR)
     _, (height, angle) = plot.toss(trajectory, samples=2000)
-    assert (height.get_ylabel(), angle.get_ylabel(), angle.get_xlabel()) == (
-        "height (µm)",
-        "angle (µrad)",
-        "time (ms)",
-    )
+    labels = height.get_ylabel(), angle.get_ylabel(), angle.get_xlabel()
+    assert labels == ("height (µm)", "angle (µrad)", "time (ms)")
     time, disk = drawn(height.lines[1])
     samples = trajectory.samples(count=2000)
-    assert disk == pytest.approx(1e6 * samples.height) and time == pytest.approx(
-        1e3 * (samples.time - samples.time[0])
-    )
+    assert disk == pytest.approx(1e6 * samples.height)
+    assert time == pytest.approx(1e3 * (samples.time - samples.time[0]))
 
 
 def test_a_long_motion_has_enough_samples_and_no_cloud_of_marks() -> None:
@@ -352,45 +332,53 @@ def test_a_long_motion_has_enough_samples_and_no_cloud_of_marks() -> None:
     _, (height, _) = plot.toss(long)
     periods = (long.end_time - long.start_time) / PIZZA.period
     assert 23 * periods < len(drawn(height.lines[0])[0]) <= 200_000
-    assert {line.get_label() for line in height.lines} == {"platform", "disk"}
+    assert set(lines_of(height)) == {"platform", "disk"}
     assert height.lines[1].get_linewidth() < 0.5 and legend_of(height).get_lines()[1].get_linewidth() == 1.0
     _, (height, _) = plot.toss(bd.simulate(PIZZA, phase=4.7, events=400))
-    assert {"impact", "separation", "attachment"} < {line.get_label() for line in height.lines}
+    assert {"impact", "separation", "attachment"} < set(lines_of(height))
 
 
-def test_an_animation_has_units_and_refuses_one_picture() -> None:
+def test_an_animation_has_units() -> None:
     animation: Any = plot.toss_animation(MOTOR, frames=2)
     labels = {ax.get_xlabel() + ax.get_ylabel() for ax in animation._fig.axes}
     assert labels == {"across (mm)height (µm)", "time (ms)"}
     # The curves are finer than the film.
     assert len(drawn(animation._fig.axes[1].lines[0])[0]) >= 2000
     animation._draw_was_started = True
-    for frames, error in (
-        (1, bd.OutOfRangeError),
-        (0, bd.OutOfRangeError),
-        (2.5, TypeError),
-        ("3", TypeError),
-    ):
-        with pytest.raises(error, match="frames"):
-            plot.toss_animation(PIZZA, frames=frames)  # type: ignore[arg-type]
-    for slow_motion, refused in (
-        (np.nan, bd.OutOfRangeError),
-        (np.inf, bd.OutOfRangeError),
-        ("2", TypeError),
-    ):
-        with pytest.raises(refused, match="slow_motion"):
-            plot.toss_animation(PIZZA, slow_motion=slow_motion)  # type: ignore[arg-type]
 
 
-
-def diagram_of(forcings: Any, recorded: int = 10) -> bd.OrbitDiagram:
-    return bd.orbit_diagram(
-        axial_forcing=forcings, restitution=0.5, impact_phase=1.2, normalised_speed=1.3, recorded=recorded
-    )
-
-
-def note_of(ax: Any) -> str:
-    return "".join(text.get_text() for text in ax.texts)
+@pytest.mark.parametrize(
+    ("function", "arguments", "error", "message"),
+    [
+        ("orbit_diagram", {"quantity": "colour"}, ValueError, "quantity"),
+        ("orbit_diagram", {"diagram": 0.5}, TypeError, "not float"),
+        ("orbit_diagram", {"diagram": {"one": 1}}, TypeError, "not int"),
+        ("orbit_diagram", {"columns": 0}, bd.OutOfRangeError, "columns is 0"),
+        ("orbit_diagram", {"columns": 2.5}, TypeError, "columns"),
+        ("orbit_diagram", {"axial_forcing": (0.3, np.nan)}, bd.OutOfRangeError, "axial_forcing is nan"),
+        ("orbit_diagram", {"axial_forcing": ("a", "b")}, TypeError, "axial_forcing"),
+        ("basins", {"basins": 0.5}, TypeError, "not float"),
+        ("toss", {"motion": "pizza"}, TypeError, "not str"),
+        ("motor_transient", {"runs": 3}, TypeError, "not int"),
+        ("motor_transient", {"runs": runs_of(), "member": 4}, bd.OutOfRangeError, "member"),
+        ("motor_transient", {"runs": runs_of(), "member": -1}, bd.OutOfRangeError, "member"),
+        ("motor_transient", {"runs": runs_of(), "member": 1.5}, TypeError, "member"),
+        ("torque_speed", {"curve": None}, TypeError, "not NoneType"),
+        ("toss_animation", {"motion": PIZZA, "frames": 1}, bd.OutOfRangeError, "frames"),
+        ("toss_animation", {"motion": PIZZA, "frames": 0}, bd.OutOfRangeError, "frames"),
+        ("toss_animation", {"motion": PIZZA, "frames": 2.5}, TypeError, "frames"),
+        ("toss_animation", {"motion": PIZZA, "frames": "3"}, TypeError, "frames"),
+        ("toss_animation", {"motion": PIZZA, "slow_motion": 0.0}, bd.OutOfRangeError, "slow_motion"),
+        ("toss_animation", {"motion": PIZZA, "slow_motion": np.nan}, bd.OutOfRangeError, "slow_motion"),
+        ("toss_animation", {"motion": PIZZA, "slow_motion": np.inf}, bd.OutOfRangeError, "slow_motion"),
+        ("toss_animation", {"motion": PIZZA, "slow_motion": "2"}, TypeError, "slow_motion"),
+    ],
+)
+def test_arguments_that_cannot_be_drawn_are_refused(
+    function: str, arguments: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    with pytest.raises(error, match=message):
+        getattr(plot, function)(**arguments)
 
 
 def test_diagrams_without_impacts_say_so() -> None:
@@ -407,9 +395,7 @@ def test_few_points_are_larger_than_many() -> None:
 
 
 def test_huge_forcings_have_a_power_of_ten_at_the_axis() -> None:
-    forcings = np.array([1e5, 1e6])
-    diagram = diagram_of(forcings)
-    _, ax = plot.orbit_diagram(diagram, quantity="speed")
+    _, ax = plot.orbit_diagram(diagram_of([1e5, 1e6]), quantity="speed")
     assert ax.get_xlabel().endswith("($10^{6}$)") and "($10^{" in ax.get_ylabel()
     assert np.unique(drawn(ax.lines[0])[0]) == pytest.approx([0.1, 1.0])
 
@@ -427,37 +413,15 @@ def test_a_legend_of_many_long_names_fits_the_figure() -> None:
     assert ax.get_window_extent().height > 0.9 * other.get_window_extent().height
 
 
-def test_wrong_diagrams_are_refused() -> None:
-    refused: Any = [
-        ({"diagram": 0.5}, TypeError, "not float"),
-        ({"diagram": {"one": 1}}, TypeError, "not int"),
-        ({"columns": 0}, bd.OutOfRangeError, "columns is 0"),
-        ({"columns": 2.5}, TypeError, "columns"),
-        ({"axial_forcing": (0.3, np.nan)}, bd.OutOfRangeError, "axial_forcing is nan"),
-        ({"axial_forcing": ("a", "b")}, TypeError, "axial_forcing"),
-    ]
-    for arguments, error, message in refused:
-        with pytest.raises(error, match=message):
-            plot.orbit_diagram(**arguments)
-    _, ax = plot.orbit_diagram(axial_forcing=(0.5, 0.5), columns=1, transient=50, recorded=5)
-    assert ax.get_xlim() == pytest.approx((0.45, 0.55))
-
-
 def test_the_legend_of_many_basins_names_the_largest() -> None:
     result = bd.basins(bd.ImpactMap(axial_forcing=0.5, restitution=0.5), phases=60, speeds=50)
     labels = np.minimum(np.arange(3000) // 10, 39).astype(np.uint8).reshape(50, 60)
-    meaning = (
-        "undecided",
-        "comes to rest",
-        *(f"periodic orbit: impacts {k}, platform periods 1" for k in range(2, 40)),
-    )
+    orbits = (f"periodic orbit: impacts {k}, platform periods 1" for k in range(2, 40))
+    meaning = ("undecided", "comes to rest", *orbits)
     fig, ax = plot.basins(dataclasses.replace(result, labels=labels, meaning=meaning))
-    shown = [text.get_text() for text in legend_of(ax).get_texts()]
-    assert (
-        len(shown) == 8
-        and "period 39 in 1 cycles (87.0 %)" in shown
-        and shown[-1].startswith("33 others (11.0 %)")
-    )
+    shown = texts_of(ax)
+    assert len(shown) == 8 and "period 39 in 1 cycles (87.0 %)" in shown
+    assert shown[-1].startswith("33 others (11.0 %)")
     fig.canvas.draw()
     box = legend_of(ax).get_window_extent()
     assert box.x0 >= 0.0 and box.y1 <= fig.bbox.y1 and ax.get_window_extent().height > 0.3 * fig.bbox.height
@@ -471,23 +435,10 @@ def test_basins_of_a_narrow_range_have_whole_numbers_at_their_ticks() -> None:
     assert ax.yaxis.get_offset_text().get_text() == ""
 
 
-
-def runs_of(system: bd.System = MOTOR, **changes: Any) -> bd.TransientEnsemble:
-    settings: dict[str, Any] = {"members": 4, "duration": 0.5, "intervals": 30, **changes}
-    return bd.ensemble(system, **settings)
-
-
-def test_a_member_that_is_not_there_is_refused() -> None:
-    runs = runs_of()
-    for member, error in ((4, bd.OutOfRangeError), (-1, bd.OutOfRangeError), (1.5, TypeError)):
-        with pytest.raises(error, match="member"):
-            plot.motor_transient(runs, member=member)  # type: ignore[arg-type]
-
-
 def test_run_ups_that_tell_nothing_have_no_fit() -> None:
     for runs in (runs_of(duration=1e-4), runs_of(MOTOR.replace(twist_amplitude=0.0))):
         _, ax = plot.motor_transient(runs)
-        assert "exponential" not in {line.get_label() for line in ax.lines}
+        assert "exponential" not in lines_of(ax)
         assert legend_of(ax).get_title().get_text() == ""
         low, high = ax.get_ylim()
         assert low < 0.0 < high

@@ -39,18 +39,7 @@ from bouncing_disk._toss import *
 
 # Sweeps, and what they raise, are imported when one is asked for: what they need takes longer than all else here.
 if TYPE_CHECKING:
-    from bouncing_disk._sweep import (
-        FailedPoint,
-        MissingDependencyError,
-        SweepClusterError,
-        SweepFailedError,
-        SweepFolderError,
-        SweepFolderWarning,
-        SweepFunctionError,
-        SweepResult,
-        read_sweep,
-        sweep,
-    )
+    from bouncing_disk._sweep import *
 
 __all__ = [
     "FailedPoint",
