@@ -164,7 +164,7 @@ pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
 }
 
 /// Arguments whose names do not follow from what the library calls them.
-const ARGUMENTS: [(&str, &[&str]); 23] = [
+const ARGUMENTS: [(&str, &[&str]); 22] = [
     ("phase", &["impact_phase"]),
     ("period", &["impact_phase"]),
     ("impacts", &["impact_phase"]),
@@ -187,7 +187,6 @@ const ARGUMENTS: [(&str, &[&str]); 23] = [
     ("load_acceleration", &["load_torque", "load_torques"]),
     ("points", &["times"]),
     ("cells_along_a_box", &["box_side"]),
-    ("fitted_parameters", &["ranges"]),
 ];
 
 /// The argument of a call that a quantity of the library is about: `longest period`, `points of a branch` and
@@ -207,7 +206,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
     let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
     // What is illegal of one of many comes from the argument that holds them.
-    let containers = ["basins", "transients", "ranges", "axes"];
+    let containers = ["basins", "ranges", "axes"];
     spellings
         .into_iter()
         .chain(plurals)

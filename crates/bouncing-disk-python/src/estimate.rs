@@ -1,22 +1,18 @@
-//! Speed transients of motors, and fits of measured ones: of their rise and of the motor's parameters.
+//! Speed transients of motors, and fits of measured ones.
 
 use std::str::FromStr;
 
 use bouncing_disk::Error;
 use bouncing_disk::estimate::{
-    CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds,
-    MeasuredTransient, ParameterFit, ParameterFitSettings, RiseEstimate, RiseForm, RunPreload, Spread,
+    CsvColumns, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds, RiseEstimate, RiseForm, Spread,
     TransientEnsemble, TransientFit, UnknownUnit,
 };
 use bouncing_disk::motor::{SpeedCurve, TransientSettings};
 use numpy::PyArray1;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyMapping, PyTuple};
 
-use crate::arguments::{Arguments, Made, Pair, Real, row, runs};
+use crate::arguments::{Arguments, Made, runs};
 use crate::errors;
-use crate::parameters::shown_motor;
 use crate::results::{array, column, make, matrix, room_for};
 
 /// One value tells neither deviation nor error.
@@ -133,86 +129,4 @@ pub(crate) fn read_speeds(a: Arguments<'_>) -> PyResult<Vec<Run<'_>>> {
     let read = read.map_err(|error| errors::of_measured(py, &error))?;
     let arrays = |run: &MeasuredRun| (array(py, run.times.clone()), array(py, run.speeds.clone()));
     Ok(read.runs().iter().map(arrays).collect())
-}
-
-/// The parameters that transients may tell.
-const PARAMETERS: [FitParameter; 5] = [
-    FitParameter::Friction,
-    FitParameter::Restitution,
-    FitParameter::PhaseLag,
-    FitParameter::Amplitude,
-    FitParameter::TwistAmplitude,
-];
-
-/// The ranges of a mapping, in its order.
-fn ranges(given: &Bound<'_, PyMapping>) -> PyResult<Vec<FitRange>> {
-    let mut ranges = Vec::new();
-    for item in given.items()? {
-        let (name, Pair(low, high)): (String, Pair) = item.extract()?;
-        let Some(parameter) = PARAMETERS.into_iter().find(|parameter| parameter.name() == name) else {
-            let known: Vec<_> = PARAMETERS.iter().map(|parameter| parameter.name()).collect();
-            let text =
-                format!("the parameter {name:?} cannot be fitted; those that can are {}", known.join(", "));
-            return Err(PyValueError::new_err(text));
-        };
-        ranges.push(FitRange { parameter, low, high });
-    }
-    Ok(ranges)
-}
-
-/// The runs of one preload.
-fn measured(
-    a: &Arguments<'_>,
-    given: &Bound<'_, PyAny>,
-    speed_error: Option<f64>,
-) -> PyResult<MeasuredTransient> {
-    let (times, speeds, preload): (Bound<'_, PyAny>, Bound<'_, PyAny>, Real) = given.extract()?;
-    let times = row(&times, "times")?;
-    let runs = runs(&speeds, "speeds")?.into_iter().zip(0..);
-    let runs = runs.map(|(speeds, member)| MeasuredRun { member, times: times.clone(), speeds });
-    let runs = MeasuredSpeeds::new(runs.collect()).map_err(|error| a.refused(error))?;
-    Ok(MeasuredTransient { preload: RunPreload::Acceleration(preload.0), runs, speed_error })
-}
-
-/// Parameters of a motor from its transients.
-#[pyfunction]
-pub(crate) fn fit_parameters(a: Arguments<'_>) -> Made<'_> {
-    let (motor, speed_error, py) = (a.motor()?, a.optional("speed_error")?, a.py());
-    let all = a.get("transients")?.try_iter()?.map(|transient| measured(&a, &transient?, speed_error));
-    let (all, ranges) = (all.collect::<PyResult<Vec<_>>>()?, ranges(&a.of("ranges")?)?);
-    let settings = ParameterFitSettings {
-        members: a.usize("members")?,
-        windows: a.usize("windows")?,
-        relaunch_perturbation: a.real("relaunch_perturbation")?,
-        seed: a.u64("seed")?,
-        most_evaluations: a.usize("most_evaluations")?,
-        resamples: a.usize("resamples")?,
-        largest_misfit: a.real("largest_misfit")?,
-    };
-    let fit = a.run_fit(|observer| ParameterFit::new(&motor, &all, &ranges, &settings, observer))?;
-    let (nominal, estimates) = (PyDict::new(py), PyDict::new(py));
-    for fitted in &fit.parameters {
-        nominal.set_item(fitted.parameter.name(), fitted.nominal)?;
-        let estimate = fitted.estimate.as_ref().map(|estimate| interval(py, estimate)).transpose()?;
-        estimates.set_item(fitted.parameter.name(), estimate)?;
-    }
-    let mut undetermined = Vec::new();
-    for direction in &fit.undetermined {
-        let changes = PyDict::new(py);
-        for (parameter, change) in &direction.direction {
-            changes.set_item(parameter.name(), change)?;
-        }
-        undetermined.push((changes, direction.standard_error).into_pyobject(py)?);
-    }
-    make!(
-        py,
-        "ParameterFit",
-        nominal,
-        estimates,
-        PyTuple::new(py, undetermined)?,
-        shown_motor(py, &fit.motor)?,
-        fit.misfit,
-        fit.degrees_of_freedom,
-        fit.evaluations,
-    )
 }

@@ -33,7 +33,7 @@ mod _native {
         verdicts,
     };
     #[pymodule_export]
-    use crate::estimate::{ensemble, fit_parameters, fit_transients, read_speeds};
+    use crate::estimate::{ensemble, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::motor::{
         best_phase_lag, elementary_effects, input_spreads, local_sensitivities, low_period_traps, motor_map,

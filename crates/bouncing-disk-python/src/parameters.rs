@@ -320,12 +320,6 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
 
-/// The motor that the library has made, as Python has it.
-pub(crate) fn shown_motor<'py>(py: Python<'py>, motor: &MotorModel) -> Made<'py> {
-    let given = given_sheet(&motor.parameters()).into_py_dict(py)?;
-    py.import("bouncing_disk")?.getattr("Motor")?.call((), Some(&given))
-}
-
 /// The arguments of a motor of the paper, or of the text of a data sheet.
 #[pyfunction]
 pub(crate) fn known_motor<'py>(py: Python<'py>, kind: &str, text: &str) -> PyResult<Bound<'py, PyDict>> {

@@ -1,24 +1,23 @@
 //! Tosses and trajectories: the motion of the engine, in SI units.
 
-use bouncing_disk::core::{Error as CoreError, Phase, chaos::LyapunovEstimate, run::Watch};
+use bouncing_disk::core::{Error as CoreError, Phase, run::Watch};
 use bouncing_disk::motion::{
     DiskState, EventKind, Mode, PhaseSpan, PlatformState, SiEnergy, SiState, SlipDirection, Snapshot,
 };
 use bouncing_disk::parameters::Scales;
 use bouncing_disk::toss::{
-    InitialSpin, MultiTossSettings, OrbitClass, RotaryOutcome, TossOrbit, TossPerformance,
-    rotary_response as response, single_toss as toss, toss_trajectory as toss_motion,
+    InitialSpin, RotaryOutcome, TossPerformance, rotary_response as response, single_toss as toss,
+    toss_trajectory as toss_motion,
 };
 use bouncing_disk::{
     Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel, Trajectory as Motion,
 };
-use numpy::Complex64;
 use pyo3::prelude::*;
 
 use crate::arguments::{Arguments, Made, choice, held};
 use crate::orbits::PeriodicOrbit;
 use crate::parameters::{System, python_system};
-use crate::results::{array, column, complex, holders, holding, make, room_for};
+use crate::results::{array, column, holders, holding, make, room_for};
 use crate::{errors, long_call};
 
 holders! {
@@ -115,69 +114,6 @@ impl Start {
             },
         })
     }
-}
-
-/// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a
-/// chattering one, the multipliers, and the exponent.
-type Class = (&'static str, usize, u64, usize, [Complex64; 3], Option<LyapunovEstimate>);
-
-fn class(class: &OrbitClass) -> Class {
-    const NONE: Complex64 = Complex64::new(f64::NAN, f64::NAN);
-    match class {
-        OrbitClass::Periodic { period, platform_periods, vertical, rotary } => {
-            let [one, other] = complex(*vertical);
-            ("periodic", *period, *platform_periods, 0, [one, other, Complex64::new(*rotary, 0.0)], None)
-        }
-        OrbitClass::Chattering(cycle) => {
-            ("chattering", cycle.impacts, cycle.platform_periods, cycle.long_flights, [NONE; 3], None)
-        }
-        OrbitClass::Chaotic { lyapunov_exponent } => {
-            ("chaotic", 0, 0, 0, [NONE; 3], Some(*lyapunov_exponent))
-        }
-        OrbitClass::Undecided { lyapunov_exponent, .. } => {
-            ("undecided", 0, 0, 0, [NONE; 3], *lyapunov_exponent)
-        }
-        OrbitClass::AtRest => ("at-rest", 0, 0, 0, [NONE; 3], None),
-        _ => ("unknown", 0, 0, 0, [NONE; 3], None),
-    }
-}
-
-/// What a motion settles on.
-#[pyfunction]
-pub(crate) fn multi_toss(a: Arguments<'_>) -> Made<'_> {
-    let (system, start, py) = (a.system()?, Start::of(&a)?, a.py());
-    let settings = MultiTossSettings {
-        policy: a.policy()?,
-        transient_impacts: a.usize("transient_impacts")?,
-        examined_impacts: a.usize("examined_impacts")?,
-        longest_period: a.usize("longest_period")?,
-        tolerance: a.real("tolerance")?,
-    };
-    let orbit: TossOrbit = a.run(|observer| {
-        bouncing_disk::toss::multi_toss(system, start.condition(&system)?, settings, observer)
-    })?;
-    let (kind, period, platform_periods, long_flights, multipliers, exponent) = class(&orbit.class);
-    let (scales, collisions) = (system.scales(), &orbit.collisions);
-    make!(
-        py,
-        "TossOrbit",
-        kind,
-        period,
-        platform_periods,
-        long_flights,
-        array(py, multipliers.to_vec()),
-        exponent.map(|own| own.exponent),
-        orbit.mean_angular_speed.map(|speed| speed * scales.angular_speed),
-        orbit.rotation_repeats,
-        column(py, collisions, |one| scales.time_seconds(one.time)),
-        column(py, collisions, |one| one.state.phase.angle()),
-        column(py, collisions, |one| one.state.axial_impact_velocity * scales.velocity),
-        column(py, collisions, |one| one.state.tangential_impact_velocity * scales.angular_speed),
-        column(py, collisions, |one| one.angular_speed * scales.angular_speed),
-        column(py, collisions, |one| one.angle * scales.angle),
-        column(py, collisions, |one| one.capped),
-        exponent.map(|own| own.standard_error),
-    )
 }
 
 /// The place in `TrajectorySamples.MODES`.

@@ -112,7 +112,7 @@ def test_no_call_is_left_out() -> None:
         ("restitution", 1.5, r"\[0, 1\)", lambda: bd.System.from_json(TOSS.replace(restitution=0.125).to_json().replace("0.125", "1.5"))),
         # A value and its range have the unit of the argument.
         ("gap", -1.0, r"\[[0-9.e-]+, [0-9.e+]+\] m", lambda: bd.simulate(TOSS, gap=-1.0)),
-        ("relative_velocity", 1e300, r"\[-[0-9.e+]+, [0-9.e+]+\] m/s", lambda: bd.multi_toss(TOSS, gap=1.0, relative_velocity=1e300)),
+        ("relative_velocity", 1e300, r"\[-[0-9.e+]+, [0-9.e+]+\] m/s", lambda: bd.simulate(TOSS, gap=1.0, relative_velocity=1e300)),
         ("relative_velocity", -1.0, r"\[0, inf\) m/s", lambda: bd.simulate(TOSS, relative_velocity=-1.0)),
         ("angular_speed", 1e308, r"\[-[0-9.e+]+, [0-9.e+]+\] rad/s", lambda: bd.simulate(TOSS, angular_speed=1e308)),
         ("duration", 1e300, r"\(0, [0-9.e+]+\] s", lambda: bd.ensemble(TOSS, members=3, duration=1e300)),
@@ -136,7 +136,7 @@ def test_the_names_numbers_and_ranges_of_some(
 
 def test_the_end_of_a_range_in_si_is_that_of_the_library() -> None:
     with pytest.raises(bd.OutOfRangeError) as refused:
-        bd.multi_toss(TOSS, gap=1.0, relative_velocity=-1e300)
+        bd.simulate(TOSS, gap=1.0, relative_velocity=-1e300)
     unit = TOSS.preload_acceleration / TOSS.angular_frequency
     ends = [float(end) for end in refused.value.range.strip("[] m/s").split(", ")]
     assert ends == pytest.approx([-1e9 * unit, 1e9 * unit], rel=1e-5)

@@ -18,7 +18,7 @@ import bouncing_disk as bd
 
 STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 
-# One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search, the engine,
+# One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search,
 # motors.
 ENDLESS = {
     "diagram": "bd.orbit_diagram(axial_forcing=np.full(64, 0.56), transient=10**9, recorded=1, **STARTS)",
@@ -33,7 +33,6 @@ ENDLESS = {
     "traps": "bd.low_period_traps(MOTOR, preload_accelerations=np.linspace(1.0, 20.0, 10**6))",
     "periodic orbits": "bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.8, restitution=0.7), max_impacts=64,"
     " max_platform_periods=10000, phases=4096, speeds=4096)",
-    "multi_toss": "bd.multi_toss(bd.System.pizza_toss(), phase=4.7, transient_impacts=4 * 10**9)",
     "ensemble": "bd.ensemble(bd.System.motor(), members=1000, duration=1e4)",
     "curve": "bd.torque_speed_curve(MOTOR, load_torques=np.linspace(0, 1e-6, 8), relative_error=1e-6,"
     " most_impacts=10**15)",
@@ -53,8 +52,6 @@ ENDLESS = {
     "sobol": "bd.sobol_indices(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
     "effects": "bd.elementary_effects(MOTOR, ranges={'friction': (0.1, 0.2)}, rows=10**6)",
     "crisis": "bd.crisis(restitution=0.5, axial_forcing=(0.55, 0.56), impacts=10**12)",
-    "parameter fit": "bd.fit_parameters(MOTOR, transients=[(TIMES, RISE, 9.8)], ranges={'friction': (0.05, 0.2),"
-    " 'restitution': (0.3, 0.7)}, members=4096)",
 }
 
 INTERRUPTED = """
@@ -66,8 +63,6 @@ STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
 MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
                  contact_radius=1.25e-3,
                  gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
-TIMES = np.linspace(0.01, 4.0, 80)
-RISE = 22.0 * (1.0 - np.exp(-TIMES / 0.9)) + 0.3 * np.sin(40.0 * TIMES)
 SADDLE = bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=1,
                             max_platform_periods=1)[-1]
 BASINS = bd.basins(bd.ImpactMap(axial_forcing=0.2, restitution=0.5), phases=10_000, speeds=2000, max_impacts=1)

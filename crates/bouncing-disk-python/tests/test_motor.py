@@ -99,19 +99,6 @@ def test_fits_find_what_made_the_runs() -> None:
     fit = bd.fit_transients(times=runs.times[:, 0], speeds=runs.speeds, resamples=200)
     low, high = fit.exponential.steady_speed.low, fit.exponential.steady_speed.high
     assert fit.members == 8 and low < runs.steady_speed.mean < high
-    found = bd.fit_parameters(
-        MOTOR.replace(friction=0.12),
-        transients=[(runs.times[:, 0], runs.speeds, 9.8)],
-        ranges={"friction": (0.05, 0.2)},
-        members=24,
-        resamples=200,
-        windows=4,
-    )
-    friction = found.estimates["friction"]
-    assert friction is not None and friction.low < 0.1 < friction.high
-    assert found.motor.friction == friction.value and found.nominal == {"friction": 0.12}
-    with pytest.raises(ValueError, match="mass"):
-        bd.fit_parameters(MOTOR, transients=[], ranges={"mass": (0.1, 1.0)})
 
 
 def test_the_best_lag_turns_the_motor_fastest() -> None:

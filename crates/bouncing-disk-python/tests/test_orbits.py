@@ -310,21 +310,6 @@ def test_a_motion_ends_as_it_is_told() -> None:
         bd.toss_trajectory(TOSS).samples(count=1)
 
 
-def test_a_toss_that_repeats_is_told_by_its_collisions() -> None:
-    bouncing = TOSS.replace(amplitude=0.45 * np.pi * 9.8 / 15.0**2)
-    # Thrown next to the orbit.
-    orbit = bd.multi_toss(bouncing, phase=0.74, relative_velocity=0.5 * 4.2 * 9.8 / 15.0)
-    expected = bd.ImpactMap.of_system(bouncing).period_one()
-    assert (
-        expected is not None and orbit.kind == "periodic" and (orbit.period, orbit.platform_periods) == (1, 1)
-    )
-    assert orbit.impact_phase == pytest.approx([expected[0]])
-    assert orbit.axial_impact_velocity == pytest.approx([expected[1] * 9.8 / 15.0])
-    assert np.abs(orbit.multipliers[0]) == pytest.approx(0.5)
-    resting = bd.multi_toss(TOSS.replace(amplitude=0.01))
-    assert resting.kind == "at-rest" and resting.mean_angular_speed is None and len(resting.time) == 0
-
-
 def test_basins_of_attractors_have_their_labels() -> None:
     found = bd.attractors(bd.ImpactMap(axial_forcing=0.486, restitution=0.5))
     assert [attractor.kind for attractor in found.all] == ["rest", "periodic", "periodic"]

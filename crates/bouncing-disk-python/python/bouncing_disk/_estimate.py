@@ -15,13 +15,11 @@ from bouncing_disk._system import ChatterCut, System
 
 __all__ = [
     "IntervalEstimate",
-    "ParameterFit",
     "RiseEstimate",
     "Spread",
     "TransientEnsemble",
     "TransientFit",
     "ensemble",
-    "fit_parameters",
     "fit_transients",
     "read_speeds",
 ]
@@ -204,62 +202,3 @@ def read_speeds(
         Times (s) and angular speeds (rad/s) of each run.
     """
     return native.read_speeds(locals())
-
-
-@dataclass(frozen=True, eq=False)
-class ParameterFit(Result):
-    """Parameters of a motor fitted to its transients.
-
-    Attributes:
-        nominal: the values of the data sheet (SI).
-        estimates: values and 95 % intervals (SI); None for a parameter that the transients do not determine.
-        undetermined: directions that they do not determine, as changes of each parameter, and the standard
-            error along each.
-        motor: the motor with the fitted parameters.
-        misfit: remaining sum of the weighted squares.
-        degrees_of_freedom: its expectation.
-        evaluations: how often all motors have been computed.
-    """
-
-    nominal: dict[str, float]
-    estimates: dict[str, IntervalEstimate | None]
-    undetermined: tuple[tuple[dict[str, float], float], ...]
-    motor: Motor
-    misfit: float
-    degrees_of_freedom: int
-    evaluations: int
-
-
-def fit_parameters(
-    motor: Motor,
-    *,
-    transients: Iterable[tuple[ArrayLike, ArrayLike, Float]],
-    ranges: Mapping[str, Pair],
-    speed_error: Float | None = None,
-    members: Int = 64,
-    windows: Int = 6,
-    relaunch_perturbation: Float = 0.001,
-    seed: Int = 1,
-    most_evaluations: Int = 100,
-    resamples: Int = 1000,
-    largest_misfit: Float = 1.0,
-    progress: Progress = None,
-) -> ParameterFit:
-    """Friction, restitution, phase lag or amplitudes of a motor from its transients, with 95 % intervals.
-
-    Args:
-        motor: the data sheet, from whose values the search begins.
-        transients: for each preload the times (n,) (s), the speeds (n,) or (n, m) of one or m runs (rad/s),
-            and the preload acceleration (m/s^2).
-        ranges: the range (low, high) of each parameter that is fitted: of ``friction``, ``restitution``,
-            ``phase_lag``, ``amplitude`` and ``twist_amplitude``.
-        speed_error: standard deviation of the error of one measured speed (rad/s).
-        members: computed members at each preload, in [24, 4096].
-        windows: windows of time over whose means a transient is compared, in [1, 12].
-        relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
-        seed: seed of the perturbations and of the resampling.
-        most_evaluations: most evaluations of all motors, in [1, 10000].
-        resamples: resampled fits, in [200, 100000].
-        largest_misfit: the largest misfit that is accepted, at least 1.
-    """
-    return native.fit_parameters(locals())

@@ -15,11 +15,9 @@ __all__ = [
     "Energy",
     "EventTable",
     "RotaryResponse",
-    "TossOrbit",
     "TossPerformance",
     "Trajectory",
     "TrajectorySamples",
-    "multi_toss",
     "rotary_response",
     "simulate",
     "single_toss",
@@ -86,82 +84,6 @@ def single_toss(
     14
     """
     return native.single_toss(system, initial_spin)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class TossOrbit(Result):
-    """The orbit on which a motion has settled, in SI units.
-
-    Attributes:
-        kind: ``"periodic"``, ``"chattering"``, ``"chaotic"``, ``"undecided"`` or ``"at-rest"``.
-        period, platform_periods: impacts and platform periods of one round of a periodic or chattering
-            motion, else 0.
-        long_flights: flights of a chattering round that last longer than half a period.
-        multipliers: Floquet multipliers of a periodic orbit: two of the vertical motion, one of the rotation;
-            else NaN, shape (3,).
-        lyapunov_exponent: growth per impact of a motion that does not repeat, where it was measured.
-        mean_angular_speed: mean angular speed (rad/s); None at rest.
-        rotation_repeats: whether the angular speed repeats as well; None where nothing repeats.
-        time, impact_phase: instant (s) and phase (rad) of each collision: of one round, or all that were
-            examined, shape (m,).
-        axial_impact_velocity: axial velocity of the disk relative to the platform just before (m/s), not
-            positive, shape (m,).
-        tangential_impact_velocity: angular speed of the disk relative to the platform just before (rad/s),
-            shape (m,).
-        angular_speed, angle: angular speed of the disk just before (rad/s), and the angle that it has turned
-            (rad), shape (m,).
-        capped: whether friction ended the slip within the impact, shape (m,).
-        lyapunov_exponent_error: standard error of the exponent: scatter, drift and rounding.
-    """
-
-    kind: str
-    period: int
-    platform_periods: int
-    long_flights: int
-    multipliers: ComplexArray
-    lyapunov_exponent: float | None
-    mean_angular_speed: float | None
-    rotation_repeats: bool | None
-    time: FloatArray
-    impact_phase: FloatArray
-    axial_impact_velocity: FloatArray
-    tangential_impact_velocity: FloatArray
-    angular_speed: FloatArray
-    angle: FloatArray
-    capped: BoolArray
-    lyapunov_exponent_error: float | None
-
-
-def multi_toss(
-    system: System,
-    *,
-    phase: Float = 0.0,
-    angular_speed: Float | None = None,
-    gap: Float | None = None,
-    relative_velocity: Float | None = None,
-    transient_impacts: Int = 4000,
-    examined_impacts: Int = 1024,
-    longest_period: Int = 128,
-    tolerance: Float = 1e-09,
-    chatter: ChatterCut | None = None,
-    progress: Progress = None,
-) -> TossOrbit:
-    """The motion on which a disk settles: a periodic orbit, chattering, chaos or rest, with its collisions.
-
-    Args:
-        phase, angular_speed, gap, relative_velocity: the start, as of :func:`simulate`.
-        transient_impacts: impacts that are skipped.
-        examined_impacts: impacts that are then examined, in [2, 10000000].
-        longest_period: the longest period, in impacts, that is recognised, up to 4096.
-        tolerance: phases (rad) and relative speeds that differ by no more are the same.
-        chatter: how a chatter ends; ``None`` sums it.
-
-    >>> import bouncing_disk as bd
-    >>> tossed = bd.System.pizza_toss().replace(amplitude=0.0566)
-    >>> bd.multi_toss(tossed, phase=4.7).kind
-    'chattering'
-    """
-    return native.multi_toss(locals())
 
 
 @dataclass(frozen=True, eq=False, repr=False)
