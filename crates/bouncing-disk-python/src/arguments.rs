@@ -73,25 +73,25 @@ impl<'py> Arguments<'py> {
     }
 
     pub(crate) fn pair(&self, name: &str) -> PyResult<(f64, f64)> {
-        let Pair(low, high) = self.of(name)?;
+        let [Real(low), Real(high)] = self.of(name)?;
         Ok((low, high))
     }
 
     /// A whole number up to `most`.
-    pub(crate) fn count(&self, name: &'static str, most: u64, range: &'static str) -> PyResult<u64> {
+    pub(crate) fn count(&self, name: &str, most: u64, range: &str) -> PyResult<u64> {
         self.of::<Count>(name)?.at_most(self.py(), name, most, range)
     }
 
-    pub(crate) fn u64(&self, name: &'static str) -> PyResult<u64> {
+    pub(crate) fn u64(&self, name: &str) -> PyResult<u64> {
         self.of::<Count>(name)?.u64(self.py(), name)
     }
 
-    pub(crate) fn u32(&self, name: &'static str) -> PyResult<u32> {
+    pub(crate) fn u32(&self, name: &str) -> PyResult<u32> {
         self.of::<Count>(name)?.u32(self.py(), name)
     }
 
     /// A number of items: no call has more than 2^32 of them.
-    pub(crate) fn usize(&self, name: &'static str) -> PyResult<usize> {
+    pub(crate) fn usize(&self, name: &str) -> PyResult<usize> {
         self.u32(name).map(|count| count as usize)
     }
 
@@ -188,30 +188,10 @@ fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
     Ok(())
 }
 
-/// Two real numbers in a tuple or list.
+/// A whole number as Python has it, or as nearly as a double has it where it is negative or too large: it is refused as
+/// a value, not as an overflow.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Pair(pub(crate) f64, pub(crate) f64);
-
-impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        let numbers: Vec<Real> = object.extract()?;
-        match numbers[..] {
-            [Real(one), Real(other)] => Ok(Self(one, other)),
-            _ => Err(PyValueError::new_err(format!("must be two numbers, and is {}", numbers.len()))),
-        }
-    }
-}
-
-/// A whole number as Python has it: one that is negative or too large is refused as a value, not as an overflow.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Count {
-    /// One that fits.
-    Fits(u64),
-    /// One that does not, as nearly as a double has it.
-    Outside(f64),
-}
+pub(crate) struct Count(pub(crate) Result<u64, f64>);
 
 impl<'a, 'py> FromPyObject<'a, 'py> for Count {
     type Error = PyErr;
@@ -219,10 +199,10 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
         refuse_truth(&object)?;
         match object.extract::<u64>() {
-            Ok(count) => Ok(Self::Fits(count)),
+            Ok(count) => Ok(Self(Ok(count))),
             Err(error) if error.is_instance_of::<PyOverflowError>(object.py()) => {
                 let beyond = if object.lt(0)? { f64::NEG_INFINITY } else { f64::INFINITY };
-                Ok(Self::Outside(object.extract::<f64>().unwrap_or(beyond)))
+                Ok(Self(Err(object.extract::<f64>().unwrap_or(beyond))))
             }
             Err(error) => Err(error),
         }
@@ -231,25 +211,19 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Count {
 
 impl Count {
     /// The number, if it is at most `most`.
-    pub(crate) fn at_most(
-        self,
-        py: Python<'_>,
-        field: &'static str,
-        most: u64,
-        range: &'static str,
-    ) -> PyResult<u64> {
-        match self {
-            Self::Fits(count) if count <= most => Ok(count),
-            Self::Fits(count) => Err(errors::out_of_range(py, field, count as f64, range)),
-            Self::Outside(value) => Err(errors::out_of_range(py, field, value, range)),
+    pub(crate) fn at_most(self, py: Python<'_>, field: &str, most: u64, range: &str) -> PyResult<u64> {
+        match self.0 {
+            Ok(count) if count <= most => Ok(count),
+            Ok(count) => Err(errors::out_of_range(py, field, count as f64, range)),
+            Err(value) => Err(errors::out_of_range(py, field, value, range)),
         }
     }
 
-    pub(crate) fn u64(self, py: Python<'_>, field: &'static str) -> PyResult<u64> {
+    pub(crate) fn u64(self, py: Python<'_>, field: &str) -> PyResult<u64> {
         self.at_most(py, field, u64::MAX, "[0, 18446744073709551615]")
     }
 
-    pub(crate) fn u32(self, py: Python<'_>, field: &'static str) -> PyResult<u32> {
+    pub(crate) fn u32(self, py: Python<'_>, field: &str) -> PyResult<u32> {
         self.at_most(py, field, u32::MAX.into(), "[0, 4294967295]").map(|count| count as u32)
     }
 }

@@ -103,7 +103,7 @@ fn grid(a: &Arguments<'_>) -> PyResult<Grid> {
         // Both axes have the same names in the library.
         Axis::new(low, high, a.usize(cells)?).map_err(|error| match error {
             CoreError::OutOfRange { field, value, legal } => {
-                errors::named(a.py(), if field == "axis cells" { cells } else { range }, value, legal)
+                errors::out_of_range(a.py(), if field == "axis cells" { cells } else { range }, value, legal)
             }
             error => a.refused(error),
         })
@@ -269,9 +269,7 @@ pub(crate) fn boundary_scaling(a: Arguments<'_>) -> Made<'_> {
 pub(crate) fn basin_fractions_over(a: Arguments<'_>) -> Made<'_> {
     let (restitution, forcings, py) = (a.real("restitution")?, a.row("axial_forcing")?, a.py());
     let (search, reach) = (search(&a)?, a.real("reach")?);
-    let found = a.run(|observer| {
-        Ok(fractions_over(restitution, &forcings, &search, reach, observer)?)
-    })?;
+    let found = a.run(|observer| Ok(fractions_over(restitution, &forcings, &search, reach, observer)?))?;
     let (attractors, forcings) = (found.followed.len(), found.at.len());
     // A number of each attractor at each forcing, NaN where it is not there.
     let table = |of: &dyn Fn(&Attractor) -> f64| {

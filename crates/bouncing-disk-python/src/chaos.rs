@@ -399,7 +399,8 @@ pub(crate) fn crisis(a: Arguments<'_>) -> Made<'_> {
     let first = inside.as_ref().or(touched.as_ref());
     let saddles = first.map(|first| (&first.get().0, &touched.as_ref().unwrap_or(first).get().0));
     let found = a.run(|observer| Ok(search.crisis(saddles, observer)?))?;
-    shown_crisis(a.py(), found.map_err(|reason: NoCrisis| errors::no_crisis(a.py(), &reason))?)
+    let none = |reason: NoCrisis| errors::of_kind(a.py(), format!("there is no crisis: {reason}"), &reason);
+    shown_crisis(a.py(), found.map_err(none)?)
 }
 
 /// How long orbits live beyond a crisis.

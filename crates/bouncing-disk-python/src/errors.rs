@@ -1,44 +1,25 @@
 //! From the errors of the library to the exceptions of `bouncing_disk._errors`, with all their numbers.
 
+use std::fmt::Debug;
+
 use bouncing_disk::Error;
-use bouncing_disk::core::{Error as CoreError, chaos::NoCrisis};
+use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
 use bouncing_disk::motor::MotorFileError;
+use pyo3::call::PyCallArgs;
 use pyo3::exceptions::{PyOSError, PyRuntimeError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyDict, PyTuple};
+use pyo3::types::{IntoPyDict, PyDict};
 
-/// The numbers of an error, by their names.
-enum Detail {
-    Number(f64),
-    Count(u64),
-    Text(String),
-}
-
-impl Detail {
-    /// What `Debug` has written.
-    fn read(text: &str) -> Self {
-        let number = || text.parse().map(Self::Number).ok();
-        text.parse()
-            .map(Self::Count)
-            .ok()
-            .or_else(number)
-            .unwrap_or_else(|| Self::Text(text.trim_matches('"').to_owned()))
-    }
-}
-
-type Details = Vec<(String, Detail)>;
-
-/// A class of `bouncing_disk._errors` and what it is called with after its message.
-enum Raised {
-    OutOfRange(String, f64, String),
-    TooLarge(&'static str, u64, u64),
-    /// Arguments that do not fit together.
-    Invalid(String, Details),
-    /// The computation itself.
-    Computation(String, Details),
-    FitRefused,
+/// The exception of a class of the module of errors.
+fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> PyErr {
+    static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
+    let import = || Ok::<_, PyErr>(py.import("bouncing_disk._errors")?.unbind());
+    let made = MODULE
+        .get_or_try_init(py, import)
+        .and_then(|module| module.bind(py).getattr(class)?.call1(arguments));
+    made.map_or_else(|failure| failure, PyErr::from_value)
 }
 
 /// The errors that arguments are the reason of which do not fit together.
@@ -58,7 +39,7 @@ const INVALID: [&str; 11] = [
 
 /// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as
 /// they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
-fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
+fn kind_and_details<'py>(py: Python<'py>, error: &dyn Debug) -> PyResult<(String, Bound<'py, PyDict>)> {
     let text = format!("{error:?}");
     let (name, fields) = text.split_once(" { ").unwrap_or((&text, ""));
     let mut kind = String::new();
@@ -68,7 +49,7 @@ fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
         }
         kind.extend(letter.to_lowercase());
     }
-    let (mut details, mut start, mut depth, mut is_quoted) = (Vec::new(), 0, 0, false);
+    let (details, mut start, mut depth, mut is_quoted) = (PyDict::new(py), 0, 0, false);
     let fields = fields.strip_suffix(" }").unwrap_or(fields);
     for (place, letter) in fields.char_indices().chain([(fields.len(), ',')]) {
         match letter {
@@ -77,80 +58,32 @@ fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
             ')' | '}' | ']' => depth -= 1,
             ',' if depth == 0 && !is_quoted => {
                 if let Some((name, value)) = fields[start..place].trim().split_once(": ") {
-                    details.push((name.to_owned(), Detail::read(value)));
+                    if let Ok(count) = value.parse::<u64>() {
+                        details.set_item(name, count)?;
+                    } else if let Ok(number) = value.parse::<f64>() {
+                        details.set_item(name, number)?;
+                    } else {
+                        details.set_item(name, value.trim_matches('"'))?;
+                    }
                 }
                 start = place + 1;
             }
             _ => {}
         }
     }
-    (kind, details)
+    Ok((kind, details))
 }
 
-fn owned(details: impl IntoIterator<Item = (&'static str, Detail)>) -> Details {
-    details.into_iter().map(|(name, detail)| (name.to_owned(), detail)).collect()
-}
-
-fn of_model(error: Error) -> Raised {
-    match error {
-        Error::OutOfRange { field, value, legal }
-        | Error::Core(CoreError::OutOfRange { field, value, legal }) => {
-            Raised::OutOfRange(field.to_owned(), value, legal.to_owned())
-        }
-        Error::Core(CoreError::TooLarge { what, count, limit }) => Raised::TooLarge(what, count, limit),
-        error => {
-            let (kind, details) = match &error {
-                Error::Core(error) => kind_and_details(error),
-                error => kind_and_details(error),
-            };
+/// The exception of an error by its kind.
+pub(crate) fn of_kind(py: Python<'_>, message: String, error: &dyn Debug) -> PyErr {
+    match kind_and_details(py, error) {
+        Ok((kind, details)) => {
             let is_invalid = INVALID.contains(&kind.as_str());
-            if is_invalid { Raised::Invalid(kind, details) } else { Raised::Computation(kind, details) }
+            let class = if is_invalid { "InvalidError" } else { "ComputationError" };
+            raise(py, class, (message, kind, details))
         }
+        Err(failure) => failure,
     }
-}
-
-/// A class of the module of errors.
-fn class<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-    static MODULE: PyOnceLock<Py<PyModule>> = PyOnceLock::new();
-    MODULE
-        .get_or_try_init(py, || Ok::<_, PyErr>(py.import("bouncing_disk._errors")?.unbind()))?
-        .bind(py)
-        .getattr(name)
-}
-
-fn dictionary<'py>(py: Python<'py>, details: Details) -> PyResult<Bound<'py, PyDict>> {
-    let dictionary = PyDict::new(py);
-    for (name, detail) in details {
-        match detail {
-            Detail::Number(number) => dictionary.set_item(name, number)?,
-            Detail::Count(count) => dictionary.set_item(name, count)?,
-            Detail::Text(text) => dictionary.set_item(name, text)?,
-        }
-    }
-    Ok(dictionary)
-}
-
-fn exception(py: Python<'_>, message: String, raised: Raised) -> PyResult<PyErr> {
-    let (name, arguments) = match raised {
-        Raised::OutOfRange(field, value, range) => {
-            ("OutOfRangeError", (message, field, value, range).into_pyobject(py)?)
-        }
-        Raised::TooLarge(what, count, limit) => {
-            ("TooLargeError", (message, what, count, limit).into_pyobject(py)?)
-        }
-        Raised::Invalid(kind, details) => {
-            ("InvalidError", (message, kind, dictionary(py, details)?).into_pyobject(py)?)
-        }
-        Raised::Computation(kind, details) => {
-            ("ComputationError", (message, kind, dictionary(py, details)?).into_pyobject(py)?)
-        }
-        Raised::FitRefused => ("FitRefusedError", PyTuple::new(py, [message])?),
-    };
-    Ok(PyErr::from_value(class(py, name)?.call1(arguments)?))
-}
-
-fn raise(py: Python<'_>, message: String, raised: Raised) -> PyErr {
-    exception(py, message, raised).unwrap_or_else(|error| error)
 }
 
 /// The exception of an error that no argument of a call can be the reason of.
@@ -158,8 +91,16 @@ pub(crate) fn of(py: Python<'_>, error: impl Into<FitError>) -> PyErr {
     let error = error.into();
     let message = error.to_string();
     match error {
-        FitError::Model(error) => raise(py, message, of_model(error)),
-        _ => raise(py, message, Raised::FitRefused),
+        FitError::Model(
+            Error::OutOfRange { field, value, legal }
+            | Error::Core(CoreError::OutOfRange { field, value, legal }),
+        ) => out_of_range(py, field, value, legal),
+        FitError::Model(Error::Core(CoreError::TooLarge { what, count, limit })) => {
+            raise(py, "TooLargeError", (message, what, count, limit))
+        }
+        FitError::Model(Error::Core(error)) => of_kind(py, message, &error),
+        FitError::Model(error) => of_kind(py, message, &error),
+        _ => raise(py, "FitRefusedError", (message,)),
     }
 }
 
@@ -227,25 +168,33 @@ pub(crate) fn of_call(py: Python<'_>, error: impl Into<FitError>, call: &Bound<'
     };
     let Some(name) = argument(field, call) else {
         let message = format!("{error}; it follows from several arguments");
-        let given = call.iter().filter(|(_, value)| !value.is_none()).map(|(name, _)| name.to_string());
-        let arguments = given.filter(|name| name != "self").collect::<Vec<_>>().join(", ");
-        let details = [
-            ("quantity", Detail::Text(field.to_owned())),
-            ("value", Detail::Number(value)),
-            ("range", Detail::Text(legal.to_owned())),
-            ("arguments", Detail::Text(arguments)),
-        ];
-        return raise(py, message, Raised::Invalid("out-of-range-together".to_owned(), owned(details)));
+        return together(message, field, value, legal, call).unwrap_or_else(|failure| failure);
     };
     // The caller's number where the library has it in other units, and its range in those of the caller.
     let given = call.get_item(&name).ok().flatten().and_then(|given| given.extract::<f64>().ok());
     match given.filter(|given| given.total_cmp(&value).is_ne()) {
         Some(given) => {
             let legal = in_unit(legal, given / value, unit(&name)).unwrap_or(legal.to_owned());
-            named(py, &name, given, &legal)
+            out_of_range(py, &name, given, &legal)
         }
-        None => named(py, &name, value, legal),
+        None => out_of_range(py, &name, value, legal),
     }
+}
+
+/// The exception of a quantity that follows from several arguments.
+fn together(
+    message: String,
+    quantity: &str,
+    value: f64,
+    legal: &str,
+    call: &Bound<'_, PyDict>,
+) -> PyResult<PyErr> {
+    let given = call.iter().filter(|(_, value)| !value.is_none()).map(|(name, _)| name.to_string());
+    let arguments = given.filter(|name| name != "self").collect::<Vec<_>>().join(", ");
+    let details = [("quantity", quantity), ("range", legal), ("arguments", arguments.as_str())]
+        .into_py_dict(call.py())?;
+    details.set_item("value", value)?;
+    Ok(raise(call.py(), "InvalidError", (message, "out-of-range-together", details)))
 }
 
 /// The unit of an argument that the library has in another one.
@@ -275,25 +224,28 @@ fn in_unit(interval: &str, one: f64, unit: &str) -> Option<String> {
     Some(format!("{opens}{}, {}{closes}{unit}", end(&low[1..])?, end(high)?))
 }
 
-/// The exception of an argument outside its range.
-pub(crate) fn named(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
-    // The words of the library for a value and its range.
-    let message = Error::OutOfRange { field: "", value, legal: "" }.to_string();
-    let message = format!("{field}{message}{legal}");
-    raise(py, message, Raised::OutOfRange(field.to_owned(), value, legal.to_owned()))
+/// The exception of a number outside its range, in the words of the library.
+pub(crate) fn out_of_range(py: Python<'_>, field: &str, value: f64, legal: &str) -> PyErr {
+    let words = Error::OutOfRange { field: "", value, legal: "" }.to_string();
+    raise(py, "OutOfRangeError", (format!("{field}{words}{legal}"), field, value, legal))
+}
+
+/// The exception of a text that cannot be read, with line and column where they are known.
+pub(crate) fn of_text(py: Python<'_>, message: String, place: Option<(usize, usize)>) -> PyErr {
+    let place = place.map_or(vec![], |(line, column)| vec![("line", line), ("column", column)]);
+    match place.into_py_dict(py) {
+        Ok(place) => raise(py, "InvalidError", (message, "text", place)),
+        Err(failure) => failure,
+    }
 }
 
 /// The exception of a data sheet that cannot be read.
 pub(crate) fn of_motor_file(py: Python<'_>, error: &MotorFileError) -> PyErr {
-    let number = |place: &usize| Detail::Count(*place as u64);
-    let details = match error {
-        MotorFileError::Illegal(illegal) => return of(py, *illegal),
-        MotorFileError::Text { line, column, .. } => {
-            vec![("line", number(line)), ("column", number(column))]
-        }
-        _ => Vec::new(),
-    };
-    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), owned(details)))
+    match error {
+        MotorFileError::Illegal(illegal) => of(py, *illegal),
+        MotorFileError::Text { line, column, .. } => of_text(py, error.to_string(), Some((*line, *column))),
+        _ => of_text(py, error.to_string(), None),
+    }
 }
 
 /// The exception of measured speeds that cannot be read.
@@ -301,38 +253,15 @@ pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr 
     match error {
         MeasuredSpeedsError::Unreadable { source, .. } => PyOSError::new_err(format!("{error}: {source}")),
         MeasuredSpeedsError::Model(error) => of(py, *error),
-        _ => invalid_text(py, error),
+        _ => of_text(py, error.to_string(), None),
     }
-}
-
-/// The exception of a text that means nothing, by what is said of it.
-pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyErr {
-    raise(py, error.to_string(), Raised::Invalid("text".to_owned(), Vec::new()))
-}
-
-/// The exception of a JSON text that cannot be read.
-pub(crate) fn unreadable(py: Python<'_>, error: &serde_json::Error) -> PyErr {
-    let details = [("line", error.line()), ("column", error.column())];
-    let details = owned(details.map(|(name, place)| (name, Detail::Count(place as u64))));
-    raise(py, format!("the text cannot be read: {error}"), Raised::Invalid("text".to_owned(), details))
-}
-
-/// A number outside its range, which the types of Rust would not have let through.
-pub(crate) fn out_of_range(py: Python<'_>, field: &'static str, value: f64, range: &'static str) -> PyErr {
-    of(py, Error::OutOfRange { field, value, legal: range })
 }
 
 /// A motion without events that was given no duration, and has no samples.
 pub(crate) fn no_events(py: Python<'_>) -> PyErr {
     let message = "the trajectory has no events, because the disk stays on its platform for ever: it ends where it \
                    begins, and there is nothing to sample; give simulate() a duration";
-    raise(py, message.to_owned(), Raised::Computation("no-events".to_owned(), Vec::new()))
-}
-
-/// Why there is no crisis.
-pub(crate) fn no_crisis(py: Python<'_>, reason: &NoCrisis) -> PyErr {
-    let (kind, details) = kind_and_details(reason);
-    raise(py, format!("there is no crisis: {reason}"), Raised::Computation(kind, details))
+    raise(py, "ComputationError", (message, "no-events", PyDict::new(py)))
 }
 
 /// A defect of the library: it has panicked, which nothing that is passed to it may bring about.

@@ -116,7 +116,8 @@ type Run<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 pub(crate) fn read_speeds(a: Arguments<'_>) -> PyResult<Vec<Run<'_>>> {
     fn unit<T: FromStr<Err = UnknownUnit>>(a: &Arguments<'_>, name: &str) -> PyResult<Option<T>> {
         let text: Option<String> = a.of(name)?;
-        text.map(|text| text.parse()).transpose().map_err(|error| errors::invalid_text(a.py(), &error))
+        let unknown = |error: UnknownUnit| errors::of_text(a.py(), error.to_string(), None);
+        text.map(|text| text.parse()).transpose().map_err(unknown)
     }
     let (path, py): (std::path::PathBuf, _) = (a.of("path")?, a.py());
     let columns = CsvColumns {

@@ -52,8 +52,7 @@ mod _native {
     use crate::threads::{set_threads, threads};
     #[pymodule_export]
     use crate::toss::{
-        Trajectory, events, multi_toss, rotary_response, samples, simulate, single_toss,
-        toss_trajectory,
+        Trajectory, events, multi_toss, rotary_response, samples, simulate, single_toss, toss_trajectory,
     };
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
     #[pymodule_export]

@@ -20,29 +20,6 @@ use pyo3::prelude::*;
 use crate::arguments::Arguments;
 use crate::{errors, threads};
 
-impl Arguments<'_> {
-    /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
-    pub(crate) fn run<T: Send>(
-        &self,
-        work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
-    ) -> PyResult<T> {
-        self.run_fit(work)
-    }
-
-    /// The same for a fit, which may be refused.
-    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
-        &self,
-        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
-    ) -> PyResult<T> {
-        let progress =
-            self.0.get_item(intern!(self.py(), "progress"))?.filter(|callable| !callable.is_none());
-        if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
-            return Err(PyTypeError::new_err("progress must be a callable or None"));
-        }
-        run(self, progress.map(Bound::unbind), work)
-    }
-}
-
 /// How often signals are looked at, and the callable is called.
 const INTERVAL: Duration = Duration::from_millis(40);
 
@@ -79,50 +56,64 @@ impl Watched {
     }
 }
 
-/// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the callable raises.
-pub(crate) fn run<T: Send, E: Into<FitError> + Send>(
-    call: &Arguments<'_>,
-    progress: Option<Py<PyAny>>,
-    work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
-) -> PyResult<T> {
-    let py = call.py();
-    let watched = Watched::default();
-    let callable = progress.as_ref();
-    let outcome = py.detach(|| {
-        let pool = threads::Borrowed::take()?;
-        let (sender, finished) = sync_channel(1);
-        let mut interruption = None;
-        let mut result = None;
-        let (shared, result_of) = (&watched, &mut result);
-        pool.in_place_scope(|scope| {
-            scope.spawn(move |_| {
-                *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
-                // Nobody listens any more only if the one that waits has gone, which it cannot before this is
-                // done.
-                let _ = sender.send(());
-            });
-            while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {
-                if interruption.is_none()
-                    && let Err(error) = shared.look(callable)
-                {
-                    shared.stop.store(true, Ordering::Relaxed);
-                    interruption = Some(error);
-                }
-            }
-        });
-        match (interruption, result) {
-            (Some(error), _) => Err(error),
-            (None, Some(Ok(result))) => Ok(result),
-            (None, Some(Err(_)) | None) => Err(errors::defect()),
-        }
-    })?;
-    let value = outcome.map_err(|error| call.refused(error))?;
-    if let Some(progress) = progress {
-        // Of nothing everything is done.
-        let total = watched.total.load(Ordering::Relaxed);
-        progress.call1(py, (total, total))?;
+impl Arguments<'_> {
+    /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the argument `progress` raises.
+    pub(crate) fn run<T: Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
+    ) -> PyResult<T> {
+        self.run_fit(work)
     }
-    Ok(value)
+
+    /// The same for a fit, which may be refused.
+    pub(crate) fn run_fit<T: Send, E: Into<FitError> + Send>(
+        &self,
+        work: impl FnOnce(&dyn Observer) -> Result<T, E> + Send,
+    ) -> PyResult<T> {
+        let py = self.py();
+        let progress = self.0.get_item(intern!(py, "progress"))?.filter(|callable| !callable.is_none());
+        if progress.as_ref().is_some_and(|callable| !callable.is_callable()) {
+            return Err(PyTypeError::new_err("progress must be a callable or None"));
+        }
+        let progress = progress.map(Bound::unbind);
+        let watched = Watched::default();
+        let callable = progress.as_ref();
+        let outcome = py.detach(|| {
+            let pool = threads::Borrowed::take()?;
+            let (sender, finished) = sync_channel(1);
+            let mut interruption = None;
+            let mut result = None;
+            let (shared, result_of) = (&watched, &mut result);
+            pool.in_place_scope(|scope| {
+                scope.spawn(move |_| {
+                    *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
+                    // Nobody listens any more only if the one that waits has gone, which it cannot before this is
+                    // done.
+                    let _ = sender.send(());
+                });
+                while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {
+                    if interruption.is_none()
+                        && let Err(error) = shared.look(callable)
+                    {
+                        shared.stop.store(true, Ordering::Relaxed);
+                        interruption = Some(error);
+                    }
+                }
+            });
+            match (interruption, result) {
+                (Some(error), _) => Err(error),
+                (None, Some(Ok(result))) => Ok(result),
+                (None, Some(Err(_)) | None) => Err(errors::defect()),
+            }
+        })?;
+        let value = outcome.map_err(|error| self.refused(error))?;
+        if let Some(progress) = progress {
+            // Of nothing everything is done.
+            let total = watched.total.load(Ordering::Relaxed);
+            progress.call1(py, (total, total))?;
+        }
+        Ok(value)
+    }
 }
 
 /// Runs what takes microseconds, where it is.

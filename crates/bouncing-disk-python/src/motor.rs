@@ -10,7 +10,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyMapping, PyString, PyTuple};
 
-use crate::arguments::{Arguments, Made, Pair, row};
+use crate::arguments::{Arguments, Made, Real, row};
 use crate::parameters::Motor;
 use crate::results::{column, made, make, signed};
 
@@ -351,7 +351,7 @@ impl<'py> Sample<'py> {
     fn of(a: &Arguments<'py>) -> PyResult<Self> {
         let mut ranges = Vec::new();
         for item in a.of::<Bound<'_, PyMapping>>("ranges")?.items()? {
-            let (name, Pair(low, high)): (String, Pair) = item.extract()?;
+            let (name, [Real(low), Real(high)]): (String, [Real; 2]) = item.extract()?;
             ranges.push((parameter(&name)?, [low, high]));
         }
         let names = PyTuple::new(a.py(), ranges.iter().map(|(parameter, _)| parameter.name()))?;

@@ -5,9 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
-use bouncing_disk::{
-    DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel,
-};
+use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -149,7 +147,7 @@ impl Map {
     }
 
     /// The orbit of one impact in closed form.
-    #[pyo3(signature = (*, platform_periods=Count::Fits(1)))]
+    #[pyo3(signature = (*, platform_periods=Count(Ok(1))))]
     fn period_one(&self, py: Python<'_>, platform_periods: Count) -> PyResult<Option<(f64, f64)>> {
         let periods = platform_periods.u64(py, "platform_periods")?;
         if periods == 0 {

@@ -101,7 +101,10 @@ pub(crate) fn stored<T: serde::Serialize>(value: &T) -> PyResult<String> {
 
 /// What the library has stored; its checks are those of a value that is made.
 pub(crate) fn read<T: serde::de::DeserializeOwned>(py: Python<'_>, json: &str) -> PyResult<T> {
-    serde_json::from_str(json).map_err(|error| errors::unreadable(py, &error))
+    serde_json::from_str(json).map_err(|error| {
+        let place = Some((error.line(), error.column()));
+        errors::of_text(py, format!("the text cannot be read: {error}"), place)
+    })
 }
 
 /// What a Python object holds of the library: it is compared and stored by that.
