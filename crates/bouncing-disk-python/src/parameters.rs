@@ -34,7 +34,8 @@ impl System {
             ("peak_acceleration", Some(self.0.peak_acceleration())),
             ("rise_time", Some(self.0.rise_time())),
         ];
-        numbers(py, &given, given.map(|(name, number)| (name, Some(number))).into_iter().chain(derived))
+        let all = given.map(|(name, number)| (name, Some(number))).into_iter().chain(derived);
+        numbers(py, given.into_py_dict(py)?.into_any(), all)
     }
 
     /// The system with other values of some arguments.
@@ -81,7 +82,7 @@ impl Motor {
             ("largest_torque", Some(motor.largest_torque())),
             ("static_deflection", motor.static_deflection()),
         ];
-        let all = numbers(py, &given_sheet(&sheet), all)?;
+        let all = numbers(py, py.import("json")?.call_method1("loads", (self.0.to_json(),))?, all)?;
         all.set_item("system", python_system(py, motor.system())?)?;
         Ok(all)
     }
@@ -124,7 +125,7 @@ impl Map {
             ("restitution", Some(restitution)),
             ("normalised_speed_bound", Some(map.impact_speed_bound() / std::f64::consts::PI)),
         ];
-        numbers(py, &[given, ("restitution", restitution)], all)
+        numbers(py, [given, ("restitution", restitution)].into_py_dict(py)?.into_any(), all)
     }
 
     #[pyo3(signature = (*, impact_phase, axial_impact_velocity))]
@@ -183,14 +184,14 @@ pub(crate) fn pair(state: ImpactState) -> (f64, f64) {
 /// The numbers of an object by their names, with those that were given apart.
 fn numbers<'py>(
     py: Python<'py>,
-    given: &[(&str, f64)],
+    given: Bound<'py, PyAny>,
     all: impl IntoIterator<Item = (&'static str, Option<f64>)>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let numbers = PyDict::new(py);
     for (name, number) in all {
         numbers.set_item(name, number)?;
     }
-    numbers.set_item("_given", given.into_py_dict(py)?)?;
+    numbers.set_item("_given", given)?;
     Ok(numbers)
 }
 
@@ -258,39 +259,13 @@ pub(crate) fn system(a: Arguments<'_>) -> PyResult<System> {
 
 /// The system that the library has made, as Python has it.
 pub(crate) fn python_system<'py>(py: Python<'py>, system: &SystemModel) -> Made<'py> {
-    let given = named(numbers_of(system)).into_py_dict(py)?;
-    py.import("bouncing_disk")?.getattr("System")?.call((), Some(&given))
+    py.import("bouncing_disk")?.getattr("System")?.call_method1("_holding", (System(*system),))
 }
 
-/// The arguments of a system of the paper.
+/// A system of the paper.
 #[pyfunction]
-pub(crate) fn known_system<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
-    let system = if name == "motor" { SystemModel::motor() } else { SystemModel::pizza_toss() };
-    named(numbers_of(&system)).into_py_dict(py)
-}
-
-/// A data sheet as the library has it.
-fn given_sheet(sheet: &MotorParameters) -> Vec<(&'static str, f64)> {
-    let all = [
-        ("drive_frequency", Some(sheet.drive_frequency)),
-        ("amplitude", Some(sheet.amplitude)),
-        ("peak_angular_speed", sheet.peak_angular_speed),
-        ("twist_amplitude", sheet.twist_amplitude),
-        ("phase_lag", Some(sheet.phase_lag)),
-        ("mass", sheet.mass),
-        ("density", sheet.density),
-        ("rotor_radius", sheet.rotor_radius),
-        ("rotor_thickness", sheet.rotor_thickness),
-        ("contact_radius", Some(sheet.contact_radius)),
-        ("gyration_radius", sheet.gyration_radius),
-        ("preload_force", sheet.preload_force),
-        ("preload_acceleration", sheet.preload_acceleration),
-        ("spring_constant", sheet.spring_constant),
-        ("friction", Some(sheet.friction)),
-        ("restitution", Some(sheet.restitution)),
-        ("load_torque", Some(sheet.load_torque)),
-    ];
-    all.into_iter().filter_map(|(name, number)| Some((name, number?))).collect()
+pub(crate) fn known_system(name: &str) -> System {
+    System(if name == "motor" { SystemModel::motor() } else { SystemModel::pizza_toss() })
 }
 
 /// A motor by its arguments.
@@ -318,17 +293,16 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
 
-/// The arguments of a motor of the paper, or of the text of a data sheet.
+/// A motor of the paper, or of the text of a data sheet.
 #[pyfunction]
-pub(crate) fn known_motor<'py>(py: Python<'py>, kind: &str, text: &str) -> PyResult<Bound<'py, PyDict>> {
+pub(crate) fn known_motor(py: Python<'_>, kind: &str, text: &str) -> PyResult<Motor> {
     let read = match kind {
         "toml" => MotorModel::from_toml(text),
         "json" => MotorModel::from_json(text),
         "184" => Ok(MotorModel::paper_184_khz()),
         _ => Ok(MotorModel::paper_70_khz()),
     };
-    let motor = read.map_err(|error| errors::of_motor_file(py, &error))?;
-    given_sheet(&motor.parameters()).into_py_dict(py)
+    read.map(Motor).map_err(|error| errors::of_motor_file(py, &error))
 }
 
 /// The fields of a data sheet that exclude this one.
@@ -367,9 +341,7 @@ pub(crate) fn impact_map(
 
 /// The map that the library has made, as Python has it.
 pub(crate) fn python_map<'py>(py: Python<'py>, map: &ImpactMap) -> Made<'py> {
-    let given =
-        [("peak_acceleration", map.vibration().peak_acceleration()), ("restitution", map.restitution())];
-    py.import("bouncing_disk")?.getattr("ImpactMap")?.call((), Some(&given.into_py_dict(py)?))
+    py.import("bouncing_disk")?.getattr("ImpactMap")?.call_method1("_holding", (Map(*map, None),))
 }
 
 /// A cut by its arguments.
@@ -380,10 +352,10 @@ pub(crate) fn chatter_cut(a: Arguments<'_>) -> PyResult<ChatterCut> {
     cut.map(ChatterCut).map_err(|error| a.refused(error))
 }
 
-/// The arguments of the rule of the paper's simulations.
+/// The rule of the paper's simulations.
 #[pyfunction]
-pub(crate) fn paper_cut() -> (f64, f64, u32) {
-    (PAPER_CUT.smallest_speed(), PAPER_CUT.short_flight(), PAPER_CUT.short_flights())
+pub(crate) fn paper_cut() -> ChatterCut {
+    ChatterCut(PAPER_CUT)
 }
 
 /// The objects of this module among the arguments of a call.

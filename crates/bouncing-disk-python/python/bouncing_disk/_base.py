@@ -83,12 +83,15 @@ class Parameters:
         return _of, (type(self), self._given)
 
     @classmethod
-    def _of(cls: type[Own], arguments: dict[str, Any]) -> Own:
-        return _of(cls, arguments)
+    def _holding(cls: type[Own], held: Any) -> Own:
+        """The object that holds this one of the library."""
+        made = cls.__new__(cls)
+        made.__dict__["_native"] = held
+        return made
 
     def replace(self: Own, **changes: Any) -> Own:
         """The same with other arguments of the constructor."""
-        return self._of({**self._given, **changes})
+        return _of(type(self), {**self._given, **changes})
 
     def to_dict(self) -> dict[str, Any]:
         """The arguments of the constructor that were given."""
@@ -97,7 +100,7 @@ class Parameters:
     @classmethod
     def from_dict(cls: type[Own], parameters: dict[str, Any]) -> Own:
         """The object of such a dictionary."""
-        return cls._of(parameters)
+        return _of(cls, parameters)
 
     def to_json(self) -> str:
         """The dictionary as JSON, which the Rust library reads as well."""

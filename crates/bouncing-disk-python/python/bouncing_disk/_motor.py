@@ -181,7 +181,7 @@ class Motor(Parameters):
             # Who names both alternatives gets the error of both.
             for other in native.excluded_by(name) if value is not None else ():
                 kept.pop(other, None)
-        return Motor._of({**kept, **changes})
+        return Motor.from_dict({**kept, **changes})
 
     def report(self, *, progress: Progress = None) -> MotorReport:
         """The consequences of the data sheet, before any run: forcing, regime, largest torque."""
@@ -193,12 +193,12 @@ class Motor(Parameters):
 
         The paper does not print its mass: it is that of a solid steel ball of the printed 20 mm.
         """
-        return Motor._of(native.known_motor("70", ""))
+        return Motor._holding(native.known_motor("70", ""))
 
     @staticmethod
     def paper_184_khz() -> Motor:
         """The same motor as the paper drives it at 184 kHz."""
-        return Motor._of(native.known_motor("184", ""))
+        return Motor._holding(native.known_motor("184", ""))
 
     @staticmethod
     def from_toml(toml: str) -> Motor:
@@ -212,7 +212,7 @@ class Motor(Parameters):
         >>> bd.Motor.from_toml(text) == bd.Motor.paper_70_khz()
         True
         """
-        return Motor._of(native.known_motor("toml", readable(toml)))
+        return Motor._holding(native.known_motor("toml", readable(toml)))
 
     def to_json(self) -> str:
         """The data sheet as the JSON that the Rust library and its command line read."""
@@ -221,7 +221,7 @@ class Motor(Parameters):
     @classmethod
     def from_json(cls, json: str) -> Motor:
         """The motor of such a text; errors name the line."""
-        return Motor._of(native.known_motor("json", readable(json)))
+        return Motor._holding(native.known_motor("json", readable(json)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

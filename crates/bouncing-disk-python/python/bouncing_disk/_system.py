@@ -90,18 +90,16 @@ class System(Parameters):
     @staticmethod
     def pizza_toss() -> System:
         """The pizza toss of Table I of the paper."""
-        return System._of(native.known_system("pizza_toss"))
+        return System._holding(native.known_system("pizza_toss"))
 
     @staticmethod
     def motor() -> System:
         """The motor of Table III of the paper."""
-        return System._of(native.known_system("motor"))
+        return System._holding(native.known_system("motor"))
 
     def replace(self, **changes: Any) -> System:
         """The same system with other arguments."""
-        made = System.__new__(System)
-        made.__dict__["_native"] = self._native.replaced(changes)
-        return made
+        return self._holding(self._native.replaced(changes))
 
     def to_dict(self) -> dict[str, Any]:
         """The parameters as the Rust library stores them: ``{"platform": {...}, "disk": {...}}``."""
@@ -113,7 +111,7 @@ class System(Parameters):
         """The system of such a dictionary."""
         if not isinstance(parameters, dict) or set(parameters) != {"platform", "disk"}:
             raise TypeError("a system is a dictionary of two: its platform and its disk")
-        return System._of({**parameters["platform"], **parameters["disk"]})
+        return System(**parameters["platform"], **parameters["disk"])
 
 
 class ChatterCut(Parameters):
@@ -141,5 +139,4 @@ class ChatterCut(Parameters):
     @staticmethod
     def paper() -> ChatterCut:
         """The rule of the paper's simulations."""
-        speed, flight, flights = native.paper_cut()
-        return ChatterCut(smallest_speed=speed, short_flight=flight, short_flights=flights)
+        return ChatterCut._holding(native.paper_cut())
