@@ -9,14 +9,14 @@ import sys
 import textwrap
 import threading
 import time
-from typing import Any
+from collections.abc import Callable
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import bouncing_disk as bd
-
-STARTS: dict[str, Any] = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
+from good_calls import STARTS
 
 # One of each kind of work, each of which takes minutes: many orbits, one orbit, a grid, a search,
 # motors.
@@ -58,11 +58,9 @@ INTERRUPTED = """
 import os, signal, sys, threading, time
 import numpy as np
 import bouncing_disk as bd
+sys.path.insert(0, TESTS)
+from good_calls import MOTOR, STARTS
 
-STARTS = {"restitution": 0.5, "impact_phase": 1.2, "normalised_speed": 1.3}
-MOTOR = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,
-                 contact_radius=1.25e-3,
-                 gyration_radius=6.3e-3, preload_acceleration=9.8, friction=0.1, restitution=0.5)
 SADDLE = bd.periodic_orbits(bd.ImpactMap(axial_forcing=0.56, restitution=0.5), max_impacts=1,
                             max_platform_periods=1)[-1]
 BASINS = bd.basins(bd.ImpactMap(axial_forcing=0.2, restitution=0.5), phases=10_000, speeds=2000, max_impacts=1)
@@ -83,6 +81,15 @@ else:
 """
 
 
+def at_once(call: Callable[[], object], count: int) -> None:
+    """The same call in so many threads."""
+    threads = [threading.Thread(target=call) for _ in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+
+
 def run(program: str, timeout: float = 60.0) -> str:
     """What a Python program prints."""
     done = subprocess.run(
@@ -99,10 +106,11 @@ def run(program: str, timeout: float = 60.0) -> str:
 @pytest.mark.skipif(sys.platform == "win32", reason="a console's Ctrl-C cannot be sent to one process")
 @pytest.mark.parametrize("kind", ENDLESS)
 def test_ctrl_c_ends_a_call_soon(kind: str) -> None:
+    program = INTERRUPTED.replace("TESTS", repr(str(Path(__file__).parent)))
     # Best of three: the machine may be busy.
     times = []
     for _ in range(3):
-        times.append(float(run(INTERRUPTED.replace("CALL", ENDLESS[kind]))))
+        times.append(float(run(program.replace("CALL", ENDLESS[kind]))))
         if times[-1] < 0.2:
             break
     assert min(times) < 0.2, times
@@ -190,11 +198,7 @@ def test_two_threads_compute_at_once() -> None:
             axial_forcing=np.full(64, 0.56), transient=200_000, recorded=1, progress=progress, **STARTS
         )
 
-    calls = [threading.Thread(target=call) for _ in range(2)]
-    for one in calls:
-        one.start()
-    for one in calls:
-        one.join()
+    at_once(call, 2)
     assert met == [True, True]
 
 
@@ -202,14 +206,7 @@ def test_many_threads_get_the_same_bits() -> None:
     forcings = np.linspace(0.3, 0.7, 50)
     alone = bd.orbit_diagram(axial_forcing=forcings, **STARTS)
     results: list[bd.OrbitDiagram] = []
-    calls = [
-        threading.Thread(target=lambda: results.append(bd.orbit_diagram(axial_forcing=forcings, **STARTS)))
-        for _ in range(8)
-    ]
-    for one in calls:
-        one.start()
-    for one in calls:
-        one.join()
+    at_once(lambda: results.append(bd.orbit_diagram(axial_forcing=forcings, **STARTS)), 8)
     assert results == [alone] * 8
 
 

@@ -30,8 +30,27 @@ __all__ = [
 ]
 
 
+class _Impacts:
+    """Rows of impacts, one after the other."""
+
+    offsets: IntArray
+    impact_phase: FloatArray
+    axial_impact_velocity: FloatArray
+
+    @property
+    def normalised_speed(self) -> FloatArray:
+        """Normalised impact speed |w_A Gamma/(omega A)| of each impact, shape (m,)."""
+        speed: FloatArray = -self.axial_impact_velocity / np.pi
+        return speed
+
+    def of(self, row: int) -> tuple[FloatArray, FloatArray]:
+        """Phases (rad) and normalised speeds of the impacts of one orbit, or one piece of a manifold, as views."""
+        impacts = slice(self.offsets[:-1][row], self.offsets[1:][row])
+        return self.impact_phase[impacts], self.normalised_speed[impacts]
+
+
 @dataclass(frozen=True, eq=False, repr=False)
-class OrbitDiagram(Result):
+class OrbitDiagram(_Impacts, Result):
     """The impacts of many orbits, one after the other.
 
     Those of orbit ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``.
@@ -60,20 +79,9 @@ class OrbitDiagram(Result):
     impact_phase: FloatArray
     axial_impact_velocity: FloatArray
 
-    @property
-    def normalised_speed(self) -> FloatArray:
-        """Normalised impact speed |w_A Gamma/(omega A)| of each impact, shape (m,)."""
-        speed: FloatArray = -self.axial_impact_velocity / np.pi
-        return speed
-
     def column(self) -> IntArray:
         """The orbit of each impact, shape (m,): ``axial_forcing[diagram.column()]`` is the abscissa of a plot."""
         return np.repeat(np.arange(len(self.axial_forcing), dtype=np.int64), np.diff(self.offsets))
-
-    def of(self, orbit: int) -> tuple[FloatArray, FloatArray]:
-        """Phases (rad) and normalised speeds of the impacts of one orbit, as views."""
-        impacts = slice(self.offsets[:-1][orbit], self.offsets[1:][orbit])
-        return self.impact_phase[impacts], self.normalised_speed[impacts]
 
 
 def orbit_diagram(
@@ -310,7 +318,7 @@ def verdicts(
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Manifold(Result):
+class Manifold(_Impacts, Result):
     """A manifold of a saddle: pieces without a jump, p in all, of m impacts, on b branches.
 
     The impacts of piece ``k`` are the items from ``offsets[k]`` to ``offsets[k + 1]``. Each impact of the saddle
@@ -350,17 +358,6 @@ class Manifold(Result):
     branch_arclength: FloatArray
     branch_generations: IntArray
     branch_end: ByteArray
-
-    @property
-    def normalised_speed(self) -> FloatArray:
-        """Normalised speed of each impact, shape (m,)."""
-        speed: FloatArray = -self.axial_impact_velocity / np.pi
-        return speed
-
-    def of(self, piece: int) -> tuple[FloatArray, FloatArray]:
-        """Phases (rad) and normalised speeds of the impacts of one piece, as views."""
-        impacts = slice(self.offsets[:-1][piece], self.offsets[1:][piece])
-        return self.impact_phase[impacts], self.normalised_speed[impacts]
 
     def branch_end_names(self) -> list[str]:
         """Why each branch is not longer, in words, those of :attr:`BRANCH_ENDS`."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 __all__ = [
     "BouncingDiskError",
     "ComputationError",
@@ -18,9 +20,14 @@ class BouncingDiskError(Exception):
     The first argument is the message; all others are attributes.
     """
 
+    def __init__(self, message: str = "", *details: Any) -> None:
+        super().__init__(message, *details)
+        # The attributes that a class declares are its arguments, in their order.
+        self.__dict__.update(zip(type(self).__annotations__, details))
+
     def __str__(self) -> str:
         """The message."""
-        return str(self.args[0]) if self.args else ""
+        return str(self.args[0])
 
 
 class OutOfRangeError(BouncingDiskError, ValueError):
@@ -39,11 +46,9 @@ class OutOfRangeError(BouncingDiskError, ValueError):
     restitution 1.5 [0, 1)
     """
 
-    def __init__(self, message: str, field: str, value: float, range: str) -> None:
-        super().__init__(message, field, value, range)
-        self.field = field
-        self.value = value
-        self.range = range
+    field: str
+    value: float
+    range: str
 
 
 class TooLargeError(BouncingDiskError, ValueError):
@@ -55,11 +60,9 @@ class TooLargeError(BouncingDiskError, ValueError):
         limit: the largest number.
     """
 
-    def __init__(self, message: str, what: str, count: int, limit: int) -> None:
-        super().__init__(message, what, count, limit)
-        self.what = what
-        self.count = count
-        self.limit = limit
+    what: str
+    count: int
+    limit: int
 
 
 class InvalidError(BouncingDiskError, ValueError):
@@ -79,10 +82,8 @@ class InvalidError(BouncingDiskError, ValueError):
     peak_acceleration [0, 1e8] (units of the preload acceleration)
     """
 
-    def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:
-        super().__init__(message, kind, details)
-        self.kind = kind
-        self.details = details
+    kind: str
+    details: dict[str, float | int | str]
 
 
 class FitRefusedError(BouncingDiskError, ValueError):
@@ -97,7 +98,5 @@ class ComputationError(BouncingDiskError, RuntimeError):
         details: the numbers.
     """
 
-    def __init__(self, message: str, kind: str, details: dict[str, float | int | str]) -> None:
-        super().__init__(message, kind, details)
-        self.kind = kind
-        self.details = details
+    kind: str
+    details: dict[str, float | int | str]

@@ -45,10 +45,8 @@ class SweepFolderError(BouncingDiskError, RuntimeError):
             ``"newer-format"``, ``"incomplete"``, ``"not-a-sweep"``, ``"cannot-write"`` or ``"cannot-lock"``.
     """
 
-    def __init__(self, message: str, folder: str, kind: str) -> None:
-        super().__init__(message, folder, kind)
-        self.folder = folder
-        self.kind = kind
+    folder: str
+    kind: str
 
 
 class SweepClusterError(BouncingDiskError, RuntimeError):
@@ -61,10 +59,8 @@ class SweepClusterError(BouncingDiskError, RuntimeError):
             ``"numpy"``.
     """
 
-    def __init__(self, message: str, kind: str, workers: Mapping[str, Mapping[str, str]]) -> None:
-        super().__init__(message, kind, workers)
-        self.kind = kind
-        self.workers = workers
+    kind: str
+    workers: Mapping[str, Mapping[str, str]]
 
 
 class SweepFolderWarning(UserWarning):
@@ -79,9 +75,7 @@ class SweepFunctionError(BouncingDiskError, TypeError):
         function: its name.
     """
 
-    def __init__(self, message: str, function: str) -> None:
-        super().__init__(message, function)
-        self.function = function
+    function: str
 
 
 class MissingDependencyError(BouncingDiskError, ImportError):
@@ -92,10 +86,8 @@ class MissingDependencyError(BouncingDiskError, ImportError):
         install: the command that installs it.
     """
 
-    def __init__(self, message: str, package: str, install: str) -> None:
-        super().__init__(message, package, install)
-        self.package = package
-        self.install = install
+    package: str
+    install: str
 
     @classmethod
     def of(cls, package: str, purpose: str, extra: str) -> MissingDependencyError:

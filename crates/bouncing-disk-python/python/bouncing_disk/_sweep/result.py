@@ -188,12 +188,8 @@ class SweepFailedError(BouncingDiskError, RuntimeError):
             because more points failed than ``max_failures``.
     """
 
-    def __init__(
-        self, message: str, failures: tuple[FailedPoint, ...], result: SweepResult | None = None
-    ) -> None:
-        super().__init__(message, failures, result)
-        self.failures = failures
-        self.result = result
+    failures: tuple[FailedPoint, ...]
+    result: SweepResult | None
 
     @classmethod
     def of(cls, failures: tuple[FailedPoint, ...], result: SweepResult | None) -> SweepFailedError:
