@@ -68,17 +68,6 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// How many impacts each orbit has before the disk comes to rest.
-#[pyfunction]
-pub(crate) fn survival_times(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<i64>>> {
-    let (starts, most, policy) = (Starts::of(&a)?, a.usize("most")?, a.policy()?);
-    let times = a.run(|observer| {
-        bouncing_disk::core::sweep::survival_times(&starts.orbits(policy)?, most, observer)
-            .map_err(Error::from)
-    })?;
-    Ok(column(a.py(), &times, |time| *time as i64))
-}
-
 /// The largest Lyapunov exponent of each orbit.
 #[pyfunction]
 pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray1<f64>>> {

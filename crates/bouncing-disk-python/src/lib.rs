@@ -29,8 +29,7 @@ mod _native {
     };
     #[pymodule_export]
     use crate::chaos::{
-        Crisis, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram, survival_times,
-        verdicts,
+        Crisis, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram, verdicts,
     };
     #[pymodule_export]
     use crate::estimate::{ensemble, fit_transients, read_speeds};
@@ -41,8 +40,8 @@ mod _native {
     };
     #[pymodule_export]
     use crate::orbits::{
-        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, periodic_orbits,
-        proven_radius, refine, settled_orbit, switched, trapping_radius,
+        Branch, PeriodicOrbit, branch_orbit, continued, doubling_cascade, iterate, periodic_orbits, refine,
+        settled_orbit, switched, trapping_radius,
     };
     #[pymodule_export]
     use crate::parameters::{

@@ -77,13 +77,6 @@ pub(crate) fn settled_orbit(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyAny
     orbit.map(|orbit| shown_orbit(a.py(), orbit)).transpose()
 }
 
-/// A radius within which every orbit is proven to end on this one.
-#[pyfunction]
-pub(crate) fn proven_radius(a: Arguments<'_>) -> PyResult<f64> {
-    let (map, orbit) = (a.map()?, a.held::<PeriodicOrbit>("self")?);
-    orbit.get().0.proven_radius(&map).map_err(|error| a.refused(error))
-}
-
 /// The radius within which a start counts as caught by an orbit.
 #[pyfunction]
 pub(crate) fn trapping_radius(a: Arguments<'_>) -> PyResult<f64> {

@@ -78,32 +78,17 @@ pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
 }
 
-/// How a motion starts, in SI units.
-struct Start {
-    phase: f64,
-    angular_speed: Option<f64>,
-    gap: Option<f64>,
-    relative_velocity: Option<f64>,
-}
-
-impl Start {
-    fn of(a: &Arguments<'_>) -> PyResult<Self> {
-        Ok(Self {
-            phase: a.real("phase")?,
-            angular_speed: a.optional("angular_speed")?,
-            gap: a.optional("gap")?,
-            relative_velocity: a.optional("relative_velocity")?,
-        })
-    }
-
-    fn condition(&self, system: &SystemModel) -> Result<InitialCondition, Error> {
-        let (scales, phase) = (system.scales(), Phase::new(self.phase)?);
-        let angular_speed = match self.angular_speed {
-            Some(speed) => speed / scales.angular_speed,
-            None => system.dimensionless().platform_angular_speed(phase),
-        };
-        let velocity = self.relative_velocity.map(|velocity| velocity / scales.velocity);
-        Ok(match (self.gap, velocity) {
+/// How the motion of a call starts, which is in SI units there.
+fn start(a: &Arguments<'_>, system: &SystemModel) -> PyResult<impl Fn() -> Result<InitialCondition, Error>> {
+    let (phase, angular_speed) = (a.real("phase")?, a.optional("angular_speed")?);
+    let (gap, velocity) = (a.optional("gap")?, a.optional("relative_velocity")?);
+    let (system, scales) = (*system, system.scales());
+    Ok(move || {
+        let phase = Phase::new(phase)?;
+        let own = system.dimensionless().platform_angular_speed(phase);
+        let angular_speed = angular_speed.map_or(own, |speed| speed / scales.angular_speed);
+        let velocity = velocity.map(|velocity| velocity / scales.velocity);
+        Ok(match (gap, velocity) {
             (None, None) => InitialCondition::Contact { phase, angular_speed },
             (None, Some(relative_speed)) => InitialCondition::Launch { phase, relative_speed, angular_speed },
             (Some(gap), velocity) => InitialCondition::Flight {
@@ -113,7 +98,7 @@ impl Start {
                 angular_speed,
             },
         })
-    }
+    })
 }
 
 /// The place in `TrajectorySamples.MODES`.
@@ -240,7 +225,8 @@ pub(crate) fn toss_trajectory(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
     const RANGE: &str = "[1, 1000000]";
-    let (system, start, policy, py) = (a.system()?, Start::of(&a)?, a.policy()?, a.py());
+    let (system, policy, py) = (a.system()?, a.policy()?, a.py());
+    let start = start(&a, &system)?;
     let (most, duration) = (a.count("events", MOST_EVENTS, RANGE)?, a.optional("duration")?);
     if most == 0 {
         return Err(errors::out_of_range(py, "events", 0.0, RANGE));
@@ -251,7 +237,7 @@ pub(crate) fn simulate(a: Arguments<'_>) -> Made<'_> {
         return Err(errors::out_of_range(py, "duration", duration, "(0, inf) (s)"));
     }
     let motion = a.run(|observer| {
-        let mut engine = Engine::new(system, start.condition(&system)?, policy)?;
+        let mut engine = Engine::new(system, start()?, policy)?;
         let (scales, begun) = (system.scales(), engine.time());
         let watch = Watch::begin(observer, 0, most)?;
         let (mut work, mut seen, mut stopped) = (watch.work(), 0, false);

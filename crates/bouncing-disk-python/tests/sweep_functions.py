@@ -32,10 +32,6 @@ def point_fields(a: float, b: float) -> dict[str, Any]:
     return {"sum": a + b, "pair": [a, b], "count": np.int16(3)}
 
 
-def vector(a: float, b: float) -> list[float]:
-    return [a, b, a - b]
-
-
 def nothing_or_ratio(a: Any, b: Any) -> Any:
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(a) / b
@@ -68,14 +64,6 @@ def branches(a: Any, b: Any) -> Any:
 
 def wrong_length(a: Any, b: Any) -> Any:
     return np.zeros(len(a) + 1)
-
-
-def returns_object(a: Any, b: Any) -> Any:
-    return np.array([object() for _ in a])
-
-
-def type_by_value(a: float, b: float) -> Any:
-    return 1 if a < 2.0 else 1.5
 
 
 def counted(a: Any, b: Any, log: str) -> Any:

@@ -23,7 +23,7 @@ def swept(function: Callable[..., Any], **options: Any) -> bd.SweepResult:
 
 @pytest.mark.parametrize("chunk_size", [1, 2, 5, 12])
 def test_integers_become_floats_and_floats_complex(chunk_size: int) -> None:
-    mixed = swept(functions.type_by_value, chunk_size=chunk_size)
+    mixed = swept(lambda a, b: 1 if a < 2.0 else 1.5, chunk_size=chunk_size)
     assert mixed.values.dtype == np.float64
     assert mixed.values[:, 0].tolist() == [1.0, 1.5, 1.5, 1.5]
     mixed = swept(lambda a, b: [1, 0.5, 2j][int(b) // 10 - 1], chunk_size=chunk_size)

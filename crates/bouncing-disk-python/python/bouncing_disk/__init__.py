@@ -23,18 +23,16 @@ from bouncing_disk import (
     _motor,
     _orbits,
     _system,
-    _threads,
     _toss,
 )
 from bouncing_disk._attractors import *
-from bouncing_disk._base import Result
+from bouncing_disk._base import Result, set_threads, threads
 from bouncing_disk._chaos import *
 from bouncing_disk._errors import *
 from bouncing_disk._estimate import *
 from bouncing_disk._motor import *
 from bouncing_disk._orbits import *
 from bouncing_disk._system import *
-from bouncing_disk._threads import *
 from bouncing_disk._toss import *
 
 # Sweeps, and what they raise, are imported when one is asked for: what they need takes longer than all else here.
@@ -52,7 +50,9 @@ __all__ = [
     "SweepFunctionError",
     "SweepResult",
     "read_sweep",
+    "set_threads",
     "sweep",
+    "threads",
 ]
 __all__ += _attractors.__all__
 __all__ += _chaos.__all__
@@ -61,7 +61,6 @@ __all__ += _estimate.__all__
 __all__ += _motor.__all__
 __all__ += _orbits.__all__
 __all__ += _system.__all__
-__all__ += _threads.__all__
 __all__ += _toss.__all__
 
 

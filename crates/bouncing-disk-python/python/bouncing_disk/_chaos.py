@@ -25,7 +25,6 @@ __all__ = [
     "lyapunov_spectra",
     "manifold",
     "orbit_diagram",
-    "survival_times",
     "verdicts",
 ]
 
@@ -116,34 +115,6 @@ def orbit_diagram(
     array([  0,  20,  40,  60,  80, 100])
     """
     return native.orbit_diagram(locals())
-
-
-def survival_times(
-    *,
-    axial_forcing: ArrayLike,
-    restitution: ArrayLike,
-    impact_phase: ArrayLike,
-    normalised_speed: ArrayLike,
-    most: Int,
-    chatter: ChatterCut | None = None,
-    progress: Progress = None,
-) -> IntArray:
-    """How many impacts each orbit has before the disk comes to rest, up to a limit.
-
-    Args:
-        axial_forcing, restitution, impact_phase, normalised_speed: as of :func:`orbit_diagram`, shape (n,).
-        most: impacts after which an orbit is no longer followed.
-        chatter: how a chatter ends; ``None`` sums it.
-
-    Returns:
-        Shape (n,).
-
-    >>> import bouncing_disk as bd
-    >>> bd.survival_times(axial_forcing=[0.59, 0.45], restitution=0.5, impact_phase=1.2,
-    ...     normalised_speed=1.3, most=1000)
-    array([ 218, 1000])
-    """
-    return native.survival_times(locals())
 
 
 def lyapunov_exponents(

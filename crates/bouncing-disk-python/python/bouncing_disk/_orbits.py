@@ -191,21 +191,6 @@ class PeriodicOrbit(Stored):
     is_stable: bool
     stability: str
 
-    def proven_radius(self, impact_map: ImpactMap) -> float:
-        """A radius within which every orbit is proven to end on this one.
-
-        Args:
-            impact_map: the map that it is an orbit of.
-
-        Returns:
-            In radians (a radian counts as much as the peak velocity of the platform).
-
-        Raises:
-            ComputationError: ``"not-attracting"`` unless the orbit attracts; ``"nothing-proven"`` next to a
-                graze.
-        """
-        return native.proven_radius(locals())
-
     def trapping_radius(
         self, impact_map: ImpactMap, *, samples: Int = 64, progress: Progress = None
     ) -> float:

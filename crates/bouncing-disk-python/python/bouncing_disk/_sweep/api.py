@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from bouncing_disk._errors import OutOfRangeError
-from bouncing_disk._sweep.errors import SweepFolderError
+from bouncing_disk._sweep.errors import SweepFolderError, is_installed
 from bouncing_disk._sweep.folder import (
     VERSIONS,
     Damaged,
@@ -36,7 +36,6 @@ from bouncing_disk._sweep.runners import (
     Task,
     check_client,
     distributed_outcomes,
-    has_distributed,
     local_client,
     serial_outcomes,
 )
@@ -135,7 +134,7 @@ def sweep(
 
 def _outcomes(job: Job, tasks: list[Task], client: Any, stack: ExitStack) -> Any:
     """The runner: the caller's choice, or whatever is available."""
-    if client is None and has_distributed():
+    if client is None and is_installed("distributed"):
         client = stack.enter_context(local_client(len(tasks)))
     if client is None or client == "serial":
         return serial_outcomes(job, tasks)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
+from importlib import import_module
+from typing import Any, NamedTuple
 
 from bouncing_disk._errors import BouncingDiskError
 
@@ -15,6 +16,7 @@ __all__ = [
     "SweepFolderWarning",
     "SweepFunctionError",
 ]
+
 
 class FailedPoint(NamedTuple):
     """A point of the grid at which the function raised an exception."""
@@ -90,7 +92,20 @@ class MissingDependencyError(BouncingDiskError, ImportError):
     install: str
 
     @classmethod
-    def of(cls, package: str, purpose: str, extra: str) -> MissingDependencyError:
-        """The error that says what needs this package, and which extra of this one brings it."""
-        install = f"pip install 'bouncing-disk[{extra}]'"
-        return cls(f"{purpose} needs {package}, which is not installed: {install}", package, install)
+    def checked(cls, module: str, purpose: str, extra: str) -> Any:
+        """A module of an optional package; the error says what needs it, and which extra of this package brings it."""
+        try:
+            return import_module(module)
+        except ImportError as error:
+            package, install = module.partition(".")[0], f"pip install 'bouncing-disk[{extra}]'"
+            message = f"{purpose} needs {package}, which is not installed: {install}"
+            raise cls(message, package, install) from error
+
+
+def is_installed(package: str) -> bool:
+    """Whether an optional package is there."""
+    try:
+        import_module(package)
+    except ImportError:
+        return False
+    return True

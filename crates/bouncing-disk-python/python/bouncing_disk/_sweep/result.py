@@ -6,7 +6,6 @@ import json
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +13,7 @@ import numpy.typing as npt
 
 from bouncing_disk._base import Result
 from bouncing_disk._errors import BouncingDiskError, InvalidError
-from bouncing_disk._sweep.errors import FailedPoint, MissingDependencyError
+from bouncing_disk._sweep.errors import FailedPoint, MissingDependencyError, is_installed
 from bouncing_disk._sweep.grid import Array
 
 if TYPE_CHECKING:
@@ -29,9 +28,9 @@ _ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": 
 def write_netcdf(dataset: Any, path: str | os.PathLike[str]) -> None:
     """A dataset as a file, written under a temporary name and renamed."""
     plain = _plain(dataset)
-    engine = next((engine for engine, needs in _ENGINES.items() if all(map(_is_installed, needs))), None)
+    engine = next((engine for engine, needs in _ENGINES.items() if all(map(is_installed, needs))), None)
     if engine is None:
-        raise MissingDependencyError.of("netCDF4", "a NetCDF file", "netcdf")
+        MissingDependencyError.checked("netCDF4", "a NetCDF file", "netcdf")
     beside = os.fspath(path) + ".unfinished"
     try:
         plain.to_netcdf(beside, engine=engine)
@@ -70,14 +69,6 @@ def _parts(name: str, array: Array) -> dict[str, Array]:
         message = f"{name!r} is of {array.dtype}, which NetCDF does not have"
         raise InvalidError(message, "netcdf-type", {"name": name, "dtype": str(array.dtype)})
     return {name: array}
-
-
-def _is_installed(package: str) -> bool:
-    try:
-        import_module(package)
-    except ImportError:
-        return False
-    return True
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -129,10 +120,7 @@ class SweepResult(Result):
         Returns:
             One variable, or one for each field. Where the function failed, it equals `values`.
         """
-        try:
-            xarray_module: Any = import_module("xarray")
-        except ImportError as error:
-            raise MissingDependencyError.of("xarray", "a Dataset", "netcdf") from error
+        xarray_module = MissingDependencyError.checked("xarray", "a Dataset", "netcdf")
         fields = self.values.dtype.names
         if fields is None:
             own = self.function.rpartition(".")[2]

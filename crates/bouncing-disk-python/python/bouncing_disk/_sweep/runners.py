@@ -71,15 +71,6 @@ def serial_outcomes(job: Job, tasks: Sequence[Task]) -> Iterator[tuple[int, Outc
         yield chunk, job.compute(points)
 
 
-def has_distributed() -> bool:
-    """Whether Dask's cluster is installed."""
-    try:
-        import_module("distributed")
-    except ImportError:
-        return False
-    return True
-
-
 @contextmanager
 def local_client(most: int) -> Iterator[Any]:
     """A client of local processes, one for each processor, but no more than this; they end with it."""

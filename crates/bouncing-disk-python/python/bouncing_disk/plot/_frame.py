@@ -5,7 +5,6 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -75,10 +74,7 @@ def style() -> Iterator[None]:
 
 def pyplot() -> Any:
     """Matplotlib's pyplot."""
-    try:
-        return import_module("matplotlib.pyplot")
-    except ImportError as error:
-        raise bd.MissingDependencyError.of("matplotlib", "a figure", "plot") from error
+    return bd.MissingDependencyError.checked("matplotlib.pyplot", "a figure", "plot")
 
 
 def drawn_on(ax: Axes | None, height: float = 2.4) -> tuple[Figure, Axes]:

@@ -88,8 +88,6 @@ def toss(
     periods = (trajectory.end_time - began) / trajectory.system.period
     samples = enough_samples(trajectory) if samples is None else samples
     curve, events = trajectory.samples(count=samples), trajectory.events()
-    if len(curve.time) == 0:
-        raise bd.InvalidError("a motion without events has no trajectory to draw", "no-events", {})
     names = events.names()
     seconds, second = unit_of(curve.time - began, "s")
     metres, metre = unit_of(np.concatenate([curve.height, curve.platform_height]), "m")
@@ -170,8 +168,6 @@ def toss_animation(
     curve = trajectory.samples(count=whole_number("frames", frames, 2))
     # The curves do not get coarser with the film.
     graphs = trajectory.samples(count=enough_samples(trajectory))
-    if len(curve.time) == 0:
-        raise bd.InvalidError("a motion without events has nothing to show", "no-events", {})
     across, across_unit = unit_of(trajectory.system.contact_radius, "m")
     metres, metre = unit_of(np.concatenate([graphs.height, graphs.platform_height]), "m")
     seconds, second = unit_of(duration, "s")
