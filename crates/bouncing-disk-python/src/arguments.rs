@@ -188,8 +188,8 @@ fn refuse_truth(object: &Bound<'_, PyAny>) -> PyResult<()> {
     Ok(())
 }
 
-/// A whole number as Python has it, or as nearly as a double has it where it is negative or too large: it is refused as
-/// a value, not as an overflow.
+/// A whole number. One that is negative or too large is a double, so that it is refused as a value and not as an
+/// overflow.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Count(pub(crate) Result<u64, f64>);
 

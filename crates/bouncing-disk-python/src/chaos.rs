@@ -78,36 +78,20 @@ pub(crate) fn lyapunov_exponents(a: Arguments<'_>) -> PyResult<Bound<'_, PyArray
     Ok(column(a.py(), &exponents, |exponent| exponent.unwrap_or(f64::NAN)))
 }
 
-/// The numbers of the exponents of one orbit; NaN where there are none.
-struct Exponents {
-    /// The place in `LyapunovSpectra.OUTCOMES`.
-    outcome: u8,
-    exponents: [f64; 4],
-    impacts: i64,
-    phase: f64,
-}
+/// The exponents of one orbit: the place in `LyapunovSpectra.OUTCOMES`; the largest with its error, the second
+/// and the sum; the impacts; the phase of a graze. NaN where there are none.
+type Exponents = (u8, [f64; 4], i64, f64);
 
-impl Exponents {
-    fn of(outcome: &LyapunovOutcome) -> Self {
-        let none = Self { outcome: 1, exponents: [f64::NAN; 4], impacts: 0, phase: f64::NAN };
-        match outcome {
-            LyapunovOutcome::Exponents(found) => Self {
-                outcome: 0,
-                exponents: [
-                    found.largest,
-                    found.standard_error,
-                    found.second.unwrap_or(f64::NEG_INFINITY),
-                    found.exact_sum.unwrap_or(f64::NEG_INFINITY),
-                ],
-                impacts: signed(found.impacts),
-                ..none
-            },
-            LyapunovOutcome::Rested { impacts } => Self { impacts: signed(*impacts), ..none },
-            LyapunovOutcome::Grazed { impacts, phase } => {
-                Self { outcome: 2, impacts: signed(*impacts), phase: phase.angle(), ..none }
-            }
-            _ => none,
+fn exponents(outcome: &LyapunovOutcome) -> Exponents {
+    let (none, forgotten) = (f64::NAN, f64::NEG_INFINITY);
+    match outcome {
+        LyapunovOutcome::Exponents(found) => {
+            let (second, sum) = (found.second.unwrap_or(forgotten), found.exact_sum.unwrap_or(forgotten));
+            (0, [found.largest, found.standard_error, second, sum], signed(found.impacts), none)
         }
+        LyapunovOutcome::Rested { impacts } => (1, [none; 4], signed(*impacts), none),
+        LyapunovOutcome::Grazed { impacts, phase } => (2, [none; 4], signed(*impacts), phase.angle()),
+        _ => (1, [none; 4], 0, none),
     }
 }
 
@@ -119,7 +103,7 @@ pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
         let outcomes =
             bouncing_disk::core::chaos::lyapunov_spectra(&starts.states()?, transient, impacts, observer)?;
         let mut all = room_for(outcomes.len())?;
-        all.extend(outcomes.iter().map(Exponents::of));
+        all.extend(outcomes.iter().map(exponents));
         Ok(all)
     })?;
     let py = a.py();
@@ -128,20 +112,22 @@ pub(crate) fn lyapunov_spectra(a: Arguments<'_>) -> Made<'_> {
         "LyapunovSpectra",
         array(py, starts.axial_forcing),
         array(py, starts.restitution),
-        column(py, &all, |one| one.outcome),
-        column(py, &all, |one| one.exponents[0]),
-        column(py, &all, |one| one.exponents[1]),
-        column(py, &all, |one| one.exponents[2]),
-        column(py, &all, |one| one.exponents[3]),
-        column(py, &all, |one| one.impacts),
-        column(py, &all, |one| one.phase),
+        column(py, &all, |one| one.0),
+        column(py, &all, |one| one.1[0]),
+        column(py, &all, |one| one.1[1]),
+        column(py, &all, |one| one.1[2]),
+        column(py, &all, |one| one.1[3]),
+        column(py, &all, |one| one.2),
+        column(py, &all, |one| one.3),
     )
 }
 
 /// The numbers of one verdict; those that it does not have are 0 or NaN.
 #[derive(Debug, Clone, Copy)]
 struct Evidence {
+    /// The place in `Verdicts.KINDS`.
     kind: u8,
+    /// The place in `Verdicts.REASONS`.
     reason: u8,
     period: u64,
     platform_periods: u64,
@@ -155,7 +141,7 @@ struct Evidence {
 
 /// No verdict.
 const NOTHING: Evidence = Evidence {
-    kind: UNDECIDED,
+    kind: 4,
     reason: 0,
     period: 0,
     platform_periods: 0,
@@ -166,13 +152,6 @@ const NOTHING: Evidence = Evidence {
     rounding_error: f64::NAN,
     multipliers: [Complex64::new(f64::NAN, f64::NAN); 2],
 };
-
-/// The places of `Verdicts.KINDS`.
-const PERIODIC: u8 = 0;
-const CHAOTIC: u8 = 1;
-const CHATTERING: u8 = 2;
-const AT_REST: u8 = 3;
-const UNDECIDED: u8 = 4;
 
 /// The place of the reason in `Verdicts.REASONS`, with the exponent that it has.
 fn undecided(reason: &UndecidedReason, rests: u64) -> Evidence {
@@ -202,7 +181,7 @@ fn undecided(reason: &UndecidedReason, rests: u64) -> Evidence {
 fn evidence(verdict: &Verdict) -> Evidence {
     match verdict {
         Verdict::Periodic { impacts, platform_periods, multipliers, after, rests, .. } => Evidence {
-            kind: PERIODIC,
+            kind: 0,
             period: *impacts,
             platform_periods: *platform_periods,
             after: *after,
@@ -211,7 +190,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
             ..NOTHING
         },
         Verdict::Chaotic { exponent, standard_error, rests, .. } => Evidence {
-            kind: CHAOTIC,
+            kind: 1,
             exponent: *exponent,
             standard_error: *standard_error,
             rests: *rests,
@@ -223,7 +202,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
                 _ => (None, None),
             };
             Evidence {
-                kind: CHATTERING,
+                kind: 2,
                 period: cycle.impacts,
                 platform_periods: cycle.platform_periods,
                 after: *after,
@@ -234,7 +213,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
                 ..NOTHING
             }
         }
-        Verdict::AtRest { after, .. } => Evidence { kind: AT_REST, after: *after, rests: 1, ..NOTHING },
+        Verdict::AtRest { after, .. } => Evidence { kind: 3, after: *after, rests: 1, ..NOTHING },
         Verdict::Undecided { reason, rests } => undecided(reason, *rests),
         _ => NOTHING,
     }

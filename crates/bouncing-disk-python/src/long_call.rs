@@ -57,7 +57,7 @@ impl Watched {
 }
 
 impl Arguments<'_> {
-    /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or the argument `progress` raises.
+    /// Runs `work` on a pool of threads until it is done, Ctrl-C is pressed or `progress` raises.
     pub(crate) fn run<T: Send>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
@@ -87,8 +87,7 @@ impl Arguments<'_> {
             pool.in_place_scope(|scope| {
                 scope.spawn(move |_| {
                     *result_of = Some(catch_unwind(AssertUnwindSafe(|| work(shared))));
-                    // Nobody listens any more only if the one that waits has gone, which it cannot before this is
-                    // done.
+                    // The other end cannot be gone: it waits until this is done.
                     let _ = sender.send(());
                 });
                 while let Err(RecvTimeoutError::Timeout) = finished.recv_timeout(INTERVAL) {

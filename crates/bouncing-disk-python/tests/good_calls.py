@@ -25,6 +25,12 @@ MOTOR = bd.Motor(
 )
 
 
+def saddle_of(bouncing: bd.ImpactMap = MAP) -> bd.PeriodicOrbit:
+    """The saddle of one impact a period."""
+    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
+    return next(orbit for orbit in orbits if abs(orbit.multipliers[0]) > 1.0)
+
+
 def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
     """Calls that are quick, of everything that takes arguments."""
     orbit = MAP.settled_orbit(impact_phase=1.2, normalised_speed=1.3)
@@ -41,11 +47,6 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         "cells": 8,
         "progress": None,
     }
-    saddle = next(
-        one
-        for one in bd.periodic_orbits(MAP, max_impacts=1, max_platform_periods=1)
-        if abs(one.multipliers[0]) > 1.0
-    )
     crisis = bd.crisis(restitution=0.5, axial_forcing=(0.559, 0.562), impacts=400_000)
     trajectory = bd.toss_trajectory(TOSS)
     toss_orbit = bd.periodic_orbits(bd.ImpactMap.of_system(TOSS), max_impacts=1, max_platform_periods=1)[0]
@@ -135,7 +136,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.lyapunov_spectra, [], starts | {"transient": 10, "impacts": 16}),
         (
             bd.manifold,
-            [MAP, saddle],
+            [MAP, saddle_of()],
             {
                 "arclength": 0.5,
                 "max_points": 50,
@@ -149,7 +150,7 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         ),
         (
             bd.crisis,
-            [saddle, saddle],
+            [saddle_of(), saddle_of()],
             {
                 "restitution": 0.5,
                 "axial_forcing": (0.4, 0.5),

@@ -44,8 +44,9 @@ DOCUMENTED = dict(documented())
 def failures_of(name: str, text: str) -> str:
     """The report of the examples in a docstring that print something else than it says."""
     test = doctest.DocTestParser().get_doctest(text, {}, name, None, 0)
+    runner = doctest.DocTestRunner(verbose=False, optionflags=doctest.NORMALIZE_WHITESPACE)
     report: list[str] = []
-    doctest.DocTestRunner(verbose=False, optionflags=doctest.NORMALIZE_WHITESPACE).run(test, out=report.append)
+    runner.run(test, out=report.append)
     return "".join(report)
 
 

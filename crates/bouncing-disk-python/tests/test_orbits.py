@@ -11,12 +11,7 @@ import bouncing_disk as bd
 import numpy as np
 import pytest
 
-from good_calls import MAP, STARTS, TOSS
-
-
-def saddle(bouncing: bd.ImpactMap = MAP) -> bd.PeriodicOrbit:
-    orbits = bd.periodic_orbits(bouncing, max_impacts=1, max_platform_periods=1)
-    return next(orbit for orbit in orbits if abs(orbit.multipliers[0]) > 1.0)
+from good_calls import MAP, STARTS, TOSS, saddle_of
 
 
 def test_spectra_have_the_sum_of_the_map() -> None:
@@ -38,7 +33,7 @@ def test_spectra_have_the_sum_of_the_map() -> None:
 
 @pytest.mark.parametrize("kind", ["stable", "unstable"])
 def test_a_manifold_has_pieces_on_branches(kind: Any) -> None:
-    start = saddle()
+    start = saddle_of()
     found = bd.manifold(MAP, start, kind=kind, arclength=4.0, chord=0.02, turn=0.05)
     assert found.kind == kind and (abs(found.multiplier) > 1.0) == (kind == "unstable")
     assert found.offsets[0] == 0 and found.offsets[-1] == len(found.impact_phase)
@@ -58,9 +53,9 @@ def test_what_is_no_saddle_has_no_manifold() -> None:
     assert refused.value.field == "orbit"
     other = bd.ImpactMap(axial_forcing=0.7, restitution=0.5)
     with pytest.raises(bd.BouncingDiskError):
-        bd.manifold(other, saddle(), arclength=1.0)
+        bd.manifold(other, saddle_of(), arclength=1.0)
     with pytest.raises(ValueError, match="kind"):
-        bd.manifold(MAP, saddle(), kind="both", arclength=1.0)  # type: ignore[arg-type]
+        bd.manifold(MAP, saddle_of(), kind="both", arclength=1.0)  # type: ignore[arg-type]
 
 
 def edge() -> bd.PeriodicOrbit:
@@ -177,7 +172,8 @@ def test_attractors_are_followed_over_the_forcing() -> None:
         )
         for attractor, number in zip(attractors.all, followed, strict=True):
             assert whole.share[number, place] == attractor.share
-    assert repr(whole).startswith("BasinFractions(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], attractors=<3 A")
+    text = "BasinFractions(restitution=0.5, axial_forcing=[0.32, 0.36, 0.4], attractors=<3 Attractors>"
+    assert repr(whole).startswith(text)
     with pytest.raises(bd.OutOfRangeError) as refused:
         bd.basin_fractions_over(restitution=0.5, axial_forcing=[0.3], reach=-1.0)
     assert (refused.value.field, refused.value.value) == ("reach", -1.0)

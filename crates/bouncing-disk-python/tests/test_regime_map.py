@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 import pytest
 
 import bouncing_disk as bd
@@ -18,22 +17,13 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "benchmarks"))
 regime_map: Any = importlib.import_module("regime_map")
 
 
-def alone(result: bd.SweepResult, places: npt.NDArray[np.int64]) -> Any:
-    """The verdicts on these cells, computed together and without a sweep."""
-    forcings, restitutions = result.axes.values()
-    return regime_map.regimes(
-        forcings[places // len(restitutions)],
-        restitutions[places % len(restitutions)],
-        regime_map.TRANSIENT,
-        regime_map.IMPACTS,
-    )
-
-
 def test_the_map_of_a_hundred_by_a_hundred(tmp_path: Path) -> None:
     result = regime_map.regime_map(100, "serial", tmp_path / "map", chunk_size=1_500)
     assert result.values.dtype == np.uint8 and result.values.shape == (100, 100)
-    assert np.array_equal(result.values.ravel(), alone(result, np.arange(10_000)))
     forcings, restitutions = result.axes.values()
+    cells = (axis.ravel() for axis in np.meshgrid(forcings, restitutions, indexing="ij"))
+    alone = regime_map.regimes(*cells, regime_map.TRANSIENT, regime_map.IMPACTS)
+    assert np.array_equal(result.values.ravel(), alone)
     # Below 1/pi the platform never falls away; below the birth of the period-1 orbit, too, the disk comes to
     # rest.
     weak = forcings[:, np.newaxis] < np.minimum(1.0 / np.pi, (1.0 - restitutions) / (1.0 + restitutions))

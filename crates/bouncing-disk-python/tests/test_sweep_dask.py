@@ -199,35 +199,24 @@ def test_an_interrupt_leaves_the_cluster_and_the_chunks(two: Any, tmp_path: Path
     assert not two.processing() or not any(two.processing().values())
 
 
-def run_script(tmp_path: Path, guarded: bool) -> subprocess.CompletedProcess[str]:
-    call = 'print(bd.sweep(double, {"x": [1.0, 2.0, 3.0]}).values.tolist())'
-    text = textwrap.dedent(
-        f"""
-        import bouncing_disk as bd
-
-        def double(x):
-            return 2 * x
-
-        {'if __name__ == "__main__":' if guarded else "if True:"}
-            {call}
-        """
-    )
+@pytest.mark.parametrize("guard", ['if __name__ == "__main__":', "if True:"])
+def test_a_function_of_a_script_is_swept_behind_its_guard(tmp_path: Path, guard: str) -> None:
     script = tmp_path / "script.py"
-    script.write_text(text)
-    return subprocess.run(
-        [sys.executable, str(script)], capture_output=True, text=True, timeout=120, check=False
-    )
+    script.write_text(f"""
+import bouncing_disk as bd
 
+def double(x):
+    return 2 * x
 
-def test_a_function_of_a_script(tmp_path: Path) -> None:
-    done = run_script(tmp_path, guarded=True)
-    assert done.returncode == 0 and done.stdout.strip() == "[2.0, 4.0, 6.0]", done.stderr
-
-
-def test_a_script_without_its_guard_is_told(tmp_path: Path) -> None:
-    done = run_script(tmp_path, guarded=False)
-    assert done.returncode != 0
-    assert 'put the call behind `if __name__ == "__main__":`' in done.stderr
+{guard}
+    print(bd.sweep(double, {{"x": [1.0, 2.0, 3.0]}}).values.tolist())
+""")
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120)
+    if guard == "if True:":
+        assert done.returncode != 0
+        assert 'put the call behind `if __name__ == "__main__":`' in done.stderr
+    else:
+        assert done.returncode == 0 and done.stdout.strip() == "[2.0, 4.0, 6.0]", done.stderr
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")

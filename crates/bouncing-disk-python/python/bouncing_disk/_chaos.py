@@ -43,7 +43,7 @@ class _Impacts:
         return speed
 
     def of(self, row: int) -> tuple[FloatArray, FloatArray]:
-        """Phases (rad) and normalised speeds of the impacts of one orbit, or one piece of a manifold, as views."""
+        """Phases (rad) and normalised speeds of the impacts of one orbit or piece, as views."""
         impacts = slice(self.offsets[:-1][row], self.offsets[1:][row])
         return self.impact_phase[impacts], self.normalised_speed[impacts]
 

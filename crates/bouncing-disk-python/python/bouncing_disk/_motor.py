@@ -473,8 +473,7 @@ def motor_map(
     Args:
         axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
             rows, shape (n,).
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`, for
-            each cell.
+        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     >>> import bouncing_disk as bd
     >>> motor = bd.Motor(drive_frequency=70e3, amplitude=1e-8, peak_angular_speed=30.0, mass=1e-3,

@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
+from bouncing_disk._base import Progress
 from bouncing_disk._errors import OutOfRangeError
 from bouncing_disk._sweep.errors import SweepFolderError, is_installed
 from bouncing_disk._sweep.folder import (
@@ -42,8 +43,6 @@ from bouncing_disk._sweep.runners import (
 
 __all__ = ["read_sweep", "sweep"]
 
-Progress = Callable[[int, int], object]
-
 
 def sweep(
     function: Callable[..., Any],
@@ -55,7 +54,7 @@ def sweep(
     chunk_size: int | None = None,
     pointwise: bool = False,
     max_failures: int = 100,
-    progress: Progress | None = None,
+    progress: Progress = None,
 ) -> SweepResult:
     """Compute a function at every point of a grid: in processes of this machine, or on a Dask cluster.
 
@@ -149,7 +148,7 @@ class _Run:
     chunks: Chunks
     assembly: Assembly
     journal: Journal | None
-    progress: Progress | None
+    progress: Progress
     done: int = 0
     failures: dict[int, tuple[Failure, ...]] = field(default_factory=dict)
     #: Stored chunks with points that failed, which are tried again.
@@ -251,8 +250,8 @@ def read_sweep(folder: str | os.PathLike[str]) -> SweepResult:
     failed: npt.NDArray[np.bool_] = np.zeros(grid.points, dtype=np.bool_)
     files = [chunk_path(path, chunk) for chunk in range(chunks.count)]
     if missing := [file.name for file in files if not file.exists()]:
-        why = f"is not finished: {len(missing)} of {chunks.count} chunks are missing, the first is {missing[0]}"
-        raise refused(path, why, "incomplete")
+        lack = f"{len(missing)} of {chunks.count} chunks are missing, the first is {missing[0]}"
+        raise refused(path, f"is not finished: {lack}", "incomplete")
     for chunk, file in enumerate(files):
         start, _ = chunks.span(chunk)
         try:

@@ -93,7 +93,7 @@ class MissingDependencyError(BouncingDiskError, ImportError):
 
     @classmethod
     def checked(cls, module: str, purpose: str, extra: str) -> Any:
-        """A module of an optional package; the error says what needs it, and which extra of this package brings it."""
+        """A module of an optional package; the error says what needs it, and which extra brings it."""
         try:
             return import_module(module)
         except ImportError as error:

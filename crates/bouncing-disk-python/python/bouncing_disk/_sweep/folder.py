@@ -26,7 +26,7 @@ import numpy as np
 from bouncing_disk._sweep.errors import SweepFolderError, SweepFolderWarning, SweepFunctionError
 from bouncing_disk._sweep.grid import Array, Grid, array_digest, refuse_masked
 
-#: The packages that must have the same version everywhere: the bits depend on both, if the function uses NumPy.
+#: The packages on which the bits depend, so that they must have the same version everywhere.
 PACKAGES = ("bouncing-disk", "numpy")
 
 
