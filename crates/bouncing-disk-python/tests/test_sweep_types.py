@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import sweep_functions as functions
 
 import bouncing_disk as bd
 from bouncing_disk._sweep.grid import joined

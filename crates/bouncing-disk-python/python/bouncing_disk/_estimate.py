@@ -1,16 +1,14 @@
-"""Speed transients of motors, and fits of measured ones: of rises, of braking and of parameters."""
+"""Speed transients of motors, and fits of measured ones."""
 
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
-from bouncing_disk._motor import Motor
 from bouncing_disk._system import ChatterCut, System
 
 __all__ = [

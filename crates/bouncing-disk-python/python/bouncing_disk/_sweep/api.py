@@ -30,7 +30,7 @@ from bouncing_disk._sweep.folder import (
     read_chunk,
     refused,
 )
-from bouncing_disk._sweep.grid import Array, Assembly, Chunks, Grid
+from bouncing_disk._sweep.grid import Assembly, Chunks, Grid
 from bouncing_disk._sweep.job import Failure, Job, Outcome
 from bouncing_disk._sweep.result import SweepFailedError, SweepResult
 from bouncing_disk._sweep.runners import (
