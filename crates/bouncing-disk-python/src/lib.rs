@@ -50,9 +50,7 @@ mod _native {
     #[pymodule_export]
     use crate::threads::{set_threads, threads};
     #[pymodule_export]
-    use crate::toss::{
-        Trajectory, events, multi_toss, rotary_response, samples, simulate, single_toss, toss_trajectory,
-    };
+    use crate::toss::{Trajectory, events, rotary_response, samples, simulate, single_toss, toss_trajectory};
     /// Label of a start that was neither at rest nor near a known orbit after the impacts that were allowed.
     #[pymodule_export]
     const UNDECIDED: u8 = bouncing_disk::core::attractors::UNDECIDED;

@@ -2,7 +2,7 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    Error as CoreError, ImpactMap, ImpactState,
+    Error as CoreError, ImpactState,
     orbits::{
         BifurcationKind, Branch as BranchModel, BranchEnd, Continuation, ContinuationParameter, OrbitSearch,
         PeriodicOrbit as OrbitModel, Stability, feigenbaum_estimates,
