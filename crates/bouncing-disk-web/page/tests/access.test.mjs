@@ -23,7 +23,7 @@ test("everything that can be used is reached by Tab, and the focus is seen", () 
     for (const view of VIEWS) {
       await visit(page, view);
       const wanted = await page.evaluate(() => {
-        const selector = "button, select, input, textarea, summary, canvas[tabindex='0'], .chart-stage";
+        const selector = "button, select, input, textarea, summary, canvas[tabindex='0']";
         const all = [...document.querySelectorAll(selector)].filter(
           (one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0,
         );
@@ -149,15 +149,13 @@ test("the toss by keyboard: it pauses and steps, and says where the disk is", ()
 test("charts by keyboard: values are read one by one", () =>
   within({ reducedMotion: "reduce" }, async (page) => {
     const chart = page.locator("#view-toss .chart").first();
-    await chart.locator("canvas").waitFor();
-    await chart.locator(".chart-stage").focus();
+    await chart.locator("canvas[tabindex='0']").focus();
     await page.keyboard.press("Home");
     const reading = chart.locator("[aria-live]");
     assert.match(await reading.textContent(), /^time \(periods of the platform\) 0: disk .*\d, platform .*\d$/);
     await page.keyboard.press("ArrowRight");
     assert.match(await reading.textContent(), /^time \(periods of the platform\) 0\.0/);
-    const legend = await chart.locator(".u-legend").textContent();
-    assert.match(legend, /disk.*\d/, "what is seen has the values, too");
+    assert.ok((await reading.boundingBox()).height > 10, "what is read is seen, too");
   }));
 
 test("what goes on is not read out step by step, what is done is", () =>

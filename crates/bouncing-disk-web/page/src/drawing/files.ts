@@ -3,7 +3,7 @@
 import type { Offer } from "../contract";
 import { element } from "../elements";
 import { clippedTo, layOut, paintAxes, type Axes, type Plot } from "./axes";
-import { CanvasPen, contextOf, SvgPen, type Pen } from "./pen";
+import { contextOf, SvgPen, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;
@@ -22,14 +22,14 @@ interface Picture {
 
 export function pictureOffers(picture: Picture): Offer[] {
   const { name, title, width, height } = picture;
-  const svg = async () => {
+  const svg = () => {
     const pen = new SvgPen(width, height);
     picture.paint(pen, width, height);
-    return new Blob([pen.finish(title)], { type: "image/svg+xml" });
+    return pen.finish(title);
   };
   return [
-    { name, kind: "svg", make: svg },
-    { name, kind: "png", make: () => pngOf(picture) },
+    { name, kind: "svg", make: async () => new Blob([svg()], { type: "image/svg+xml" }) },
+    { name, kind: "png", make: () => pngOf(svg(), width, height) },
   ];
 }
 
@@ -47,15 +47,14 @@ export function plotOffers(
   });
 } // prettier-ignore
 
-async function pngOf(picture: Picture): Promise<Blob> {
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.round(picture.width * PRINT_DOTS_PER_POINT);
-  canvas.height = Math.round(picture.height * PRINT_DOTS_PER_POINT);
-  const context = contextOf(canvas);
-  const pen = new CanvasPen(context, true);
-  pen.rect(0, 0, canvas.width, canvas.height, { fill: "--picture-paper" });
-  context.scale(PRINT_DOTS_PER_POINT, PRINT_DOTS_PER_POINT);
-  picture.paint(pen, picture.width, picture.height);
+/** The browser itself draws the SVG. An address with the whole picture in it may be read back from a page on the disk. */
+async function pngOf(svg: string, ...points: [width: number, height: number]): Promise<Blob> {
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const [width, height] = points.map((length) => Math.round(length * PRINT_DOTS_PER_POINT)) as [number, number];
+  const canvas = element("canvas", { width, height });
+  contextOf(canvas).drawImage(image, 0, 0, width, height);
   return new Promise((resolve, reject) => {
     canvas.toBlob(
       (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),

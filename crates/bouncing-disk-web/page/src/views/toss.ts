@@ -1,8 +1,8 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
 import type { Context, Offer, State, View, ViewKind } from "../contract";
-import { ScreenChart, layOutChart, paintChart } from "../drawing/chart";
-import { ONE_COLUMN, pictureOffers, plotOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
+import { chartOffers, ScreenChart } from "../drawing/chart";
+import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, element, oncePerFrame, prefersLessMotion, setText } from "../elements";
 import { plain } from "../numbers";
@@ -140,7 +140,7 @@ class TossView implements View {
   offers(): Offer[] {
     const { recording } = this;
     if (recording === null) return [];
-    const { now } = this.player;
+    const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
     const parameters = { system: this.context.state().system, start: this.start(), periods: recording.periods };
     return [
       ...tableOffers({ name: "motion", parameters, columns: COLUMNS, rows: () => recording.table() }),
@@ -150,24 +150,7 @@ class TossView implements View {
         columns: ["time_s", "impact_phase_rad", "normalised_speed"],
         rows: () => recording.impacts.map(({ time, phase, normalised_speed }) => [time, phase, normalised_speed]),
       }),
-      ...pictureOffers({
-        name: "time traces",
-        title: "Heights and angular speeds of disk and platform",
-        width: ONE_COLUMN,
-        height: ONE_COLUMN * 1.2,
-        paint(pen, width, height) {
-          const charts = traces(recording, Math.max(now, Math.min(recording.periods, 8)));
-          // One axis of time: both have the place that the longer numbers need.
-          const plots = charts.map((chart) => layOutChart(pen, chart, width, height / 2, PRINT_SIZE));
-          const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
-          const long = (label: string) => pen.measure(label, PRINT_SIZE);
-          const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
-          charts.forEach((chart, index) => {
-            const aligned = { ...chart, y: { ...chart.y, widest } };
-            pen.moved(0, (index * height) / 2, () => paintChart(pen, aligned, width, height / 2, PRINT_SIZE));
-          });
-        },
-      }),
+      ...chartOffers("time traces", "Heights and angular speeds of disk and platform", charts, ONE_COLUMN * 0.6),
       ...plotOffers({
         name: "path of the platform",
         title: "Path of a point of the platform: height over angle",
