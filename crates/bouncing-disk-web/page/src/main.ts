@@ -1,6 +1,10 @@
 /** Puts the page together: state, address, form, views and tools. */
 
-import "./style.css";
+// Where two of these say something of the same, the later one counts.
+import "./styles/theme.css";
+import "./styles/page.css";
+import "./styles/screens.css";
+import "./styles/views.css";
 import { Address, link } from "./address";
 import { makeClient, type Source } from "./client";
 import type { Context, Offer, State, ViewKind } from "./contract";

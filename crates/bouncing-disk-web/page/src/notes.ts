@@ -114,7 +114,7 @@ export class TourPanel {
 
   constructor(private readonly open: (state: State) => void) {
     const end = button("End", () => this.end());
-    const buttons = [end, element("span", { class: "spring" }), this.back, this.next];
+    const buttons = [end, this.back, this.next];
     const parts = [this.place, this.title, this.text, element("div", { class: "buttons" }, ...buttons)];
     this.element = element("section", { class: "tour", hidden: true, "aria-label": "Guided tour" }, ...parts);
     this.element.addEventListener("keydown", (event) => this.pressed(event));
