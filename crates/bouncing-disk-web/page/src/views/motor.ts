@@ -8,7 +8,7 @@ import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../pro
 import { tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
-  MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, type Operation, type Transient,
+  MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
 } from "./motor/sheet"; // prettier-ignore
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
@@ -17,7 +17,6 @@ const REMARK =
   "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
   "A cross is a load that drives the rotor.";
 
-const SLOTS = ["motor-report", "motor-transient", "motor-loads", "motor-stall"] as const;
 const CURVES = ["The speed against the load", "The power", "The efficiency"] as const;
 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
@@ -87,7 +86,7 @@ class MotorView implements View {
 
   hide(): void {
     this.compute.stop();
-    for (const slot of SLOTS) this.context.client.cancel(slot);
+    this.context.client.cancel(SLOT);
     if (!this.complete) this.asked = "";
   }
 
@@ -108,7 +107,7 @@ class MotorView implements View {
   } // prettier-ignore
 
   private forget(): void {
-    for (const slot of SLOTS) this.context.client.cancel(slot);
+    this.context.client.cancel(SLOT);
     this.asked = "";
     this.complete = false;
     this.known = new Known();
@@ -131,19 +130,16 @@ class MotorView implements View {
     }
   }
 
-  /** Fills in what is known of a motor, as long as it is the one that is shown. */
+  /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
   private async computeAll(state: State, known: Known): Promise<void> {
     const { context, reportPanel } = this;
-    const gone = () => this.known !== known || this.asked === "";
     context.status("Reading the data sheet", "busy");
     const sheet = this.sheetKnown(state) ?? (await sheetOf(context, state));
-    const { json } = await context.client.ask<{ text: string }>("motor-write", { call: "sheet_write", sheet });
-    if (gone()) return;
+    const { json } = await context.client.ask<{ text: string }>(SLOT, { call: "sheet_write", sheet });
     known.sheet = sheet;
     known.text = json.text;
     this.sheetPanel.show(known.text);
     const report = await reportOf(context, sheet);
-    if (gone()) return;
     known.report = report;
     reportPanel.report(report);
     this.draw();
@@ -161,23 +157,18 @@ class MotorView implements View {
       if (error instanceof Cancelled) throw error;
       known.problems.runUp = messageOf(error);
     }
-    if (gone()) return;
     reportPanel.runUp(known.transient, known.own, known.problems.runUp);
     this.draw();
     try {
-      for (const pass of PASSES) {
-        await this.sweep(sheet, report, state, pass, known);
-        if (gone()) return;
-      }
+      for (const pass of PASSES) await this.sweep(sheet, report, state, pass, known);
       // It takes longest where nothing bounces, and is the last to be missed.
       await this.findStall(sheet, known);
     } catch (error) {
-      if (error instanceof Cancelled || gone()) throw error;
+      if (error instanceof Cancelled) throw error;
       known.problems.curve = messageOf(error);
       this.draw();
       throw error;
     }
-    if (gone()) return;
     this.complete = true;
     if (known.problems.runUp !== undefined) context.status(known.problems.runUp, "error");
     else context.status(summaryOf(known.operations));
@@ -198,7 +189,6 @@ class MotorView implements View {
     const error = `${100 * pass.relative_error} %`;
     this.context.status(`Computing the operation under ${asked.length} loads with an error of ${error}`, "busy");
     const found = await operate(this.context, sheet, asked, pass);
-    if (this.known !== known) return;
     known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
     known.own = found[asked.indexOf(load_torque)] ?? null;
@@ -217,7 +207,6 @@ class MotorView implements View {
       if (error instanceof Cancelled) throw error;
       problem = messageOf(error);
     }
-    if (this.known !== known) return;
     this.reportPanel.stall(known.stall, problem);
     this.draw();
   }

@@ -115,7 +115,7 @@ class TossView implements View {
   }
 
   show(state: State): void {
-    void this.rounding.show(this.context, state);
+    this.rounding.show(this.context, state);
     this.tellThrow(state.thrown);
     // The same motion goes on where it was left, unless somebody had stopped it; another one begins anew.
     if (this.resumes && this.asked.startsWith(this.motion())) this.player.play();
@@ -203,7 +203,7 @@ class TossView implements View {
     try {
       const request = { system, start: this.start(), periods, samples_per_period: SAMPLES_PER_PERIOD };
       const response = await this.context.client.ask<MotionJson>("toss-motion", { call: "motion", ...request });
-      if (this.asked === key) this.take(new Recording(response, periods, system), same);
+      this.take(new Recording(response, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
