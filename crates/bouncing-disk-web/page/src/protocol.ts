@@ -12,11 +12,11 @@
 export type Range = [number, number];
 
 /** Platform and disk, as `System` of the library. */
-export type SystemParameters = Record<
-  | "amplitude" | "twist_amplitude" | "angular_frequency" | "phase_lag" | "contact_radius" | "gyration_radius"
-  | "friction" | "restitution" | "preload_acceleration" | "load_acceleration",
-  number
->; // prettier-ignore
+export const SYSTEM_NAMES = [
+  "amplitude", "twist_amplitude", "angular_frequency", "phase_lag", "contact_radius", "gyration_radius",
+  "friction", "restitution", "preload_acceleration", "load_acceleration",
+] as const; // prettier-ignore
+export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
 export type MotorSheet = { readonly load_torque: number } & Readonly<Record<string, number | null>>;
