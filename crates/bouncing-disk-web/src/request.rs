@@ -131,14 +131,7 @@ pub(crate) enum Request {
     MotorReport {
         sheet: MotorParameters,
     },
-    /// Run-ups of so many motors.
-    MotorTransient {
-        sheet: MotorParameters,
-        members: usize,
-        rise_times: f64,
-        points: usize,
-        seed: u64,
-    },
+    MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
     /// The load that stops the motor.
     MotorStall {
@@ -189,6 +182,17 @@ pub(crate) struct BasinsRequest {
     pub(crate) normalised_speed: [f64; 2],
     pub(crate) speeds: usize,
     pub(crate) rows: [usize; 2],
+}
+
+/// Run-ups of so many motors.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TransientRequest {
+    pub(crate) sheet: MotorParameters,
+    pub(crate) members: usize,
+    pub(crate) rise_times: f64,
+    pub(crate) points: usize,
+    pub(crate) seed: u64,
 }
 
 /// The steady operation of a motor under loads (N m).

@@ -13,7 +13,7 @@ const GRACE = 40;
 const MOST_DEATHS = 3;
 
 export function makeClient(source: Source): Client {
-  const workshop = new Workshop(source);
+  const workshop = workshopOf(source);
   const quick = new Lane(workshop);
   const heavy = new Lane(workshop);
   quick.warm();
@@ -30,29 +30,18 @@ export function makeClient(source: Source): Client {
   };
 }
 
-/** What both lanes share: how to make a worker, and the module, once one of them has compiled it. */
-class Workshop {
-  private compiled: WebAssembly.Module | null = null;
-  private readonly address: string;
+/** What both lanes share: where the worker's script is, and the module, once one of them has compiled it. */
+interface Workshop {
+  readonly script: string;
+  module: ModuleSource;
+}
 
-  constructor(private readonly source: Source) {
-    const script = "script" in source ? new Blob([source.script], { type: "text/javascript" }) : null;
-    this.address = script === null ? (source as { worker: string }).worker : URL.createObjectURL(script);
+function workshopOf(source: Source): Workshop {
+  if ("worker" in source) {
+    return { script: source.worker, module: { address: new URL(source.module, document.baseURI).href } };
   }
-
-  worker(): Worker {
-    return new Worker(this.address);
-  }
-
-  module(): ModuleSource {
-    if (this.compiled !== null) return { compiled: this.compiled };
-    if ("base64" in this.source) return { base64: this.source.base64 };
-    return { address: new URL(this.source.module, document.baseURI).href };
-  }
-
-  keep(module: WebAssembly.Module): void {
-    this.compiled = module;
-  }
+  const script = URL.createObjectURL(new Blob([source.script], { type: "text/javascript" }));
+  return { script, module: { base64: source.base64 } };
 }
 
 type Each = (response: Response<never>, index: number) => void;
@@ -119,7 +108,7 @@ class Lane {
   /** Starts the worker before anything is asked. */
   warm(): void {
     if (this.worker !== null) return;
-    const worker = this.workshop.worker();
+    const worker = new Worker(this.workshop.script);
     this.worker = worker;
     this.ready = false;
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
@@ -129,7 +118,7 @@ class Lane {
       event.preventDefault();
       if (this.worker === worker) this.fail(event.message || "no reason given", !this.ready);
     };
-    this.tell({ kind: "start", module: this.workshop.module() });
+    this.tell({ kind: "start", module: this.workshop.module });
   }
 
   private tell(message: ToWorker): void {
@@ -153,7 +142,7 @@ class Lane {
     }
     const running = this.running;
     if (message.kind === "ready") {
-      if (message.module !== null) this.workshop.keep(message.module);
+      if (message.module !== null) this.workshop.module = { compiled: message.module };
       this.ready = true;
     } else if (running?.id === message.id) {
       this.running = null;

@@ -20,6 +20,12 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+export const div = (name: string, ...children: Child[]): HTMLElement => element("div", { class: name }, ...children);
+
+/** A part of a view, with its name for screen readers; `panel` is the class of those that consist of words. */
+export const section = (label: string, name: "panel" | null, ...children: Child[]): HTMLElement =>
+  element("section", { class: name, "aria-label": label }, ...children);
+
 /** An element of `index.html`, which is there, or the page is not ours. */
 export function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
   const found = document.getElementById(id);
@@ -111,15 +117,21 @@ export function oncePerFrame(draw: () => void): () => void {
   };
 }
 
+/** Where an event is on an element, in its pixels. */
+export function placeOn(surface: HTMLElement, event: MouseEvent): { x: number; y: number } {
+  const box = surface.getBoundingClientRect();
+  return { x: event.clientX - box.left, y: event.clientY - box.top };
+}
+
 /** Calls when `milliseconds` have gone by without another call; `stop` forgets what waits. */
 export function debounced<Values extends unknown[]>(
   milliseconds: number,
   call: (...values: Values) => void,
 ): { (...values: Values): void; stop(): void } {
-  let timer: ReturnType<typeof setTimeout> | undefined;
+  let timer: number | undefined;
   const later = (...values: Values) => {
     clearTimeout(timer);
-    timer = setTimeout(() => call(...values), milliseconds);
+    timer = window.setTimeout(() => call(...values), milliseconds);
   };
   later.stop = () => clearTimeout(timer);
   return later;

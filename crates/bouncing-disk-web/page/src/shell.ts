@@ -1,7 +1,7 @@
 /** What stands around the views: tabs, the stage, the menu of files, dialogs and the theme. */
 
 import type { Context, State, View, ViewKind, ViewName } from "./contract";
-import { button, closeButton, element, kept, roved } from "./elements";
+import { button, closeButton, div, element, kept, oncePerFrame, roved } from "./elements";
 import { PRESETS, type Preset } from "./presets";
 
 /** The tabs of the views: arrow keys move between them, as everywhere. */
@@ -42,7 +42,8 @@ export class Stage {
   private readonly hosts: ReadonlyMap<ViewName, HTMLElement>;
   private readonly made = new Map<ViewName, View>();
   private present: ViewName | null = null;
-  private frame = 0;
+  /** Once in the next frame, however often it is asked for. */
+  readonly redraw = oncePerFrame(() => this.view?.redraw());
 
   constructor(
     place: HTMLElement,
@@ -81,12 +82,6 @@ export class Stage {
     if (this.view === undefined && kind && host) this.made.set(kind.name, kind.make(host, this.context));
     this.view?.show(state);
   }
-
-  /** Once in the next frame, however often it is asked for. */
-  redraw(): void {
-    cancelAnimationFrame(this.frame);
-    this.frame = requestAnimationFrame(() => this.view?.redraw());
-  }
 }
 
 interface Item {
@@ -114,7 +109,7 @@ export class Menu {
       this.open();
     });
     this.list.addEventListener("keydown", (event) => this.pressed(event));
-    this.element = element("div", { class: "menu" }, opener, this.list);
+    this.element = div("menu", opener, this.list);
     document.addEventListener("pointerdown", (event) => {
       if (!this.element.contains(event.target as Node)) this.close(false);
     });
@@ -195,15 +190,8 @@ export class Themes {
 function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
   const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
   const heading = element("h2", { id: `${name}-title` }, title);
-  made.append(
-    element(
-      "div",
-      { class: "sheet" },
-      heading,
-      closeButton("Close", () => made.close()),
-      ...content,
-    ),
-  );
+  const close = closeButton("Close", () => made.close());
+  made.append(div("sheet", heading, close, ...content));
   // A click beside the sheet closes it.
   made.addEventListener("click", (event) => {
     if (event.target === made) made.close();
@@ -226,7 +214,7 @@ export function presetDialog(choose: (preset: Preset) => void): HTMLDialogElemen
     "Figures and tables of the paper",
     "presets",
     element("p", {}, "Each opens the view and the parameters that come nearest to it, and says what to see."),
-    element("div", { class: "cards" }, ...cards),
+    div("cards", ...cards),
   );
   made.addEventListener("keydown", (event) => {
     const at = cards.indexOf(document.activeElement as HTMLButtonElement);

@@ -1,7 +1,7 @@
 /** A chart of curves, in files and, with a cursor that reads its values, on the screen. */
 
 import type { Offer } from "../contract";
-import { element, setText } from "../elements";
+import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import {
@@ -251,7 +251,7 @@ export class ScreenChart {
   private point(event: PointerEvent): void {
     const { chart, plot } = this;
     if (chart === null || plot === null) return;
-    const value = valueX(plot, event.clientX - this.layers.surface.getBoundingClientRect().left);
+    const value = valueX(plot, placeOn(this.layers.surface, event).x);
     const apart = Array.from(chart.at, (place) => Math.abs(place - value));
     if (apart.length > 0) this.read(apart.indexOf(Math.min(...apart)));
   }

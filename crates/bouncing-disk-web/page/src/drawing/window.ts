@@ -1,6 +1,6 @@
 /** A picture with a window that one can zoom and point into by wheel, pinch, rectangle and keyboard. */
 
-import { button, element, oncePerFrame } from "../elements";
+import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
 import {
   clamp, clippedTo, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Box, type Plot,
@@ -14,10 +14,7 @@ export interface Window2 {
 
 export type Point = readonly [number, number];
 
-interface Place {
-  readonly x: number;
-  readonly y: number;
-}
+type Place = ReturnType<typeof placeOn>;
 
 /** What gestures ask of a picture; they do nothing where they are not heard. */
 interface GestureHost {
@@ -139,7 +136,7 @@ export class Gestures {
   private pinch: { window: Window2; distance: number; at: Point } | null = null;
   private moved = false;
   private cross: [number, number] | null = null;
-  private settleTimer: ReturnType<typeof setTimeout> | undefined;
+  private readonly settle = debounced(SETTLE, () => this.host.move?.(this.host.window(), true));
 
   constructor(
     private readonly surface: HTMLElement,
@@ -169,16 +166,11 @@ export class Gestures {
     this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
   }
 
-  private place(event: MouseEvent): Place {
-    const box = this.surface.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
-  }
-
   private wheel(event: WheelEvent): void {
     const plot = this.host.plot();
     if (plot === null) return;
     event.preventDefault();
-    const { x, y } = this.place(event);
+    const { x, y } = placeOn(this.surface, event);
     const lines = event.deltaMode === 1 ? 16 : 1;
     const factor = Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.002);
     const window = this.host.window();
@@ -194,40 +186,41 @@ export class Gestures {
   /** Moves now, and says that it is settled when nothing has come for a while. */
   private move(window: Window2): void {
     this.host.move?.(window, false);
-    clearTimeout(this.settleTimer);
-    this.settleTimer = setTimeout(() => this.host.move?.(this.host.window(), true), SETTLE);
+    this.settle();
   }
 
   private down(event: PointerEvent): void {
     const plot = this.host.plot();
     if (plot === null || event.button > 0) return;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     this.pointers.set(event.pointerId, at);
     this.surface.setPointerCapture(event.pointerId);
     if (this.pointers.size === 2) {
       const [one, two] = [...this.pointers.values()] as [Place, Place];
+      const at: Point = [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)];
       this.begun = null;
       this.host.rectangle?.(null);
-      this.pinch = {
-        window: this.host.window(),
-        distance: Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10),
-        at: [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)],
-      };
+      this.pinch = { window: this.host.window(), distance: this.distance(), at };
     } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
       this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
       this.moved = false;
     }
   }
 
+  /** Between the first two fingers. */
+  private distance(): number {
+    const [one, two] = [...this.pointers.values()] as [Place, Place];
+    return Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
+  }
+
   private follow(event: PointerEvent): void {
     const plot = this.host.plot();
     if (plot === null) return;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
     if (this.pinch !== null && this.pointers.size >= 2) {
-      const [one, two] = [...this.pointers.values()] as [Place, Place];
-      const factor = this.pinch.distance / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
-      const { window, at: centre } = this.pinch;
+      const { window, at: centre, distance } = this.pinch;
+      const factor = distance / this.distance();
       this.moved = true;
       this.move({ x: scaled(window.x, centre[0], factor), y: scaled(window.y, centre[1], factor) });
     } else if (this.begun !== null) {
@@ -248,7 +241,7 @@ export class Gestures {
   private up(event: PointerEvent): void {
     const plot = this.host.plot();
     const { begun } = this;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     this.release(event);
     if (plot === null || begun === null) return;
     if (!this.moved) {

@@ -6,7 +6,7 @@ import { themeColour } from "../drawing/colours";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
-import { debounced, element, setText } from "../elements";
+import { debounced, div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { mapOf, RoundingCaution, tellFailure, type MapParameters } from "./asking";
@@ -57,13 +57,8 @@ class BasinsView implements View {
     });
     const hint = "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
-      element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
-      element(
-        "div",
-        { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.alternative),
-        this.legend.root,
-      ),
+      div("bar", element("span", { class: "remark" }, hint), this.picture.tools),
+      div("beside", div("main-part", this.picture.layers.root, this.alternative), this.legend.root),
     );
   }
 

@@ -5,7 +5,7 @@ import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { debounced, element, setText } from "../elements";
+import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { DIAGRAM_COLUMNS, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
@@ -68,21 +68,14 @@ class DiagramView implements View {
       '<span class="line full"></span> stable, <span class="line dashed"></span> unstable branch; ' +
       "○ doubling, □ fold, × graze or vanishing impact. Darker dots (lighter on a dark page): more impacts. " +
       "A click gives the shared system that forcing.";
+    const choices = [
+      ["Quantity ", this.quantity],
+      [this.branchesBox, " Branches"],
+    ] as const;
+    const picture = div("main-part", this.picture.layers.root, this.note);
     host.append(
-      element(
-        "div",
-        { class: "bar" },
-        element("label", {}, "Quantity ", this.quantity),
-        element("label", {}, this.branchesBox, " Branches"),
-        this.picture.tools,
-      ),
-      element(
-        "div",
-        { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.note),
-        this.verdict.root,
-        element("div", {}, legend, this.alternative),
-      ),
+      div("bar", ...choices.map((parts) => element("label", {}, ...parts)), this.picture.tools),
+      div("beside", picture, this.verdict.root, element("div", {}, legend, this.alternative)),
     );
   }
 

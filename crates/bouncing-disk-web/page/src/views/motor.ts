@@ -3,7 +3,7 @@
 import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
-import { debounced, element, oncePerFrame, setText } from "../elements";
+import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
 import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../protocol";
 import { tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
@@ -61,16 +61,12 @@ class MotorView implements View {
       context.change({ system: imported.system, mass: imported.mass });
     });
     const [runUp, speed, power, efficiency] = [this.runUpChart, ...this.curveCharts].map(({ root }) => root);
-    host.append(
-      element(
-        "div",
-        { class: "motor" },
-        this.reportPanel.trap,
-        element("section", { "aria-label": "Run-up and speed" }, runUp ?? null, speed ?? null),
-        element("section", { "aria-label": "Power and efficiency" }, power ?? null, efficiency ?? null, this.remark),
-        element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
-      ),
-    );
+    const charts = [
+      section("Run-up and speed", null, runUp ?? null, speed ?? null),
+      section("Power and efficiency", null, power ?? null, efficiency ?? null, this.remark),
+    ];
+    const words = div("motor-words", this.reportPanel.root, this.sheetPanel.root);
+    host.append(div("motor", this.reportPanel.trap, ...charts, words));
   }
 
   show(state: State): void {

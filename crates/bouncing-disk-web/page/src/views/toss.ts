@@ -4,7 +4,7 @@ import type { Context, Offer, State, View, ViewKind } from "../contract";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
-import { button, element, oncePerFrame, prefersLessMotion, setText } from "../elements";
+import { button, div, element, oncePerFrame, prefersLessMotion, section, setText } from "../elements";
 import { plain } from "../numbers";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { RoundingCaution, tellFailure } from "./asking";
@@ -90,28 +90,10 @@ class TossView implements View {
     const readings = [...this.readings.elements, throwForm(throwing)];
     const key =
       "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there.";
-    const portrait = [
-      element("h3", {}, "Impacts"), this.portrait.layers.root, element("p", { class: "remark" }, key),
-    ]; // prettier-ignore
-    host.append(
-      this.controls.root,
-      element(
-        "div",
-        { class: "toss" },
-        element(
-          "div",
-          { class: "toss-left" },
-          element("div", {}, ...scene),
-          element("section", { "aria-label": "Time traces" }, ...charts),
-        ),
-        element(
-          "div",
-          { class: "toss-right" },
-          element("section", { class: "panel", "aria-label": "Readings" }, ...readings),
-          element("section", { "aria-label": "Phase portrait" }, ...portrait),
-        ),
-      ),
-    );
+    const portrait = [element("h3", {}, "Impacts"), this.portrait.layers.root, element("p", { class: "remark" }, key)];
+    const left = div("toss-left", element("div", {}, ...scene), section("Time traces", null, ...charts));
+    const right = [section("Readings", "panel", ...readings), section("Phase portrait", null, ...portrait)];
+    host.append(this.controls.root, div("toss", left, div("toss-right", ...right)));
   }
 
   show(state: State): void {
@@ -296,9 +278,7 @@ class TossView implements View {
     this.thrown.hidden = thrown === null;
     if (thrown === null || thrown === this.throwTold) return;
     this.throwTold = thrown;
-    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), {
-      class: "quiet",
-    });
+    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }));
     this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 

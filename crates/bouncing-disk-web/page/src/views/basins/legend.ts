@@ -2,7 +2,7 @@
 
 import { ONE_COLUMN, PRINT_SIZE } from "../../drawing/files";
 import { measureRuns, PRINT_FONT, type Pen } from "../../drawing/pen";
-import { element, setText } from "../../elements";
+import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
 import { categoryColour } from "./cells";
@@ -20,7 +20,7 @@ export class Legend {
   /** `caution` stands below the list. */
   constructor(caution: HTMLElement) {
     const parts = [element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note];
-    this.root = element("section", { class: "panel", "aria-label": "Attractors" }, ...parts);
+    this.root = section("Attractors", "panel", ...parts);
   }
 
   /** Nothing, where no attractors are known. */

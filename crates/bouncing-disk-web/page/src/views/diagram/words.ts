@@ -1,7 +1,7 @@
 /** What the orbit under the cursor does for good, and the whole diagram in words, by the library's verdicts. */
 
 import type { Context, State } from "../../contract";
-import { debounced, element, Facts, setText } from "../../elements";
+import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, plain, withError } from "../../numbers";
 import type { VerdictJson } from "../../protocol";
 import { impactOf, tellFailure, verdictOf } from "../asking";
@@ -23,7 +23,7 @@ export class Verdict {
   constructor(private readonly context: Context) {
     const title = element("h3", {}, "Orbit under the cursor");
     const parts = [title, this.facts.root, this.sentence, this.caution];
-    this.root = element("section", { class: "panel", "aria-label": "Orbit under the cursor" }, ...parts);
+    this.root = section("Orbit under the cursor", "panel", ...parts);
   }
 
   point(forcing: number, state: State): void {

@@ -2,7 +2,7 @@
 
 import type { Context, State } from "../../contract";
 import { save } from "../../drawing/files";
-import { button, element } from "../../elements";
+import { button, div, element, section } from "../../elements";
 import {
   OPERATION_COLUMNS, type MotorSheet, type OperationsJson, type ReportJson, type SheetJson, type StallJson,
   type TransientJson,
@@ -93,16 +93,15 @@ export class SheetPanel {
     private readonly context: Context,
     private readonly take: (imported: SheetJson) => void,
   ) {
-    const bar = element(
-      "div",
-      { class: "bar" },
+    const bar = div(
+      "bar",
       button("Use this sheet", () => void this.read(this.text.value)),
       button("Open a file", () => this.file.click()),
       button("Save as JSON", () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
       this.file,
     );
     const parts = [element("h3", {}, "Data sheet"), this.text, bar, element("p", { class: "remark" }, REMARK)];
-    this.root = element("section", { class: "panel", "aria-label": "Data sheet" }, ...parts);
+    this.root = section("Data sheet", "panel", ...parts);
   }
 
   /** Shows a text, unless somebody is about to write another one. */

@@ -1,6 +1,6 @@
 /** The motor in words: regime, warnings, traps, steady speed, run-up and curves. */
 
-import { element, Facts, setText } from "../../elements";
+import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, quantityWithError, toldApart, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import type { Operation, Transient } from "./sheet";
@@ -10,7 +10,7 @@ const NAMES = [
 ] as const; // prettier-ignore
 
 export class ReportPanel {
-  readonly root = element("section", { class: "panel", "aria-label": "Report" });
+  readonly root = section("Report", "panel");
   private readonly facts = new Facts(NAMES, "The motor in numbers");
   /** Stands above the curves, which a trap makes those of another motion than one would expect. */
   readonly trap = element("p", { class: "caution trap", hidden: true });
