@@ -80,14 +80,8 @@ test("the categories of basins differ from each other in lightness or hue for ev
       for (const [kind, matrix] of Object.entries(blind)) {
         const seen = colours.map((colour) => {
           const light = linear(colour);
-          return matrix.map((row) =>
-            Math.cbrt(
-              Math.max(
-                0,
-                row.reduce((sum, one, at) => sum + one * light[at], 0),
-              ),
-            ),
-          );
+          const sums = matrix.map((row) => row.reduce((sum, one, at) => sum + one * light[at], 0));
+          return sums.map((sum) => Math.cbrt(Math.max(0, sum)));
         });
         for (let one = 0; one < 8; one++)
           for (let other = 0; other < one; other++) {
@@ -110,10 +104,7 @@ test("what is tapped has 40 pixels at least", () =>
           .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
           .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
       }, TARGET);
-    for (const group of await page.locator("aside details").all())
-      await group.evaluate((one) => {
-        one.open = true;
-      });
+    await page.locator("aside details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
     for (const view of VIEWS) {
       await visit(page, view, "tap");
       assert.deepEqual(await small(), [], view);
@@ -153,13 +144,10 @@ test("on a large screen the pictures take the height of the window", () =>
   within({ width: 2560, height: 1440 }, async (page) => {
     for (const view of VIEWS) {
       await visit(page, view);
-      const bottom = await page.evaluate(
-        (name) =>
-          Math.max(
-            ...[...document.querySelectorAll(`#view-${name} canvas`)].map((one) => one.getBoundingClientRect().bottom),
-          ),
-        view,
-      );
+      const bottoms = await page
+        .locator(`#view-${view} canvas`)
+        .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().bottom));
+      const bottom = Math.max(...bottoms);
       assert.ok(bottom > 0.8 * 1440 && bottom <= 1440, `${view} ends at ${bottom}`);
     }
   }));

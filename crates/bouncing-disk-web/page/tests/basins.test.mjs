@@ -2,9 +2,9 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { coloursOf, pixelsOf, svgOf, settled, type, whenText, within } from "./browser.mjs";
+import { coloursOf, pixelsOf, svgOf, type, whenKind, whenText, within } from "./browser.mjs";
 
-/** What is asked by one of these calls waits until `window.release()`. */
+/** What is asked by one of the calls in `window.holds` waits until `window.release()`, and other calls from then on. */
 function holdable() {
   window.held = [];
   window.holds = [];
@@ -16,8 +16,8 @@ function holdable() {
       } else super.postMessage(message, ...rest);
     }
   };
-  window.release = () => {
-    window.holds = [];
+  window.release = (holds = []) => {
+    window.holds = holds;
     for (const send of window.held.splice(0)) send();
   };
 }
@@ -28,7 +28,7 @@ const CATEGORIES = Array.from({ length: 8 }, (_, index) => `--category-${index}`
 const coloured = async (page) =>
   (await pixelsOf(page, "#view-basins canvas", await coloursOf(page, CATEGORIES))).length;
 
-const hold = (page, calls) => page.evaluate((which) => (window.holds = which), calls);
+const hold = (page, ...calls) => page.evaluate((which) => (window.holds = which), calls);
 const caption = (page) => page.textContent("#view-basins .alternative");
 const FORCING = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
 
@@ -38,17 +38,14 @@ test("no cell of another map stands under the legend of this one, and the captio
     assert.ok(before > 10_000, `${before}`);
     assert.match(await caption(page), /^Of the starts/);
     // As long as the attractors are looked for, both are faint.
-    await hold(page, ["attractors", "basins"]);
+    await hold(page, "attractors", "basins");
     await type(page, "axial_forcing", "0.5");
     await page.waitForSelector("#view-basins .stale");
     await page.waitForTimeout(200);
     assert.ok((await coloured(page)) < before / 100, "old cells in full colours while attractors are looked for");
     assert.match(await caption(page), /0\.5 .*being computed/);
     // As soon as the new ones are known, the old cells are gone.
-    await page.evaluate(() => {
-      window.holds = ["basins"];
-      for (const send of window.held.splice(0)) send();
-    });
+    await page.evaluate(() => window.release(["basins"]));
     await page.waitForSelector("#view-basins .stale", { state: "detached" });
     await page.waitForTimeout(200);
     assert.equal(await coloured(page), 0, "old cells under a new legend");
@@ -57,7 +54,7 @@ test("no cell of another map stands under the legend of this one, and the captio
     await whenText(page, "#view-basins .alternative", /^Of the starts/);
     assert.ok((await coloured(page)) > 10_000);
     // While the window of one map moves, its cells are stretched; they are right where they are.
-    await hold(page, ["basins"]);
+    await hold(page, "basins");
     await page.click('#view-basins [aria-label="Zoom in"]');
     await page.waitForTimeout(300);
     assert.ok((await coloured(page)) > 10_000);
@@ -67,9 +64,7 @@ test("no cell of another map stands under the legend of this one, and the captio
 test("where no basins can be computed, none are shown", () =>
   within({ hash: "#view=basins" }, async (page) => {
     await type(page, "restitution", "0.999999");
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind === "error", undefined, {
-      timeout: 120_000,
-    });
+    await whenKind(page, "error", 120_000);
     await page.waitForTimeout(200);
     assert.equal(await coloured(page), 0);
     assert.equal(await page.locator(".attractors li").count(), 0);

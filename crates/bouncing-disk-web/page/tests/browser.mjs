@@ -6,7 +6,7 @@ import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 import { file } from "./module.mjs";
 
-export const address = pathToFileURL(file).href;
+const address = pathToFileURL(file).href;
 
 export const VIEWS = ["toss", "diagram", "basins", "motor"];
 
@@ -14,18 +14,7 @@ let browser;
 before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: [
-      "--headless",
-      "--no-sandbox",
-      "--disable-gpu",
-      "--disable-quic",
-      "--no-first-run",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--js-flags=--expose-gc",
-      "--enable-precise-memory-info",
-    ],
+    args: ["--disable-gpu", "--js-flags=--expose-gc", "--enable-precise-memory-info"],
   });
 });
 after(() => browser.close());
@@ -62,6 +51,20 @@ export async function within(
 
 /** The first state has been checked by the module, and a view shows it. */
 export const ready = (page) => page.waitForSelector('[role="tab"][aria-selected="true"]');
+
+/** What is under way, done or wrong, as the line under the view says. */
+export const whenKind = (page, kind, timeout = 30_000) =>
+  page.waitForFunction((wanted) => document.getElementById("status").dataset.kind === wanted, kind, { timeout });
+
+/** Nothing went wrong. */
+export async function isCalm(page) {
+  assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
+  assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
+}
+
+/** The place of a view's first picture in the window: its upper layer, which takes the pointer and the keyboard. */
+export const boxOf = (page, view) => surface(page, view).boundingBox();
+export const surface = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first();
 
 /** Nothing is being computed any more; a motor's curves take longer than a test has to wait for. */
 export async function settled(page) {

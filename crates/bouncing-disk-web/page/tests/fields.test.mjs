@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { settled, stateOf, type, whenText, within as open } from "./browser.mjs";
+import { isCalm, settled, stateOf, type, whenText, within as open } from "./browser.mjs";
 
 const within = (hash, act) => open({ hash }, act);
 
@@ -99,7 +99,7 @@ for (const view of ["diagram", "basins", "motor"])
         assert.equal(await outcome(page, name, first), null);
         await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "error");
         await settled(page);
-        assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
+        await isCalm(page);
       }
     }));
 

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
+import { boxOf, settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
 
 /** A telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
 const telephone = (view, act) =>
@@ -13,7 +13,10 @@ const telephone = (view, act) =>
     await act(page, touch);
   });
 
-const surface = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first();
+async function middleOf(page, view) {
+  const box = await boxOf(page, view);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
 
 const rangeOf = (text) => text.split(",").map(Number);
 
@@ -35,7 +38,7 @@ test("a finger on the disk throws it, and the page stays where it is", () =>
     await page.tap(".controls .play");
     await page.focus("#view-toss .picture canvas:last-child");
     await page.keyboard.press("Home");
-    const box = await surface(page, "toss").boundingBox();
+    const box = await boxOf(page, "toss");
     // The disk lies in the middle of the picture's width; where it lies in its height, its colour says.
     const height = await page.evaluate(() => {
       const canvas = document.querySelector("#view-toss .picture canvas");
@@ -59,7 +62,7 @@ test("a finger on the disk throws it, and the page stays where it is", () =>
 
 test("a finger beside the disk scrolls the page", () =>
   telephone("toss", async (page, touch) => {
-    const box = await surface(page, "toss").boundingBox();
+    const box = await boxOf(page, "toss");
     await drag(page, touch, [box.x + 20, box.y + box.height - 20], [box.x + 20, box.y - 150], 16);
     await page.waitForFunction(() => scrollY > 50);
     assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
@@ -67,9 +70,8 @@ test("a finger beside the disk scrolls the page", () =>
 
 test("two fingers zoom the orbit diagram about the point between them, and not the page", () =>
   telephone("diagram", async (page, touch) => {
-    const box = await surface(page, "diagram").boundingBox();
+    const [x, y] = await middleOf(page, "diagram");
     const before = rangeOf((await stateOf(page)).diagram_forcing);
-    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await touch("touchStart", [x - 30, y], [x + 30, y]);
     for (let step = 1; step <= 6; step++) {
       await touch("touchMove", [x - 30 - 10 * step, y], [x + 30 + 10 * step, y]);
@@ -88,9 +90,8 @@ test("two fingers zoom the orbit diagram about the point between them, and not t
 
 test("one finger moves the orbit diagram sideways, and a tap chooses a forcing and tells its orbit", () =>
   telephone("diagram", async (page, touch) => {
-    const box = await surface(page, "diagram").boundingBox();
+    const [x, y] = await middleOf(page, "diagram");
     const before = rangeOf((await stateOf(page)).diagram_forcing);
-    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await drag(page, touch, [x, y], [x + 80, y]);
     await page.waitForTimeout(600);
     const after = rangeOf((await stateOf(page)).diagram_forcing);
@@ -105,7 +106,7 @@ test("one finger moves the orbit diagram sideways, and a tap chooses a forcing a
 
 test("a tap on a basin runs the orbit of that start in the first view", () =>
   telephone("basins", async (page) => {
-    const box = await surface(page, "basins").boundingBox();
+    const box = await boxOf(page, "basins");
     await page.touchscreen.tap(box.x + box.width * 0.5, box.y + box.height * 0.4);
     await whenAddress(page, "view", "toss");
     const { impact_phase, normalised_speed } = await stateOf(page);
@@ -115,4 +116,14 @@ test("a tap on a basin runs the orbit of that start in the first view", () =>
     await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
     const shown = Number(await page.inputValue("#field-normalised_speed"));
     assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
+  }));
+
+test("sliders and tabs answer", () =>
+  telephone("toss", async (page) => {
+    await page.tap("#tab-basins");
+    await whenAddress(page, "view", "basins");
+    await page.tap("details:nth-of-type(2) > summary");
+    const box = await page.locator('[data-name="restitution"] input[type=range]').boundingBox();
+    await page.touchscreen.tap(box.x + box.width * 0.25, box.y + box.height / 2);
+    await page.waitForFunction(() => location.hash.includes("restitution=0.2"));
   }));
