@@ -177,7 +177,7 @@ export async function savedBy(page, act) {
 /** The text of the picture that a view offers by this name as SVG. */
 export async function svgOf(page, name) {
   await page.click("#export-button");
-  const item = page.locator(".menu .items button", { hasText: name }).filter({ hasText: "SVG" });
+  const item = page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "SVG" });
   return String((await savedBy(page, () => item.click())).content);
 }
 

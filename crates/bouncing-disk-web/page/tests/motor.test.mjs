@@ -36,7 +36,7 @@ test("the curves of a motor are gone as soon as there is another one, on the scr
         words: texts("#view-motor .chart-word:not([hidden])"),
         canvases: document.querySelectorAll("#view-motor .chart canvas").length,
         facts: texts("#view-motor .facts dd").join(" "),
-        offers: texts(".menu .items button").filter((one) => /motor/i.test(one)),
+        offers: texts("dialog.export .card").filter((one) => /motor/i.test(one)),
       };
     });
     assert.deepEqual(shown.captions, ["", "", "", ""]);
