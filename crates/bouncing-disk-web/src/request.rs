@@ -13,54 +13,22 @@ use crate::reply::Refusal;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SystemParameters {
-    amplitude: f64,
-    twist_amplitude: f64,
-    angular_frequency: f64,
-    phase_lag: f64,
-    contact_radius: f64,
-    gyration_radius: f64,
-    friction: f64,
-    restitution: f64,
-    preload_acceleration: f64,
-    load_acceleration: f64,
+    #[serde(flatten)]
+    platform: PlatformParameters,
+    #[serde(flatten)]
+    disk: DiskParameters,
 }
 
 impl SystemParameters {
     /// The system, checked.
     pub(crate) fn build(self) -> Result<System, Refusal> {
-        let platform = PlatformParameters {
-            amplitude: self.amplitude,
-            twist_amplitude: self.twist_amplitude,
-            angular_frequency: self.angular_frequency,
-            phase_lag: self.phase_lag,
-        };
-        let disk = DiskParameters {
-            contact_radius: self.contact_radius,
-            gyration_radius: self.gyration_radius,
-            friction: self.friction,
-            restitution: self.restitution,
-            preload_acceleration: self.preload_acceleration,
-            load_acceleration: self.load_acceleration,
-        };
-        Ok(System::new(platform.build()?, disk.build()?)?)
+        Ok(System::new(self.platform.build()?, self.disk.build()?)?)
     }
 }
 
 impl From<&System> for SystemParameters {
     fn from(system: &System) -> Self {
-        let (platform, disk) = (system.platform(), system.disk());
-        Self {
-            amplitude: platform.amplitude(),
-            twist_amplitude: platform.twist_amplitude(),
-            angular_frequency: platform.angular_frequency(),
-            phase_lag: platform.phase_lag(),
-            contact_radius: disk.contact_radius(),
-            gyration_radius: disk.gyration_radius(),
-            friction: disk.friction(),
-            restitution: disk.restitution(),
-            preload_acceleration: disk.preload_acceleration(),
-            load_acceleration: disk.load_acceleration(),
-        }
+        Self { platform: system.platform().parameters(), disk: system.disk().parameters() }
     }
 }
 

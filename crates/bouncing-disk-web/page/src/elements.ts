@@ -64,7 +64,6 @@ export const kept = {
   },
 };
 
-/** A button that is not a form's. */
 export function button(label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement {
   return element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
 }
@@ -85,7 +84,6 @@ export function setText(target: Node, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/** A list of names and values that are filled in later. */
 export class Facts {
   readonly root = element("dl", { class: "facts" });
   private readonly values = new Map<string, HTMLElement>();

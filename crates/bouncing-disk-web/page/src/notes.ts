@@ -18,7 +18,6 @@ function isNear(state: State, shown: State): boolean {
 }
 
 export class Notes {
-  /** The preset and the panel that were shown last. */
   private shown: { preset: Preset; panel: Panel } | null = null;
 
   constructor(

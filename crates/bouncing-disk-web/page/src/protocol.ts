@@ -35,11 +35,9 @@ export type MotionStart =
 
 /** The module refuses a request with a name that it does not know, or without one that it needs. */
 export interface Request {
-  readonly call:
-    | "check" | "motion" | "diagram" | "orbit" | "branches" | "attractors" | "basins" | "motor_report"
-    | "motor_transient" | "motor_loads" | "motor_stall" | "sheet_write" | "sheet_read" | "sheet_of_system";
+  readonly call: string;
   readonly [name: string]: unknown;
-} // prettier-ignore
+}
 
 export interface Response<Json> {
   readonly json: Json;
@@ -78,15 +76,8 @@ export interface Refusal {
   readonly message: string;
 }
 
-export interface Summary {
-  readonly axial_forcing: number;
-  readonly angular_forcing: number | null;
-  readonly period: number;
-  readonly peak_acceleration: number;
-  readonly stroke: number;
-  readonly rise_time: number | null;
-  readonly bounces: boolean;
-}
+export type Summary = Readonly<Record<"axial_forcing" | "period" | "peak_acceleration" | "stroke", number>> &
+  Readonly<Record<"angular_forcing" | "rise_time", number | null>> & { readonly bounces: boolean };
 
 export interface MotionJson {
   readonly samples: number;
@@ -150,12 +141,10 @@ export interface ReportJson {
   readonly trap: TrapJson | null;
 }
 
-export interface TrapJson {
-  readonly preload_acceleration: number;
+export type TrapJson = Readonly<Record<"preload_acceleration" | "relative_distance", number>> & {
   readonly caught: boolean;
-  readonly relative_distance: number;
   readonly forcing_from_to: Range;
-}
+};
 
 /** A number with its 95 % interval. */
 export type IntervalJson = Readonly<Record<"value" | "low" | "high", number>>;
@@ -164,10 +153,6 @@ export interface TransientJson {
   readonly points: number;
   readonly rise: { form: "exponential" | "ramp"; constant: IntervalJson; residual: number } | null;
   readonly refusal: string | null;
-}
-
-export interface OperationsJson {
-  readonly shortfalls: readonly (string | null)[];
 }
 
 export interface StallJson {

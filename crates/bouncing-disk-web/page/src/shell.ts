@@ -100,7 +100,6 @@ export class Themes {
     this.apply();
   }
 
-  /** Takes the next one, and says its name. */
   next(): string {
     this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
     kept.write("theme", this.theme);
@@ -134,7 +133,6 @@ function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElem
 
 interface Choice {
   readonly label: string;
-  /** What is said of it. */
   readonly note: string;
   readonly attributes?: Readonly<Record<string, string>>;
   act(): void;
@@ -184,7 +182,6 @@ const KEYS: readonly [string, string][] = [
 /** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
 export const shortcutsOn = (): boolean => kept.read("keys") !== "off";
 
-/** The keyboard's help and what this is. */
 export function helpDialog(): HTMLDialogElement {
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
   box.addEventListener("change", () => kept.write("keys", box.checked ? "on" : "off"));

@@ -52,11 +52,9 @@ export async function within(
 /** The first state has been checked by the module, and a view shows it. */
 export const ready = (page) => page.waitForSelector('[role="tab"][aria-selected="true"]');
 
-/** What is under way, done or wrong, as the line under the view says. */
 export const whenKind = (page, kind, timeout = 30_000) =>
   page.waitForFunction((wanted) => document.getElementById("status").dataset.kind === wanted, kind, { timeout });
 
-/** Nothing went wrong. */
 export async function isCalm(page) {
   assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
   assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
@@ -86,7 +84,6 @@ export async function visit(page, view, act = "click") {
   await settled(page);
 }
 
-/** Opens a figure or table of the paper, and one of its panels. */
 export async function preset(page, id, panel = 0) {
   await page.click("#presets-button");
   await page.click(`[data-preset="${id}"]`);
@@ -95,7 +92,6 @@ export async function preset(page, id, panel = 0) {
   await settled(page);
 }
 
-/** The state, as the address has it. */
 export const stateOf = async (page) =>
   Object.fromEntries(
     (await page.evaluate(() => location.hash))
@@ -113,7 +109,6 @@ export async function whenAddress(page, name, value) {
   );
 }
 
-/** An element's text comes to match. */
 export const whenText = (page, selector, pattern, timeout = 30_000) =>
   page.waitForFunction(
     ([wanted, source]) => new RegExp(source).test(document.querySelector(wanted)?.textContent ?? ""),
@@ -121,7 +116,6 @@ export const whenText = (page, selector, pattern, timeout = 30_000) =>
     { timeout },
   );
 
-/** Types a number into a field of the form and confirms it. */
 export async function type(page, name, text) {
   const field = page.locator(`#field-${name}`);
   await field.evaluate((input) => {

@@ -11,7 +11,6 @@ import { build } from "esbuild";
 export const file =
   process.env.EXPLORER_HTML ?? fileURLToPath(new URL("../../../../target/explorer/explorer.html", import.meta.url));
 
-/** What a source file of the page exports. */
 export async function sourceOf(path) {
   const entryPoints = [fileURLToPath(new URL(`../src/${path}`, import.meta.url))];
   const { outputFiles } = await build({ entryPoints, write: false, bundle: true, format: "esm", logLevel: "warning" });

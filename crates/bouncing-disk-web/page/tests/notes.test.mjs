@@ -37,7 +37,6 @@ async function motion({ system, start }, periods = 20) {
   return { samples, events, separation: events.find(({ kind }) => /separation/i.test(kind)) };
 }
 
-/** The angular speed with which the disk leaves the platform first. */
 const thrown = async (state) => (await motion(state)).separation.angular_speed;
 
 /** The number of the sample with the largest size of a quantity. */

@@ -15,7 +15,6 @@ import {
   within,
 } from "./browser.mjs";
 
-/** The time of the animation, in periods. */
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
 
 /** The disk moves on by itself: the time grows three times in a row, however slow the machine is. */

@@ -12,7 +12,6 @@ import { plainText, type Pen } from "./pen";
 import { Layers } from "./window";
 
 export interface Curve {
-  /** "disk" */
   readonly label: string;
   readonly y: ArrayLike<number>;
   /** Standard errors: a band of twice this is drawn. */
@@ -52,7 +51,6 @@ export interface Chart {
   readonly shade?: { readonly range: Range; readonly label: string };
 }
 
-/** Where a chart in a box of `width` by `height` has its axes. */
 function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
   // A legend stands above the curves, not on them.
   const [low, high] = y.range;
@@ -60,7 +58,6 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
   return layOut(pen, width, height, { x, y: { ...y, range: [low, high + room * 1.4 * (high - low)] } }, size);
 }
 
-/** The whole chart with its legend, in a box of `width` by `height`. */
 function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
   const plot = layOutChart(pen, chart, width, height, size);
   paintGrid(pen, plot);

@@ -109,7 +109,6 @@ async function written(
   return new Blob([...parts, end], { type });
 } // prettier-ignore
 
-/** The rows of a flat array. */
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);
 }
@@ -119,7 +118,6 @@ export const fileName = ({ name, kind }: Offer): string => `${name.trim().replac
 /** How long (ms) a browser may take to begin with saving. */
 const PATIENCE = 60_000;
 
-/** Has the browser save a file. */
 export function save(blob: Blob, download: string): void {
   const href = URL.createObjectURL(blob);
   element("a", { href, download }).click();

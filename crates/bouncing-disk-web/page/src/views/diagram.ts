@@ -7,11 +7,11 @@ import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
-import { DIAGRAM_COLUMNS, type Range, type VerdictJson } from "../protocol";
+import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, describeBifurcations, paintBranches, type Branches } from "./diagram/branches";
-import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Told, type Wanted } from "./diagram/columns";
+import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
 
@@ -36,7 +36,7 @@ class DiagramView implements View {
   private turn = 0;
   /** What was computed, when all is there. */
   private sentence = "";
-  private orbits: Told = { resting: 0, unsettled: 0, left_out: TRANSIENT };
+  private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   private told = false;
   private readonly compute = debounced(60, () => void this.fetch());
 

@@ -22,7 +22,6 @@ const CURVES = ["The speed against the load", "The power", "The efficiency"] as 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
 const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
 
-/** What is known of one motor. */
 class Known {
   sheet: MotorSheet | null = null;
   text = "";

@@ -52,7 +52,6 @@ export class Legend {
     this.list.replaceChildren(...items);
   } // prettier-ignore
 
-  /** What is under the pointer. */
   point(text: string): void {
     setText(this.pointed, text);
   }

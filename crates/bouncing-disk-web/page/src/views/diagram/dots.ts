@@ -18,7 +18,6 @@ const NARROWEST = 1e-9;
 export class Dots {
   /** All answers for the present columns, coarse and fine. */
   columns: Columns[] = [];
-  /** How many columns there will be. */
   count = 0;
   private complete = false;
   private name = "";

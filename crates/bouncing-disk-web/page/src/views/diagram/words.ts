@@ -3,10 +3,10 @@
 import type { Context, State } from "../../contract";
 import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, plain, withError } from "../../numbers";
-import type { VerdictJson } from "../../protocol";
+import type { DiagramJson, VerdictJson } from "../../protocol";
 import { impactOf, tellFailure, verdictOf } from "../asking";
 import { areDrawn, endText, forcingText } from "./branches";
-import { DESCRIBED, RECORDED, TRANSIENT, type Told } from "./columns";
+import { DESCRIBED, RECORDED, TRANSIENT } from "./columns";
 
 const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as const;
 const HINT = "Point at the diagram: the orbit of that forcing from the shared start.";
@@ -86,8 +86,12 @@ export function cancelVerdicts({ client }: Context): void {
   for (let sample = 0; sample < SAMPLES; sample += 1) client.cancel(slotOf(sample));
 }
 
-/** The whole diagram in words. */
-export function describeDiagram(state: State, verdicts: readonly VerdictJson[], count: number, told: Told): string {
+export function describeDiagram(
+  state: State,
+  verdicts: readonly VerdictJson[],
+  count: number,
+  told: DiagramJson,
+): string {
   const { axial_forcing, quantity } = state.diagram;
   const [low, high] = axial_forcing;
   const samples = samplesOf(state);
@@ -107,12 +111,12 @@ function samplesOf({ diagram }: State): number[] {
   return Array.from({ length: SAMPLES }, (_, sample) => low + ((high - low) * (sample + 0.5)) / SAMPLES);
 }
 
-function leftOut({ left_out }: Told): string {
+function leftOut({ left_out }: DiagramJson): string {
   const more = left_out > TRANSIENT ? ` (where that is not enough, up to ${grouped(String(left_out))})` : "";
   return `${TRANSIENT}${more}`;
 }
 
-function unsettled(count: number, { unsettled: number, left_out }: Told, lines: boolean): string {
+function unsettled(count: number, { unsettled: number, left_out }: DiagramJson, lines: boolean): string {
   if (number === 0) return "";
   const some = `${number} of the ${count} orbits ${number === 1 ? "has" : "have"} not`;
   const of = number === count ? "None of the orbits has" : some;

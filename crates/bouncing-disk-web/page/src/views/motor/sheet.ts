@@ -4,7 +4,7 @@ import type { Context, State } from "../../contract";
 import { save } from "../../drawing/files";
 import { button, div, element, section } from "../../elements";
 import {
-  OPERATION_COLUMNS, type MotorSheet, type OperationsJson, type ReportJson, type SheetJson, type StallJson,
+  OPERATION_COLUMNS, type MotorSheet, type ReportJson, type SheetJson, type StallJson,
   type TransientJson,
 } from "../../protocol"; // prettier-ignore
 import { tellFailure } from "../asking";
@@ -59,7 +59,7 @@ export async function operate(
   pass: (typeof PASSES)[number],
 ): Promise<Operation[]> {
   const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
-  const { json, numbers } = await client.series<OperationsJson>(SLOT, [request]);
+  const { json, numbers } = await client.series<{ shortfalls: (string | null)[] }>(SLOT, [request]);
   return load_torques.map((_, row) => {
     const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
     const shortfall = json.shortfalls[row] ?? null;

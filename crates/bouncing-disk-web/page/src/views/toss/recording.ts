@@ -34,7 +34,6 @@ export class Recording {
   constructor(
     { json, numbers, bytes }: Response<MotionJson>,
     readonly periods: number,
-    /** What moves. */
     readonly system: Readonly<SystemParameters>,
   ) {
     this.count = json.samples;
@@ -89,7 +88,6 @@ export class Recording {
     return Math.abs(value) <= ROUNDING * largest ? 0 : value;
   }
 
-  /** Impacts before this time. */
   impactsUntil(time: number): number {
     let low = 0;
     let high = this.impacts.length;

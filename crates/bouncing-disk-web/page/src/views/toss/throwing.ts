@@ -26,7 +26,6 @@ interface ThrowHost {
 
 type Place = ReturnType<typeof placeOn> & { readonly time: number };
 
-/** Makes the disk on a canvas something that can be dragged. */
 export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   let held: { from: Place; pose: Pose; trail: Place[] } | null = null;
   const place = (event: PointerEvent) => ({ ...placeOn(surface, event), time: event.timeStamp });
