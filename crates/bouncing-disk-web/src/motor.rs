@@ -70,7 +70,8 @@ pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
         Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
-        Err(error) => return Err(error.into()),
+        Err(FitError::Model(error)) => return Err(error.into()),
+        Err(_) => (None, Some("the run-up does not determine one")),
     };
     Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())
 }
@@ -178,7 +179,7 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
 
 /// The data sheet of such a text.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
-    sheet_of(&Motor::from_json(text)?)
+    sheet_of(&Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?)
 }
 
 /// The sheet of a system and a mass (kg), with the load as a torque.

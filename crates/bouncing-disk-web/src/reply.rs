@@ -3,8 +3,6 @@
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::estimate::FitError;
-use bouncing_disk::motor::MotorFileError;
 use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -64,7 +62,7 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
-    const fn new(kind: &'static str, message: String) -> Self {
+    pub(crate) const fn new(kind: &'static str, message: String) -> Self {
         Self { kind, quantity: None, value: None, range: None, message }
     }
 
@@ -100,23 +98,5 @@ impl From<Error> for Refusal {
 impl From<CoreError> for Refusal {
     fn from(error: CoreError) -> Self {
         Error::from(error).into()
-    }
-}
-
-impl From<FitError> for Refusal {
-    fn from(error: FitError) -> Self {
-        match error {
-            FitError::Model(error) => error.into(),
-            _ => Self::new("computation", error.to_string()),
-        }
-    }
-}
-
-impl From<MotorFileError> for Refusal {
-    fn from(error: MotorFileError) -> Self {
-        match error {
-            MotorFileError::Illegal(error) => error.into(),
-            _ => Self::new("text", error.to_string()),
-        }
     }
 }

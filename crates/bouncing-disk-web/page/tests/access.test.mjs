@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { preset, settled, stateOf, VIEWS, visit, whenAddress, whenText, within } from "./browser.mjs";
+import { preset, stateOf, VIEWS, visit, whenAddress, whenKind, within } from "./browser.mjs";
 
 /** What a screen reader is told: the nodes of the accessibility tree that are not left out. */
 async function spoken(page, context) {
@@ -158,13 +158,14 @@ test("charts by keyboard: values are read one by one", () =>
     assert.ok((await reading.boundingBox()).height > 10, "what is read is seen, too");
   }));
 
-test("what goes on is not read out step by step, what is done is", () =>
+test("what goes on is not read out step by step, what is done is, and the busy sign turns", () =>
   within({ hash: "#view=basins" }, async (page) => {
     assert.equal(await page.getAttribute("#status", "aria-live"), "polite");
     assert.match(await page.textContent("#status"), /starts at Γ/);
     await page.click("#tab-motor");
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind === "busy");
+    await whenKind(page, "busy");
     assert.equal(await page.getAttribute("#status", "aria-live"), "off");
+    assert.equal(await page.evaluate(() => document.getAnimations().length), 1);
   }));
 
 test("who wants less motion gets a picture that stands, with the first periods in it", () =>
@@ -175,20 +176,12 @@ test("who wants less motion gets a picture that stands, with the first periods i
     await page.waitForTimeout(300);
     assert.match(await page.locator(".facts dd").nth(1).textContent(), /^7\.00 periods/);
     await page.click("#tab-motor");
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind === "busy");
+    await whenKind(page, "busy");
     assert.deepEqual(await page.evaluate(() => document.getAnimations().map((one) => one.playState)), []);
     // Whoever presses the button wants it to move.
     await page.click("#tab-toss");
     await page.click(".controls .play");
     await page.waitForFunction(() => !/^7\.00 periods/.test(document.querySelectorAll(".facts dd")[1].textContent));
-  }));
-
-test("without such a wish the busy sign turns and the disk moves", () =>
-  within({}, async (page) => {
-    await page.waitForFunction(() => document.querySelector(".controls .play").textContent === "Pause");
-    await page.click("#tab-motor");
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind === "busy");
-    assert.equal(await page.evaluate(() => document.getAnimations().length), 1);
   }));
 
 test("colours that the system imposes leave what colours say", () =>

@@ -103,17 +103,6 @@ for (const view of ["diagram", "basins", "motor"])
       }
     }));
 
-test("a motor without friction is said not to turn, and keeps no curves of another", () =>
-  within("#view=motor", async (page) => {
-    const charts = page.locator("#view-motor .chart");
-    await charts.first().waitFor();
-    await type(page, "friction", "0");
-    await whenText(page, "#status", /^Without friction/);
-    await charts.first().waitFor({ state: "hidden" });
-    await type(page, "friction", "0.6");
-    await charts.first().waitFor();
-  }));
-
 test("a throw by numbers is refused with its range, too", () =>
   within("#view=toss", async (page) => {
     await page.click(".throw summary");

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, settled, whenText, within as open } from "./browser.mjs";
+import { fact, type, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
@@ -77,12 +77,18 @@ test("a steady speed says under which load it is, and a load that drives the rot
   });
 });
 
-test("a motor that nothing turns is said to be one", () =>
-  within(`${MOTOR}&twist_amplitude=0`.replace("&twist_amplitude=6.820926132509799e-5", ""), async (page) => {
-    await settled(page);
-    await whenText(page, "#status", /^Without a twist/);
-    assert.equal(await page.locator("#view-motor .chart").first().isVisible(), false);
-  }));
+test("a motor that nothing turns is said to be one, and keeps no curves of another", () =>
+  within("#view=motor", async (page) => {
+    const chart = page.locator("#view-motor .chart").first();
+    await chart.waitFor();
+    for (const [name, value, said] of [["friction", "0.6", /^Without friction/], ["twist_amplitude", "0.9", /^Without a twist/]]) {
+      await type(page, name, "0");
+      await whenText(page, "#status", said);
+      await chart.waitFor({ state: "hidden" });
+      await type(page, name, value);
+      await chart.waitFor();
+    }
+  })); // prettier-ignore
 
 const operation = (row) => ({
   load_torque: 0, speed: 20, speed_error: 0.1, mechanical_power: 0, mechanical_power_error: 1e-9, input_power: 1e-3,

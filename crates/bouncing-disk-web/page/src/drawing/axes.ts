@@ -2,7 +2,7 @@
 
 import { minus } from "../numbers";
 import type { Range } from "../protocol";
-import type { Pen } from "./pen";
+import type { Box, Pen } from "./pen";
 
 export interface Axis {
   /** With its unit: "load (µN m)". */
@@ -25,13 +25,6 @@ export interface Ticks {
 }
 
 export const NO_TICKS: Ticks = { major: [], minor: [] };
-
-export interface Box {
-  readonly left: number;
-  readonly top: number;
-  readonly width: number;
-  readonly height: number;
-}
 
 export interface Plot extends Box, Axes {
   readonly xTicks: Ticks;
@@ -75,11 +68,6 @@ export function valueY({ top, height, y: { range } }: Plot, pixel: number): numb
 
 export function inside(plot: Box, x: number, y: number): boolean {
   return x >= plot.left && x <= plot.left + plot.width && y >= plot.top && y <= plot.top + plot.height;
-}
-
-/** Draws nothing outside of a plot. */
-export function clippedTo({ left, top, width, height }: Box, pen: Pen, draw: () => void): void {
-  pen.clipped(left, top, width, height, draw);
 }
 
 /** Two lines of this half length through a point, upright or at 45 degrees. */

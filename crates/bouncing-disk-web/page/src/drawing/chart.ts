@@ -5,7 +5,7 @@ import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import {
-  clamp, clippedTo, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
+  clamp, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
 } from "./axes"; // prettier-ignore
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE } from "./files";
 import { plainText, type Pen } from "./pen";
@@ -61,7 +61,7 @@ function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: n
 function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
   const plot = layOutChart(pen, chart, width, height, size);
   paintGrid(pen, plot);
-  clippedTo(plot, pen, () => {
+  pen.clipped(plot, () => {
     paintExtras(pen, chart, plot);
     for (const curve of chart.curves) paintCurve(pen, chart, curve, plot);
   });

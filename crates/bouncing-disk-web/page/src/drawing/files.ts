@@ -2,7 +2,7 @@
 
 import type { Offer } from "../contract";
 import { element } from "../elements";
-import { clippedTo, layOut, paintAxes, type Axes, type Plot } from "./axes";
+import { layOut, paintAxes, type Axes, type Plot } from "./axes";
 import { contextOf, SvgPen, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
@@ -41,7 +41,7 @@ export function plotOffers(
     ...picture,
     paint(pen, width, height) {
       const plot = layOut(pen, width, height, axes, PRINT_SIZE);
-      clippedTo(plot, pen, () => paint(pen, plot));
+      pen.clipped(plot, () => paint(pen, plot));
       paintAxes(pen, plot);
     },
   });

@@ -23,6 +23,13 @@ export interface TextStyle {
   halo?: string;
 }
 
+export interface Box {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+}
+
 export interface Pen {
   /** On paper lines stand where they belong, on a screen in the middle of pixels. */
   readonly printed: boolean;
@@ -35,7 +42,8 @@ export interface Pen {
   text(text: string, x: number, y: number, style: TextStyle): void;
   measure(text: string, size: number): number;
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void;
+  /** Draws nothing outside of a box. */
+  clipped(to: Box, draw: () => void): void;
   /** Draws on the sheet moved by so much: for pictures below each other, or in a corner. */
   moved(right: number, down: number, draw: () => void): void;
 }
@@ -173,10 +181,10 @@ export class CanvasPen implements Pen {
     this.context.drawImage(source, x, y, width, height);
   }
 
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+  clipped({ left, top, width, height }: Box, draw: () => void): void {
     this.context.save();
     this.context.beginPath();
-    this.context.rect(x, y, width, height);
+    this.context.rect(left, top, width, height);
     this.context.clip();
     draw();
     this.context.restore();
@@ -263,16 +271,19 @@ export class SvgPen implements Pen {
     this.parts.push(`<image ${box(x, y, width, height)} ${form} href="${source.toDataURL("image/png")}"/>`);
   }
 
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+  clipped({ left, top, width, height }: Box, draw: () => void): void {
     this.clips += 1;
     const id = `clip-${this.clips}`;
-    this.parts.push(`<clipPath id="${id}"><rect ${box(x, y, width, height)}/></clipPath><g clip-path="url(#${id})">`);
-    draw();
-    this.parts.push("</g>");
+    this.parts.push(`<clipPath id="${id}"><rect ${box(left, top, width, height)}/></clipPath>`);
+    this.group(`clip-path="url(#${id})"`, draw);
   }
 
   moved(right: number, down: number, draw: () => void): void {
-    this.parts.push(`<g transform="translate(${short(right)} ${short(down)})">`);
+    this.group(`transform="translate(${short(right)} ${short(down)})"`, draw);
+  }
+
+  private group(attribute: string, draw: () => void): void {
+    this.parts.push(`<g ${attribute}>`);
     draw();
     this.parts.push("</g>");
   }

@@ -3,9 +3,9 @@
 import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
 import {
-  clamp, clippedTo, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Box, type Plot,
+  clamp, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Plot,
 } from "./axes"; // prettier-ignore
-import { CanvasPen, contextOf, type Pen } from "./pen";
+import { CanvasPen, contextOf, type Box, type Pen } from "./pen";
 
 export interface Window2 {
   readonly x: Range;
@@ -94,7 +94,7 @@ export class WindowPicture {
     const plot = this.layOut()?.plot;
     if (plot === undefined) return;
     const pen = this.layers.data();
-    clippedTo(plot, pen, () => this.host.paint(pen, plot));
+    pen.clipped(plot, () => this.host.paint(pen, plot));
     paintAxes(pen, plot);
     this.paintCursor();
   }
@@ -105,7 +105,7 @@ export class WindowPicture {
     if (plot === null) return;
     if (cross !== null) {
       const lines = hairsAt(plot, cross);
-      clippedTo(plot, pen, () => {
+      pen.clipped(plot, () => {
         pen.path(lines, { stroke: "--picture-paper", width: 3, opacity: 0.6 });
         // In no colour of data, and fine: a cross is not taken for a line of the picture.
         pen.path(lines, { stroke: "--picture-text", width: 1, dash: [1, 2] });

@@ -1,7 +1,7 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
 import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
-import { clippedTo, crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
+import { crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { themeColour } from "../drawing/colours";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
@@ -105,7 +105,7 @@ class BasinsView implements View {
           const laid = layOut(pen, width, height - legend.height - TITLE_HEIGHT, this.axes(), PRINT_SIZE);
           const plot = { ...laid, top: laid.top + TITLE_HEIGHT };
           cells.repaint(pen.colour);
-          clippedTo(plot, pen, () => {
+          pen.clipped(plot, () => {
             paintStretched(pen, plot, cells.canvas, cells.window);
             this.paintAttractors(pen, plot);
           });
