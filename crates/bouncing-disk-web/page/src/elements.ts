@@ -46,23 +46,15 @@ export function rich(text: string): Node[] {
     .map((part) => (part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part)));
 }
 
-/** Something kept from visit to visit; a page on the disk may not be allowed to. */
-export const kept = {
-  read(name: string): string | null {
-    try {
-      return localStorage.getItem(`bouncing-disk ${name}`);
-    } catch {
-      return null;
-    }
-  },
-  write(name: string, value: string): void {
-    try {
-      localStorage.setItem(`bouncing-disk ${name}`, value);
-    } catch {
-      // It lasts until the page is closed, then.
-    }
-  },
-};
+/** Something kept from visit to visit, or until the page is closed where a page on the disk may keep nothing. */
+export function kept(name: string, value?: string): string | null {
+  try {
+    if (value !== undefined) localStorage.setItem(`bouncing-disk ${name}`, value);
+    return localStorage.getItem(`bouncing-disk ${name}`);
+  } catch {
+    return null;
+  }
+}
 
 export function button(label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement {
   return element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());

@@ -94,7 +94,7 @@ export class Themes {
     private readonly opener: HTMLButtonElement,
     private readonly changed: () => void,
   ) {
-    const name = kept.read("theme");
+    const name = kept("theme");
     this.theme = THEMES.find((theme) => theme === name) ?? "automatic";
     dark.addEventListener("change", () => this.apply());
     this.apply();
@@ -102,7 +102,7 @@ export class Themes {
 
   next(): string {
     this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
-    kept.write("theme", this.theme);
+    kept("theme", this.theme);
     this.apply();
     return `Colours: ${this.theme}`;
   }
@@ -180,11 +180,11 @@ const KEYS: readonly [string, string][] = [
 ];
 
 /** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
-export const shortcutsOn = (): boolean => kept.read("keys") !== "off";
+export const shortcutsOn = (): boolean => kept("keys") !== "off";
 
 export function helpDialog(): HTMLDialogElement {
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
-  box.addEventListener("change", () => kept.write("keys", box.checked ? "on" : "off"));
+  box.addEventListener("change", () => kept("keys", box.checked ? "on" : "off"));
   const keys = KEYS.map(([key, what]) => {
     const caps = key.split(" ").map((one) => element("kbd", {}, one));
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));

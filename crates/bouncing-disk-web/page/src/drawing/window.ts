@@ -16,31 +16,26 @@ export type Point = readonly [number, number];
 
 type Place = ReturnType<typeof placeOn>;
 
-/** What gestures ask of a picture; they do nothing where they are not heard. */
-interface GestureHost {
-  plot(): Plot | null;
-  window(): Window2;
-  /** Asks for another window; `settled` is false while the gesture goes on. */
-  move?(window: Window2, settled: boolean): void;
-  reset?(): void;
-  /** The pointer or the keyboard's cross is at this value; null: it left. */
-  point(at: Point | null): void;
-  pick(at: Point): void;
-  /** The rectangle that is being drawn. */
-  rectangle?(box: Box | null): void;
-}
-
-interface WindowPictureHost extends Omit<GestureHost, "plot" | "rectangle"> {
+export interface PictureHost {
   readonly className: string;
-  /** What a screen reader says of the picture, with its keys. */
+  /** What a screen reader says of the picture, before its keys. */
   readonly label: string;
   axes(): Axes;
   /** Draws the data into the plot, clipped to it. */
   paint(pen: Pen, plot: Plot): void;
+  /** Draws what moves more often than the data, above them. */
+  paintMarks?(pen: Pen, plot: Plot): void;
+  window(): Window2;
+  /** Asks for another window; `settled` is false while the gesture goes on. Without it there is no zoom. */
+  move?(window: Window2, settled: boolean): void;
+  reset?(): void;
+  /** The pointer or the keyboard's cross is at this value; null: it left. */
+  point?(at: Point | null): void;
+  pick(at: Point): void;
 }
 
-const KEYS =
-  "Plus and minus zoom, arrows move, 0 shows all; Shift with an arrow moves the cross, Enter chooses what is under it.";
+const ZOOM_KEYS = "Plus and minus zoom, arrows move, 0 shows all; ";
+const KEYS = "Shift with an arrow moves the cross, Enter chooses what is under it.";
 
 const LETTERS = 13;
 const SMALL_LETTERS = 12;
@@ -49,27 +44,16 @@ export class WindowPicture {
   readonly layers: Layers;
   readonly tools: HTMLElement;
   /** Where the axes are; null as long as the picture has no size. */
-  private plot: Plot | null = null;
+  plot: Plot | null = null;
   private cross: Point | null = null;
   private box: Box | null = null;
   readonly redraw = oncePerFrame(() => this.paintData());
   private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
 
-  constructor(private readonly host: WindowPictureHost) {
-    this.layers = new Layers(host.className, `${host.label} ${KEYS}`);
-    const gestures = new Gestures(this.layers.surface, {
-      ...host,
-      plot: () => this.plot,
-      point: (at) => {
-        this.cross = at;
-        this.redrawCursor();
-        host.point(at);
-      },
-      rectangle: (box) => {
-        this.box = box;
-        this.redrawCursor();
-      },
-    });
+  constructor(readonly host: PictureHost) {
+    const keys = host.move === undefined ? KEYS : ZOOM_KEYS + KEYS;
+    this.layers = new Layers(host.className, `${host.label} ${keys}`);
+    const gestures = new Gestures(this);
     this.tools = element(
       "div",
       { class: "picture-tools", role: "group", "aria-label": "Zoom" },
@@ -77,6 +61,18 @@ export class WindowPicture {
       button("\u2212", () => gestures.zoom(2), { "aria-label": "Zoom out", title: "Zoom out (-)" }),
       button("All", () => host.reset?.(), { "aria-label": "Show all", title: "Show all (0)" }),
     );
+  }
+
+  point(at: Point | null): void {
+    this.cross = at;
+    this.redrawCursor();
+    this.host.point?.(at);
+  }
+
+  /** Shows the rectangle that is being drawn. */
+  rectangle(box: Box | null): void {
+    this.box = box;
+    this.redrawCursor();
   }
 
   /** Lays the axes out for the present size and window; the number of device pixels of the plot, or null. */
@@ -90,7 +86,7 @@ export class WindowPicture {
     return { plot, columns: Math.round(plot.width * ratio), rows: Math.round(plot.height * ratio) };
   }
 
-  private paintData(): void {
+  paintData(): void {
     const plot = this.layOut()?.plot;
     if (plot === undefined) return;
     const pen = this.layers.data();
@@ -99,10 +95,11 @@ export class WindowPicture {
     this.paintCursor();
   }
 
-  private paintCursor(): void {
+  paintCursor(): void {
     const pen = this.layers.cursor();
     const { plot, box, cross } = this;
     if (plot === null) return;
+    this.host.paintMarks?.(pen, plot);
     if (cross !== null) {
       const lines = hairsAt(plot, cross);
       pen.clipped(plot, () => {
@@ -130,7 +127,7 @@ const SETTLE = 350;
 const SMALLEST_DRAG = 6;
 
 /** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
-export class Gestures {
+class Gestures {
   private readonly pointers = new Map<number, Place>();
   private begun: (Place & { window: Window2; touch: boolean }) | null = null;
   private pinch: { window: Window2; distance: number; at: Point } | null = null;
@@ -138,17 +135,20 @@ export class Gestures {
   private cross: [number, number] | null = null;
   private readonly settle = debounced(SETTLE, () => this.host.move?.(this.host.window(), true));
 
-  constructor(
-    private readonly surface: HTMLElement,
-    private readonly host: GestureHost,
-  ) {
+  private readonly surface: HTMLElement;
+  private readonly host: PictureHost;
+
+  constructor(private readonly picture: WindowPicture) {
+    const { surface } = picture.layers;
+    this.surface = surface;
+    this.host = picture.host;
     surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     surface.addEventListener("pointerdown", (event) => this.down(event));
     surface.addEventListener("pointermove", (event) => this.follow(event));
     surface.addEventListener("pointerup", (event) => this.up(event));
     surface.addEventListener("pointercancel", (event) => this.abandon(event));
     surface.addEventListener("pointerleave", (event) => {
-      if (event.pointerType === "mouse" && this.begun === null) host.point(null);
+      if (event.pointerType === "mouse" && this.begun === null) picture.point(null);
     });
     surface.addEventListener("keydown", (event) => this.key(event));
     // Two fingers zoom the picture and not the page; one finger still scrolls the page.
@@ -167,7 +167,7 @@ export class Gestures {
   }
 
   private wheel(event: WheelEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null) return;
     event.preventDefault();
     const { x, y } = placeOn(this.surface, event);
@@ -190,7 +190,7 @@ export class Gestures {
   }
 
   private down(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null || event.button > 0) return;
     const at = placeOn(this.surface, event);
     this.pointers.set(event.pointerId, at);
@@ -199,7 +199,7 @@ export class Gestures {
       const [one, two] = [...this.pointers.values()] as [Place, Place];
       const at: Point = [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)];
       this.begun = null;
-      this.host.rectangle?.(null);
+      this.picture.rectangle(null);
       this.pinch = { window: this.host.window(), distance: this.distance(), at };
     } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
       this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
@@ -214,7 +214,7 @@ export class Gestures {
   }
 
   private follow(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null) return;
     const at = placeOn(this.surface, event);
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
@@ -231,29 +231,29 @@ export class Gestures {
         const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
         this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
       } else {
-        this.host.rectangle?.(boxOf(plot, begun, at));
+        this.picture.rectangle(boxOf(plot, begun, at));
       }
     } else {
-      this.host.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
+      this.picture.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
     }
   }
 
   private up(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     const { begun } = this;
     const at = placeOn(this.surface, event);
     this.release(event);
     if (plot === null || begun === null) return;
     if (!this.moved) {
       const value: [number, number] = [valueX(plot, at.x), valueY(plot, at.y)];
-      this.host.point(value);
+      this.picture.point(value);
       this.host.pick(value);
     } else if (!begun.touch) {
       const box = boxOf(plot, begun, at);
       // A flat rectangle chooses a range of one axis.
       const wide = box.width >= SMALLEST_DRAG;
       const high = box.height >= SMALLEST_DRAG;
-      this.host.rectangle?.(null);
+      this.picture.rectangle(null);
       this.host.move?.(
         {
           x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
@@ -266,7 +266,7 @@ export class Gestures {
 
   private abandon(event: PointerEvent): void {
     this.release(event);
-    this.host.rectangle?.(null);
+    this.picture.rectangle(null);
   }
 
   private release(event: PointerEvent): void {
@@ -289,8 +289,8 @@ export class Gestures {
     else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
     else if (event.key === "Escape") {
       this.begun = null;
-      this.host.rectangle?.(null);
-      this.host.point(null);
+      this.picture.rectangle(null);
+      this.picture.point(null);
     } else return;
     event.preventDefault();
   }
@@ -302,7 +302,7 @@ export class Gestures {
       clamp(from[0] + (right * (x[1] - x[0])) / 50, x[0], x[1]),
       clamp(from[1] + (up * (y[1] - y[0])) / 50, y[0], y[1]),
     ];
-    this.host.point(this.cross);
+    this.picture.point(this.cross);
   }
 }
 

@@ -90,7 +90,11 @@ class TossView implements View {
     const readings = [...this.readings.elements, throwForm(throwing)];
     const key =
       "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there.";
-    const portrait = [element("h3", {}, "Impacts"), this.portrait.layers.root, element("p", { class: "remark" }, key)];
+    const portrait = [
+      element("h3", {}, "Impacts"),
+      this.portrait.picture.layers.root,
+      element("p", { class: "remark" }, key),
+    ];
     const left = div("toss-left", element("div", {}, ...scene), section("Time traces", null, ...charts));
     const right = [section("Readings", "panel", ...readings), section("Phase portrait", null, ...portrait)];
     host.append(this.controls.root, div("toss", left, div("toss-right", ...right)));
