@@ -54,8 +54,12 @@ interface Job {
   readonly done: (last: Response<never>) => void;
   readonly failed: (error: Error) => void;
   next?: number;
-  /** True once the job has been cancelled while its `each` ran. */
-  ended?: boolean;
+}
+
+interface Running {
+  readonly id: number;
+  readonly job: Job;
+  wanted: boolean;
 }
 
 /** One honest sentence about a worker's end. */
@@ -71,8 +75,7 @@ class Lane {
   private worker: Worker | null = null;
   private ready = false;
   private queue: Job[] = [];
-  private running: { id: number; job: Job; wanted: boolean } | null = null;
-  private delivering: Job | null = null;
+  private running: Running | null = null;
   private lastId = 0;
   private deaths = 0;
 
@@ -97,10 +100,6 @@ class Lane {
       setTimeout(() => {
         if (this.running === running) this.replace();
       }, GRACE);
-    }
-    if (this.delivering?.slot === slot) {
-      this.delivering.ended = true;
-      gone.push(this.delivering);
     }
     for (const job of gone) job.failed(new Cancelled(`"${slot}" was cancelled`));
   }
@@ -145,30 +144,29 @@ class Lane {
       if (message.module !== null) this.workshop.module = { compiled: message.module };
       this.ready = true;
     } else if (running?.id === message.id) {
-      this.running = null;
       this.deaths = 0;
-      if (running.wanted) this.deliver(running.job, message);
+      // What its `each` asks for waits, and may cancel it.
+      if (running.wanted) this.deliver(running, message);
+      this.running = null;
     }
     this.pump();
   }
 
-  private deliver(job: Job, message: Exclude<FromWorker, { kind: "ready" | "failed" }>): void {
+  private deliver(running: Running, message: Exclude<FromWorker, { kind: "ready" | "failed" }>): void {
+    const { job } = running;
     const { next = 0 } = job;
-    this.delivering = job;
     try {
       if (message.kind === "refused") throw new Refused(JSON.parse(message.json) as Refusal);
       const { digest, numbers, bytes } = message;
       const response = { json: JSON.parse(message.json) as never, numbers, bytes, digest };
       job.each(response, next);
-      if (job.ended === true) return;
+      if (!running.wanted) return;
       job.next = next + 1;
       if (job.next >= job.requests.length) job.done(response);
       // Behind the jobs of other slots, so that a long series does not keep them waiting.
       else this.queue.push(job);
     } catch (error) {
       job.failed(error instanceof Error ? error : new Error(String(error)));
-    } finally {
-      this.delivering = null;
     }
   }
 

@@ -46,7 +46,7 @@ export function rich(text: string): Node[] {
     .map((part) => (part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part)));
 }
 
-/** Something kept from visit to visit, or until the page is closed where a page on the disk may keep nothing. */
+/** Something kept from visit to visit; null where there is none, or where a page on the disk may keep nothing. */
 export function kept(name: string, value?: string): string | null {
   try {
     if (value !== undefined) localStorage.setItem(`bouncing-disk ${name}`, value);

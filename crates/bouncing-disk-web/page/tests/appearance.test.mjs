@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { coloursOf, preset, settled, VIEWS, visit, within } from "./browser.mjs";
+import { coloursOf, settled, VIEWS, visit, within } from "./browser.mjs";
 
 /** What the Web Content Accessibility Guidelines ask of text, and of lines and marks that carry meaning. */
 const TEXT = 4.5;
@@ -137,17 +137,5 @@ test("on a telephone the picture comes first and the form is folded below it", (
       assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
       assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
       assert.equal(seen.open, 0);
-    }
-  }));
-
-test("on a large screen the pictures take the height of the window", () =>
-  within({ width: 2560, height: 1440 }, async (page) => {
-    for (const view of VIEWS) {
-      await visit(page, view);
-      const bottoms = await page
-        .locator(`#view-${view} canvas`)
-        .evaluateAll((all) => all.map((one) => one.getBoundingClientRect().bottom));
-      const bottom = Math.max(...bottoms);
-      assert.ok(bottom > 0.8 * 1440 && bottom <= 1440, `${view} ends at ${bottom}`);
     }
   }));

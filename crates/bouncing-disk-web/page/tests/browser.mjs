@@ -61,8 +61,7 @@ export async function isCalm(page) {
 }
 
 /** The place of a view's first picture in the window: its upper layer, which takes the pointer and the keyboard. */
-export const boxOf = (page, view) => surface(page, view).boundingBox();
-export const surface = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first();
+export const boxOf = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first().boundingBox();
 
 /** Nothing is being computed any more; a motor's curves take longer than a test has to wait for. */
 export async function settled(page) {
@@ -159,6 +158,16 @@ export const pixelsOf = (page, selector, colours, slack = 0) =>
     },
     [selector, colours, slack],
   );
+
+/** The middle of what has the colour of the disk, in the window: there it answers to the pointer. */
+export async function placeOfDisk(page) {
+  await page.waitForTimeout(100);
+  const box = await boxOf(page, "toss");
+  const pixels = await pixelsOf(page, "#view-toss .picture canvas", await coloursOf(page, ["--disk"]));
+  const ratio = await page.evaluate(() => devicePixelRatio);
+  const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
+  return [box.x + middle(0), box.y + middle(1)];
+}
 
 /** The bytes of a file that the browser saves. */
 export async function savedBy(page, act) {

@@ -111,10 +111,15 @@ test("every view opens by its tab; from 360 to 2,560 pixels nothing sticks out, 
         assert.equal(await page.getAttribute(`#tab-${view}`, "aria-selected"), "true");
         assert.ok((await page.getAttribute(`#view-${view}`, "aria-description")).length > 10);
         await whenAddress(page, "view", view);
-        const { wide, room } = await page.evaluate((name) => {
-          const { width, height } = document.getElementById(`view-${name}`).getBoundingClientRect();
-          return { wide: document.documentElement.scrollWidth - innerWidth, room: [width, height] };
+        const { wide, room, bottom } = await page.evaluate((name) => {
+          const host = document.getElementById(`view-${name}`);
+          const { width, height } = host.getBoundingClientRect();
+          const ends = [...host.querySelectorAll("canvas")].map((one) => one.getBoundingClientRect().bottom);
+          const wide = document.documentElement.scrollWidth - innerWidth;
+          return { wide, room: [width, height], bottom: Math.max(...ends) };
         }, view);
+        // On a large screen the pictures take the height of the window.
+        if (width === 2560) assert.ok(bottom > 0.8 * 1440 && bottom <= 1440, `${view} ends at ${bottom}`);
         assert.ok(wide <= 0, `${view} at ${width}: ${wide} px too wide`);
         assert.ok(room[0] >= 0.6 * width && room[1] >= 300, `${view} at ${width}: ${room}`);
       }

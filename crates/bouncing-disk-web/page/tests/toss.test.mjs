@@ -6,6 +6,7 @@ import {
   coloursOf,
   fact,
   pixelsOf,
+  placeOfDisk,
   preset,
   settled,
   stateOf,
@@ -106,10 +107,9 @@ test("a motion goes on where it was left, and stays where somebody has stopped i
 
 test("a throw is in the address, and a link of it shows the same motion", () =>
   within({}, async (page) => {
-    const box = await page.locator("#view-toss .picture-scene canvas").last().boundingBox();
     await page.click(".controls .play");
     await seek(page, 0);
-    const [x, y] = await placeOfDisk(page, box);
+    const [x, y] = await placeOfDisk(page);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 20, y - 30, { steps: 4 });
@@ -140,15 +140,6 @@ test("a throw is in the address, and a link of it shows the same motion", () =>
     await page.press("#field-normalised_speed", "Enter");
     await whenAddress(page, "throw", "none");
   }));
-
-/** The middle of what has the colour of the disk: there it answers to the pointer. */
-async function placeOfDisk(page, box) {
-  await page.waitForTimeout(100);
-  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", await coloursOf(page, ["--disk"]));
-  const ratio = await page.evaluate(() => devicePixelRatio);
-  const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
-  return [box.x + middle(0), box.y + middle(1)];
-}
 
 const balanceOf = async (page) => {
   const names = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"];

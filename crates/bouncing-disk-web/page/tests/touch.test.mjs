@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { boxOf, settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
+import { boxOf, placeOfDisk, settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
 
 /** A telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
 const telephone = (view, act) =>
@@ -38,20 +38,7 @@ test("a finger on the disk throws it, and the page stays where it is", () =>
     await page.tap(".controls .play");
     await page.focus("#view-toss .picture canvas:last-child");
     await page.keyboard.press("Home");
-    const box = await boxOf(page, "toss");
-    // The disk lies in the middle of the picture's width; where it lies in its height, its colour says.
-    const height = await page.evaluate(() => {
-      const canvas = document.querySelector("#view-toss .picture canvas");
-      const ratio = canvas.width / canvas.clientWidth;
-      const { data } = canvas.getContext("2d").getImageData(canvas.width / 2 - 30 * ratio, 0, 1, canvas.height);
-      const rows = [];
-      for (let row = 0; row < canvas.height; row++) {
-        const [red, green, blue] = data.subarray(4 * row, 4 * row + 3);
-        if (red < 20 && green > 90 && blue > 150) rows.push(row / ratio);
-      }
-      return rows[Math.floor(rows.length / 2)];
-    });
-    const from = [box.x + box.width / 2 - 30, box.y + height];
+    const from = await placeOfDisk(page);
     await drag(page, touch, from, [from[0] + 50, from[1] - 60]);
     await whenText(page, "#status", /^Thrown .* above/);
     const told = await page.textContent("#status");
