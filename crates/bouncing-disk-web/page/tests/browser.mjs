@@ -1,7 +1,7 @@
 /** The installed Chromium and the built page, for all tests. */
 
 import assert from "node:assert/strict";
-import { after, before } from "node:test";
+import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 import { file } from "./module.mjs";
@@ -21,12 +21,11 @@ after(() => browser.close());
 
 /**
  * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing that
- * it asks of anybody. `script` runs in the page before its own; other options are those of a browser's context.
+ * it asks of anybody. A hash alone may stand for the options; `script` runs in the page before its own; other options are those of a browser's context.
  */
-export async function within(
-  { hash = "", to = address, width = 1280, height = 800, settle = true, script, ...options },
-  act,
-) {
+export async function within(given, act) {
+  const wanted = typeof given === "string" ? { hash: given } : given;
+  const { hash = "", to = address, width = 1280, height = 800, settle = true, script, ...options } = wanted;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: "light", ...options });
   if (script !== undefined) await context.addInitScript(script);
   const page = await context.newPage();
@@ -48,6 +47,9 @@ export async function within(
     await context.close();
   }
 }
+
+/** A test of what happens on such a page. */
+export const onPage = (title, options, act) => test(title, () => within(options, act));
 
 /** The first state has been checked by the module, and a view shows it. */
 export const ready = (page) => page.waitForSelector('[role="tab"][aria-selected="true"]');

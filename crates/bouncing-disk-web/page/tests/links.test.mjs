@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { preset, settled, stateOf, stream, within } from "./browser.mjs";
+import { onPage, preset, settled, stateOf, stream, within } from "./browser.mjs";
 
 /** The pixels of the diagram, with the pointer out of its way. */
 async function pictureOf(page) {
@@ -12,71 +12,69 @@ async function pictureOf(page) {
   return page.locator("#view-diagram").screenshot();
 }
 
-test("states with awkward numbers come back to the bit", () =>
-  within({}, async (page) => {
-    const random = stream(7);
-    for (let round = 0; round < 25; round++) {
-      const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
-      const wanted = {
-      view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
-      amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
-      phase_lag: -3 * random(),
-      contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
-      preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
-      impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
-      throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
-      diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
-      diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
-      basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
-      motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
-      motor_rise_times: String(1 + 5 * random()),
-    }; // prettier-ignore
-      const hash = `#${Object.entries(wanted)
-        .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
-        .join("&")}`;
-      await page.evaluate((next) => {
-        location.hash = next;
-      }, hash);
-      await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
-      await page.waitForFunction(
-        (text) => document.getElementById("field-amplitude").title === text,
-        String(wanted.amplitude),
-      );
-      assert.equal(await page.evaluate(() => location.hash), hash);
-      const typed = await page.evaluate(() =>
-        Object.fromEntries(
-          [...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title]),
-        ),
-      );
-      for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
-        assert.equal(Number(typed[name]), wanted[name], name);
-      }
-      assert.equal(await page.isVisible("#problems"), false);
+onPage("states with awkward numbers come back to the bit", {}, async (page) => {
+  const random = stream(7);
+  for (let round = 0; round < 25; round++) {
+    const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
+    const wanted = {
+    view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
+    amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
+    phase_lag: -3 * random(),
+    contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
+    preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
+    impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
+    throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
+    diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
+    diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
+    basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
+    motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
+    motor_rise_times: String(1 + 5 * random()),
+  }; // prettier-ignore
+    const hash = `#${Object.entries(wanted)
+      .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
+      .join("&")}`;
+    await page.evaluate((next) => {
+      location.hash = next;
+    }, hash);
+    await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
+    await page.waitForFunction(
+      (text) => document.getElementById("field-amplitude").title === text,
+      String(wanted.amplitude),
+    );
+    assert.equal(await page.evaluate(() => location.hash), hash);
+    const typed = await page.evaluate(() =>
+      Object.fromEntries(
+        [...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title]),
+      ),
+    );
+    for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
+      assert.equal(Number(typed[name]), wanted[name], name);
     }
-  }));
+    assert.equal(await page.isVisible("#problems"), false);
+  }
+});
 
-test("the copied link opens the same state in a fresh page", () =>
-  within({}, async (page) => {
-    await preset(page, "fig06");
-    await page.evaluate(() => {
-      document.execCommand = () => {
-        globalThis.copied = document.activeElement.value;
-        return true;
-      };
-      Object.defineProperty(navigator, "clipboard", {
-        value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
-      });
+onPage("the copied link opens the same state in a fresh page", {}, async (page) => {
+  await preset(page, "fig06");
+  await page.evaluate(() => {
+    document.execCommand = () => {
+      globalThis.copied = document.activeElement.value;
+      return true;
+    };
+    Object.defineProperty(navigator, "clipboard", {
+      value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
     });
-    await page.click("#link-button");
-    await page.waitForFunction(() => globalThis.copied);
-    const link = await page.evaluate(() => globalThis.copied);
-    const picture = await pictureOf(page);
-    await within({ hash: link.slice(link.indexOf("#")) }, async (fresh) => {
-      assert.deepEqual(await stateOf(fresh), await stateOf(page));
-      assert.match(await fresh.textContent("#note"), /Fig\. 6/);
-      assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
-    });
-  }));
+  });
+  await page.click("#link-button");
+  await page.waitForFunction(() => globalThis.copied);
+  const link = await page.evaluate(() => globalThis.copied);
+  const picture = await pictureOf(page);
+  await within({ hash: link.slice(link.indexOf("#")) }, async (fresh) => {
+    assert.deepEqual(await stateOf(fresh), await stateOf(page));
+    assert.match(await fresh.textContent("#note"), /Fig\. 6/);
+    assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
+  });
+});
 
 const UNREADABLE = ["throw has to be none, or", "four numbers"];
 /** Links, the parts of the state that they lead to, and what is said of them. */
@@ -122,7 +120,7 @@ const LINKS = [
 
 test("what is broken in a link is refused with a sentence each, and the rest is kept", async () => {
   for (const [hash, wanted, said, status = /^/] of LINKS)
-    await within({ hash: `#${hash}` }, async (page) => {
+    await within(`#${hash}`, async (page) => {
       const state = await stateOf(page);
       for (const [name, value] of Object.entries(wanted)) assert.equal(state[name], value, `${name} of ${hash}`);
       const told = await page.textContent("#problems");
@@ -152,32 +150,30 @@ const arrives = (page, hash, before, name, text) =>
 const whenField = (page, name, text) =>
   page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
 
-test("what is typed while an address is being checked changes the state of that address", () =>
-  within({}, async (page) => {
-    await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
-    await whenField(page, "restitution", "0.62");
-    assert.equal((await stateOf(page)).friction, "0.31");
-    // What the address has that is refused is refused all the same.
-    await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
-    await whenField(page, "restitution", "0.63");
-    await settled(page);
-    assert.equal(await page.isVisible("#problems"), true);
-    assert.ok((await stateOf(page)).friction >= 0);
-  }));
+onPage("what is typed while an address is being checked changes the state of that address", {}, async (page) => {
+  await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
+  await whenField(page, "restitution", "0.62");
+  assert.equal((await stateOf(page)).friction, "0.31");
+  // What the address has that is refused is refused all the same.
+  await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
+  await whenField(page, "restitution", "0.63");
+  await settled(page);
+  assert.equal(await page.isVisible("#problems"), true);
+  assert.ok((await stateOf(page)).friction >= 0);
+});
 
-test("an address takes the place of what was typed before it, and the last of several is kept", () =>
-  within({}, async (page) => {
-    await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
-    await whenField(page, "friction", "0.33");
-    await settled(page);
-    assert.equal((await stateOf(page)).restitution, "0.25");
-    await page.evaluate(async () => {
-      for (const friction of ["0.41", "0.42", "0.43", "-1", "0.44"]) {
-        location.hash = `friction=${friction}`;
-        await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
-      }
-    });
-    await whenField(page, "friction", "0.44");
-    await settled(page);
-    assert.equal((await stateOf(page)).friction, "0.44");
-  }));
+onPage("an address takes the place of what was typed before, and the last one is kept", {}, async (page) => {
+  await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
+  await whenField(page, "friction", "0.33");
+  await settled(page);
+  assert.equal((await stateOf(page)).restitution, "0.25");
+  await page.evaluate(async () => {
+    for (const friction of ["0.41", "0.42", "0.43", "-1", "0.44"]) {
+      location.hash = `friction=${friction}`;
+      await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
+    }
+  });
+  await whenField(page, "friction", "0.44");
+  await settled(page);
+  assert.equal((await stateOf(page)).friction, "0.44");
+});
