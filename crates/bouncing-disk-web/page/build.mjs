@@ -76,11 +76,6 @@ function written(path, content) {
 
 async function main() {
   const { wasm, glue, out, check } = options;
-  if (!wasm || !glue || !out) {
-    console.error("usage: node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--check]");
-    process.exitCode = 2;
-    return;
-  }
   const compiler = join(here, "node_modules/typescript/bin/tsc");
   if (check && spawnSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" }).status !== 0) {
     process.exitCode = 1;

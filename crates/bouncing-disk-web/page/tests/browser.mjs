@@ -20,8 +20,9 @@ before(async () => {
 after(() => browser.close());
 
 /**
- * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing that
- * it asks of anybody. A hash alone may stand for the options; `script` runs in the page before its own; other options are those of a browser's context.
+ * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing
+ * that it asks of anybody. `script` runs in the page before its own; other options are those of a browser's context.
+ * A hash alone may stand for the options.
  */
 export async function within(given, act) {
   const wanted = typeof given === "string" ? { hash: given } : given;
