@@ -57,6 +57,10 @@ fn bits(numbers: &[f64]) -> Vec<u64> {
     numbers.iter().map(|number| number.to_bits()).collect()
 }
 
+fn check(system: Value) -> Value {
+    json!({ "call": "check", "system": system })
+}
+
 fn start() -> Value {
     json!({ "impact_phase": 1.2, "normalised_speed": 1.3 })
 }
@@ -83,19 +87,10 @@ fn basins(rows: [usize; 2]) -> Value {
 #[test]
 fn the_tables_of_the_page_are_those_of_the_library() {
     let (hand, dough, motor) = (Stroke::pizza_toss(), System::pizza_toss(), Motor::paper_70_khz());
-    let tables = json!({
-        "table_one": {
-            "stroke": hand.stroke,
-            "amplitude_angle": hand.amplitude_angle,
-            "angular_frequency": hand.angular_frequency,
-            "contact_radius": hand.contact_radius,
-            "gyration_radius": dough.disk().gyration_radius(),
-            "friction": dough.disk().friction(),
-            "restitution": dough.disk().restitution(),
-            "preload_acceleration": dough.disk().preload_acceleration(),
-        },
-        "table_three": motor,
+    let motion = json!({
+        "stroke": hand.stroke, "amplitude_angle": hand.amplitude_angle, "angular_frequency": hand.angular_frequency
     });
+    let tables = json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor });
     let text = serde_json::to_string_pretty(&tables).expect("storable") + "\n";
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/page/src/tables.json");
     if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {
@@ -106,19 +101,17 @@ fn the_tables_of_the_page_are_those_of_the_library() {
 
 #[test]
 fn a_system_is_checked_by_the_ranges_of_the_library() {
-    let (summary, _) = answered(&json!({ "call": "check", "system": pizza() }));
+    let (summary, _) = answered(&check(pizza()));
     let forcing = 0.13 * 225.0 / (std::f64::consts::PI * 9.8);
     assert!((number(&summary, "axial_forcing") - forcing).abs() < 1e-15);
     assert_eq!(summary["bounces"], true);
     for (name, value) in [("restitution", 1.5), ("amplitude", -1.0), ("angular_frequency", 0.0)] {
-        let system = with(pizza(), json!({ name: value }));
-        let refusal = refused(&json!({ "call": "check", "system": system }));
+        let refusal = refused(&check(with(pizza(), json!({ name: value }))));
         assert_eq!((&refusal["kind"], &refusal["quantity"]), (&json!("out-of-range"), &json!(name)));
         assert_eq!(refusal["value"].as_f64(), Some(value));
         assert!(refusal["range"].as_str().is_some_and(|range| !range.is_empty()), "{refusal}");
     }
-    let frictionless = with(pizza(), json!({ "friction": 0.0, "amplitude": 0.0 }));
-    let (summary, _) = answered(&json!({ "call": "check", "system": frictionless }));
+    let (summary, _) = answered(&check(with(pizza(), json!({ "friction": 0.0, "amplitude": 0.0 }))));
     assert_eq!((&summary["angular_forcing"], &summary["rise_time"]), (&Value::Null, &Value::Null));
     assert_eq!(summary["bounces"], false);
 }
@@ -132,11 +125,10 @@ fn what_is_no_request_is_told() {
         let reply = explorer.respond(text);
         assert!(reply.refused && reply.json.contains("\"kind\":\"request\""), "{}", reply.json);
     }
-    let unknown = with(pizza(), json!({ "colour": 1.0 }));
-    assert_eq!(refused(&json!({ "call": "check", "system": unknown }))["kind"], "request");
     // JavaScript writes a number that is none, or infinite, as null.
-    let missing = with(pizza(), json!({ "friction": null }));
-    assert_eq!(refused(&json!({ "call": "check", "system": missing }))["kind"], "request");
+    for wrong in [json!({ "colour": 1.0 }), json!({ "friction": null })] {
+        assert_eq!(refused(&check(with(pizza(), wrong)))["kind"], "request");
+    }
 }
 
 #[test]
@@ -272,7 +264,7 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
 /// 300 bring them about.
 #[test]
 fn columns_are_followed_until_they_have_settled() {
-    let unit = number(&answered(&json!({ "call": "check", "system": pizza() })).0, "angular_forcing");
+    let unit = number(&answered(&check(pizza())).0, "angular_forcing");
     let system = with(pizza(), json!({ "phase_lag": 0.0, "twist_amplitude": 100.0 / unit }));
     for (forcing, spins) in [(0.51, [0.9028, 0.9219]), (0.53, [0.9495, 0.9683])] {
         let request = with(

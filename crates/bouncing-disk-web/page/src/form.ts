@@ -49,25 +49,24 @@ function measured(value: number, unit: string): string {
 const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, "m"));
 const hertz = (value: number): string => measured(value / (2 * Math.PI), "Hz");
 
-type Words = Pick<Parameter, "angle" | "hint">;
+type Words = [
+  symbol: string,
+  label: string,
+  unit: string,
+  Parameter["slider"],
+  more?: Pick<Parameter, "angle" | "hint">,
+];
 
 const LOGARITHMIC = "logarithmic";
 
 /** Makes parameters of the numbers in a part of the state. */
 const parametersOf =
   <Part extends "system" | "start">(part: Part) =>
-  (
-    name: keyof State[Part] & string,
-    symbol: string,
-    label: string,
-    unit: string,
-    slider: Parameter["slider"],
-    more: Words = {},
-  ): Parameter => ({
-    name, symbol, label, unit, slider, ...more,
+  (name: keyof State[Part] & string, ...[symbol, label, unit, slider, more]: Words): Parameter => ({
+    ...{ name, symbol, label, unit, slider, ...more },
     value: (state) => state[part][name] as number,
     change: (value) => ({ [part]: { [name]: value } }),
-  }); // prettier-ignore
+  });
 const ofSystem = parametersOf("system");
 const ofStart = parametersOf("start");
 

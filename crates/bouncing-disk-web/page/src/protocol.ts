@@ -1,11 +1,7 @@
 /**
- * What the page reads of the module's answers; all of it, and the requests, are described in `src/request.rs` and its
- * neighbours, whose names these are. Numbers are SI and angles are radians, unless a name says otherwise: phases of
- * pictures are in periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
- * velocity, as in Fig. 7 of the paper.
- *
- * A request is JSON, so that it can be kept in a link, printed and given to the native library, which answers it with
- * the same bits.
+ * What the page reads of the module's answers; all of it, and the requests with their units, are described in
+ * `src/request.rs` and its neighbours, whose names these are. A request is JSON, so that it can be printed and given to
+ * the native library, which answers it with the same bits.
  */
 
 /** From a low to a high number. */

@@ -177,11 +177,9 @@ export function clamp(value: number, low: number, high: number): number {
 export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
   const width = (high - low) * factor;
   if (!(width > 0)) return NO_TICKS;
-  const raw = width / Math.max(count, 1);
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const lead = raw / power;
-  const [step, parts] = lead <= 1 ? [1, 5] : lead <= 2 ? [2, 4] : lead <= 5 ? [5, 5] : [10, 5];
-  const size = step * power;
+  const size = roundUp(width / Math.max(count, 1));
+  // A step of two has four parts, others have five.
+  const parts = Math.round(size / 10 ** Math.floor(Math.log10(size) + 1e-9)) === 2 ? 4 : 5;
   const decimals = Math.max(0, -Math.floor(Math.log10(size) + 1e-9));
   const slack = 1e-9;
   const between = (by: number) => {

@@ -41,6 +41,10 @@ export class Asked<Value> {
   private key = "";
   private coming: Promise<Value> | null = null;
 
+  forget(): void {
+    this.coming = null;
+  }
+
   get(wanted: unknown, ask: () => Promise<Value>): Promise<Value> {
     const key = JSON.stringify(wanted);
     if (this.coming !== null && key === this.key) return this.coming;

@@ -5,7 +5,7 @@ import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
 import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
 import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../protocol";
-import { tellFailure } from "./asking";
+import { Asked, tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
   MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
@@ -44,10 +44,9 @@ class MotorView implements View {
   private readonly remark = element("p", { class: "remark" }, REMARK);
   private known = new Known();
   private imported: SheetJson | null = null;
-  /** The state that is shown, and the one that is computed or was: "" if none is. */
+  /** What the motor that is shown depends on. */
   private shown = "";
-  private asked = "";
-  private complete = false;
+  private readonly all = new Asked<void>();
   private readonly compute = debounced(150, () => void this.fetch());
   private readonly draw = oncePerFrame(() => this.paint());
 
@@ -82,7 +81,6 @@ class MotorView implements View {
   hide(): void {
     this.compute.stop();
     this.context.client.cancel(SLOT);
-    if (!this.complete) this.asked = "";
   }
 
   redraw(): void {
@@ -103,8 +101,7 @@ class MotorView implements View {
 
   private forget(): void {
     this.context.client.cancel(SLOT);
-    this.asked = "";
-    this.complete = false;
+    this.all.forget();
     this.known = new Known();
     this.sheetPanel.show("");
     this.reportPanel.clear();
@@ -112,15 +109,9 @@ class MotorView implements View {
 
   private async fetch(): Promise<void> {
     const state = this.context.state();
-    const key = keyOf(state);
-    if (key === this.asked) return;
-    this.forget();
-    this.draw();
-    this.asked = key;
     try {
-      await this.computeAll(state, this.known);
+      await this.all.get(keyOf(state), () => this.computeAll(state, (this.known = new Known())));
     } catch (error) {
-      if (this.asked === key && error instanceof Cancelled) this.asked = "";
       tellFailure(this.context, error);
     }
   }
@@ -140,7 +131,6 @@ class MotorView implements View {
     this.draw();
     const still = whyNothingTurns(report);
     if (still !== null) {
-      this.complete = true;
       reportPanel.still();
       context.status(still);
       return;
@@ -164,7 +154,6 @@ class MotorView implements View {
       this.draw();
       throw error;
     }
-    this.complete = true;
     if (known.problems.runUp !== undefined) context.status(known.problems.runUp, "error");
     else context.status(summaryOf(known.operations));
   }
