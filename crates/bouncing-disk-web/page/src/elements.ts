@@ -126,7 +126,3 @@ export function debounced<Values extends unknown[]>(
   later.stop = () => clearTimeout(timer);
   return later;
 }
-
-export function prefersLessMotion(): boolean {
-  return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-}

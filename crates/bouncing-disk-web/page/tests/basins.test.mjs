@@ -1,7 +1,7 @@
 /** Basins: what is seen is of the map that the form names, and shares say of which starts they are. */
 
 import assert from "node:assert/strict";
-import { coloursOf, onPage, pixelsOf, svgOf, type, whenKind, whenText, within } from "./browser.mjs";
+import { onPage, pixelsOf, svgOf, type, whenKind, whenText } from "./browser.mjs";
 
 /** What is asked by one of the calls in `window.holds` waits until `window.release()`, and other calls from then on. */
 function holdable() {
@@ -24,8 +24,7 @@ function holdable() {
 const CATEGORIES = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
 
 /** How many pixels of the picture have the colour of an attractor. */
-const coloured = async (page) =>
-  (await pixelsOf(page, "#view-basins canvas", await coloursOf(page, CATEGORIES))).length;
+const coloured = async (page) => (await pixelsOf(page, "#view-basins canvas", CATEGORIES)).length;
 
 const hold = (page, ...calls) => page.evaluate((which) => (window.holds = which), calls);
 const caption = (page) => page.textContent("#view-basins .alternative");

@@ -127,6 +127,11 @@ export async function type(page, name, text) {
   await field.press("Enter");
 }
 
+/** The number of the state, which a field has in its title with all digits, and when it is there. */
+export const valueOf = (page, name) => page.getAttribute(`#field-${name}`, "title");
+export const whenValue = (page, name, text) =>
+  page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
+
 /** What stands beside a name in a view's list of facts. */
 export const fact = (page, view, name) =>
   page.locator(`#view-${view} .facts div:has(dt:text-is("${name}")) dd`).textContent();
@@ -143,7 +148,7 @@ export const coloursOf = (page, names) =>
   }, names);
 
 /** The pixels of a picture that have one of these colours, within `slack` of each byte: `[x, y]`, in device pixels. */
-export const pixelsOf = (page, selector, colours, slack = 0) =>
+export const pixelsOf = async (page, selector, names, slack = 0) =>
   page.evaluate(
     ([wanted, hexadecimal, most]) => {
       const canvas = document.querySelector(wanted);
@@ -159,14 +164,14 @@ export const pixelsOf = (page, selector, colours, slack = 0) =>
         if (is(at)) found.push([(at / 4) % width, Math.floor(at / 4 / width)]);
       return found;
     },
-    [selector, colours, slack],
+    [selector, await coloursOf(page, names), slack],
   );
 
 /** The middle of what has the colour of the disk, in the window: there it answers to the pointer. */
 export async function placeOfDisk(page) {
   await page.waitForTimeout(100);
   const box = await boxOf(page, "toss");
-  const pixels = await pixelsOf(page, "#view-toss .picture canvas", await coloursOf(page, ["--disk"]));
+  const pixels = await pixelsOf(page, "#view-toss .picture canvas", ["--disk"]);
   const ratio = await page.evaluate(() => devicePixelRatio);
   const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
   return [box.x + middle(0), box.y + middle(1)];

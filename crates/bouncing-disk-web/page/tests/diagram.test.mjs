@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { isCalm, onPage, type, within as open } from "./browser.mjs";
+import { isCalm, onPage, type, whenValue, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const within = (hash, act) => open({ hash: `#view=diagram&${hash}` }, act);
@@ -48,7 +48,7 @@ test("a disk that takes up no spin has a sentence and a range instead of roundin
 onPage("a forcing is shown as it was typed", "#view=diagram", async (page) => {
   for (const forcing of ["0.49", "0.34", "0.55", "0.7"]) {
     await type(page, "axial_forcing", forcing);
-    await page.waitForFunction((text) => document.getElementById("field-axial_forcing").title === text, forcing);
+    await whenValue(page, "axial_forcing", forcing);
   }
 });
 

@@ -1,7 +1,7 @@
 /** Every field at and beyond its limits: refused where it is typed, or taken; the page goes on in both cases. */
 
 import assert from "node:assert/strict";
-import { isCalm, settled, stateOf, type, whenText, onPage } from "./browser.mjs";
+import { isCalm, settled, stateOf, type, valueOf, whenText, onPage } from "./browser.mjs";
 
 const NO_NUMBER = /is not a number; write it like 0\.5/;
 const TAKEN = null;
@@ -36,9 +36,6 @@ onPage("the list of fields is that of the page", "#view=toss", async (page) => {
   const names = await page.evaluate(() => [...document.querySelectorAll(".field")].map((one) => one.dataset.name));
   assert.deepEqual(names, Object.keys(FIELDS));
 });
-
-/** The number of the state, which a field has in its title with all digits. */
-const valueOf = (page, name) => page.getAttribute(`#field-${name}`, "title");
 
 /** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */
 async function outcome(page, name, text) {

@@ -1,7 +1,7 @@
 /** What is not known is shown and named: undecided cells, cycles that rounding chose, errors of numbers. */
 
 import assert from "node:assert/strict";
-import { coloursOf, fact, pixelsOf, type, whenText, onPage } from "./browser.mjs";
+import { fact, pixelsOf, type, whenText, onPage } from "./browser.mjs";
 
 /** The default system with the amplitude of this forcing. */
 const forcing = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
@@ -19,9 +19,8 @@ for (const scheme of ["light", "dark"])
     assert.match(entry, /^Undecided: not on any of these/);
     assert.ok(share > 1 && share < 10, entry);
     assert.match(await page.textContent("#view-basins .alternative"), new RegExp(`${share} % are undecided\\.$`));
-    const pixels = await Promise.all(
-      (await coloursOf(page, ["--undecided", "--undecided-line"])).map((colour) => pixelsOf(page, PICTURE, [colour])),
-    );
+    const names = ["--undecided", "--undecided-line"];
+    const pixels = await Promise.all(names.map((name) => pixelsOf(page, PICTURE, [name])));
     // Inside of the axes, whose lines have the colour of the stripes.
     const [width, height] = await page.$eval(PICTURE, (canvas) => [canvas.width, canvas.height]);
     const isInside = ([x, y]) => x >= 60 && x < width - 20 && y >= 20 && y < height - 50;

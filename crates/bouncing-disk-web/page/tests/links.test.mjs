@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { onPage, preset, settled, stateOf, stream, within } from "./browser.mjs";
+import { onPage, preset, settled, stateOf, stream, valueOf, whenValue, within } from "./browser.mjs";
 
 /** The pixels of the diagram, with the pointer out of its way. */
 async function pictureOf(page) {
@@ -33,22 +33,12 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     const hash = `#${Object.entries(wanted)
       .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
       .join("&")}`;
-    await page.evaluate((next) => {
-      location.hash = next;
-    }, hash);
+    await page.evaluate((next) => (location.hash = next), hash);
     await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
-    await page.waitForFunction(
-      (text) => document.getElementById("field-amplitude").title === text,
-      String(wanted.amplitude),
-    );
+    await whenValue(page, "amplitude", String(wanted.amplitude));
     assert.equal(await page.evaluate(() => location.hash), hash);
-    const typed = await page.evaluate(() =>
-      Object.fromEntries(
-        [...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title]),
-      ),
-    );
     for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
-      assert.equal(Number(typed[name]), wanted[name], name);
+      assert.equal(Number(await valueOf(page, name)), wanted[name], name);
     }
     assert.equal(await page.isVisible("#problems"), false);
   }
@@ -147,16 +137,13 @@ const arrives = (page, hash, before, name, text) =>
     [hash, before, `field-${name}`, text],
   );
 
-const whenField = (page, name, text) =>
-  page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
-
 onPage("what is typed while an address is being checked changes the state of that address", {}, async (page) => {
   await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
-  await whenField(page, "restitution", "0.62");
+  await whenValue(page, "restitution", "0.62");
   assert.equal((await stateOf(page)).friction, "0.31");
   // What the address has that is refused is refused all the same.
   await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
-  await whenField(page, "restitution", "0.63");
+  await whenValue(page, "restitution", "0.63");
   await settled(page);
   assert.equal(await page.isVisible("#problems"), true);
   assert.ok((await stateOf(page)).friction >= 0);
@@ -164,7 +151,7 @@ onPage("what is typed while an address is being checked changes the state of tha
 
 onPage("an address takes the place of what was typed before, and the last one is kept", {}, async (page) => {
   await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
-  await whenField(page, "friction", "0.33");
+  await whenValue(page, "friction", "0.33");
   await settled(page);
   assert.equal((await stateOf(page)).restitution, "0.25");
   await page.evaluate(async () => {
@@ -173,7 +160,7 @@ onPage("an address takes the place of what was typed before, and the last one is
       await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
     }
   });
-  await whenField(page, "friction", "0.44");
+  await whenValue(page, "friction", "0.44");
   await settled(page);
   assert.equal((await stateOf(page)).friction, "0.44");
 });

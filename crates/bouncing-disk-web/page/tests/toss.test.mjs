@@ -2,7 +2,6 @@
 
 import assert from "node:assert/strict";
 import {
-  coloursOf,
   fact,
   onPage,
   pixelsOf,
@@ -163,8 +162,7 @@ onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the
   await settled(page);
   assert.ok((await area()) < 0.01);
   // On the screen it is in the corner.
-  const line = await coloursOf(page, ["--platform-line"]);
-  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", line, 39);
+  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", ["--platform-line"], 39);
   const [width, ratio] = await page.evaluate(() => [
     document.querySelector("#view-toss .picture-scene canvas").width,
     devicePixelRatio,

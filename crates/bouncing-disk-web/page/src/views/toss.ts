@@ -4,7 +4,7 @@ import type { Context, Offer, State, View, ViewKind } from "../contract";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
-import { button, div, element, oncePerFrame, prefersLessMotion, section, setText } from "../elements";
+import { button, div, element, oncePerFrame, section, setText } from "../elements";
 import { plain } from "../numbers";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { RoundingCaution, tellFailure } from "./asking";
@@ -206,7 +206,7 @@ class TossView implements View {
       const { thrown } = this.context.state();
       this.context.status(thrown === null ? "The motion begins with the shared impact." : describeThrow(thrown));
       // A motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
-      if (!prefersLessMotion()) this.player.play();
+      if (!window.matchMedia("(prefers-reduced-motion: reduce)").matches) this.player.play();
       else if (!this.player.playing) this.player.now = Math.min(7, recording.periods);
     }
     this.readings.balance(recording);
