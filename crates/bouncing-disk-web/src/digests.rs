@@ -50,7 +50,6 @@ pub fn golden_differences() -> Vec<String> {
     .concat()
 }
 
-/// All of them, by their names.
 fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
     Ok(vec![
         ("diagram", diagram(ChatterPolicy::Complete)?),
@@ -199,7 +198,6 @@ fn crisis() -> Result<Digest, Error> {
     Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
 }
 
-/// What the three calls about a motor in operation give.
 fn operations() -> Result<Digest, Error> {
     let motor = Motor::paper_70_khz().with(|sheet| sheet.mass = Some(1e-3))?;
     let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };

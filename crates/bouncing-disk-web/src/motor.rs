@@ -117,7 +117,6 @@ fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result
     Ok(OperatingSettings { relative_error, seed, most_impacts, ..OperatingSettings::default() })
 }
 
-/// The numbers of a row of a curve.
 fn row(operation: &Operation) -> Vec<f64> {
     let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
     let numbers = operation.point().map_or([none; 4], |point| {
@@ -132,7 +131,6 @@ fn row(operation: &Operation) -> Vec<f64> {
     iter::once(operation.load_torque()).chain(numbers).chain([status]).collect()
 }
 
-/// What an operation lacks.
 fn lacking(operation: &Operation) -> Option<String> {
     Some(match operation {
         Operation::Unsettled(_, Shortfall::Error { standard_error, wanted }) => {
@@ -177,7 +175,6 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
     Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
-/// The data sheet of such a text.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     sheet_of(&Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?)
 }

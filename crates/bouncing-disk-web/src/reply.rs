@@ -24,7 +24,6 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// An answer of all three parts.
     pub(crate) fn new(json: &impl Serialize, numbers: Vec<f64>, bytes: Vec<u8>) -> Result<Self, Refusal> {
         let json = serde_json::to_string(json).map_err(|error| Refusal::of_request(&error))?;
         let mut digest = Digest::of(json.as_bytes());
@@ -36,12 +35,10 @@ impl Reply {
         Ok(Self { json, numbers, bytes, refused: false, digest: digest.to_string() })
     }
 
-    /// An answer that is JSON alone.
     pub(crate) fn short(json: &impl Serialize) -> Result<Self, Refusal> {
         Self::new(json, Vec::new(), Vec::new())
     }
 
-    /// The answer to a request that cannot be met.
     pub(crate) fn refusal(refusal: &Refusal) -> Self {
         // Texts and finite numbers can always be written.
         let json = serde_json::to_string(refusal).unwrap_or_default();

@@ -20,7 +20,6 @@ pub(crate) struct SystemParameters {
 }
 
 impl SystemParameters {
-    /// The system, checked.
     pub(crate) fn build(self) -> Result<System, Refusal> {
         Ok(System::new(self.platform.build()?, self.disk.build()?)?)
     }
@@ -41,7 +40,6 @@ pub(crate) struct ImpactStart {
 }
 
 impl ImpactStart {
-    /// The state, checked.
     pub(crate) fn state(self) -> Result<ImpactState, Refusal> {
         Ok(ImpactState::from_normalised(self.impact_phase, self.normalised_speed)?)
     }
@@ -70,7 +68,6 @@ pub(crate) enum Request {
     Check {
         system: SystemParameters,
     },
-    /// The motion of the engine.
     Motion {
         system: SystemParameters,
         start: MotionStart,
@@ -101,7 +98,6 @@ pub(crate) enum Request {
     },
     MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
-    /// The load that stops the motor.
     MotorStall {
         sheet: MotorParameters,
         relative_error: f64,
@@ -176,7 +172,6 @@ pub(crate) struct LoadsRequest {
     pub(crate) seed: u64,
 }
 
-/// The map of a forcing.
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {
     Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
 }

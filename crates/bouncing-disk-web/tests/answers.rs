@@ -18,7 +18,6 @@ fn sheet() -> Value {
     json!(motor.expect("legal").parameters())
 }
 
-/// The same with other values.
 fn with(mut value: Value, changes: Value) -> Value {
     for (name, change) in changes.as_object().expect("an object") {
         value[name] = change.clone();
@@ -318,7 +317,6 @@ fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     assert_eq!(refused(&basins([0, 21]))["quantity"], "rows");
 }
 
-/// The rows of each line of the branches.
 type Lines = Vec<Vec<[f64; 6]>>;
 
 /// The branches in a window: how many, kinds and forcings of their bifurcations, and the rows of each line.

@@ -46,7 +46,6 @@ function workshopOf(source: Source): Workshop {
 
 type Each = (response: Response<never>, index: number) => void;
 
-/** Requests of one slot, answered in their order. */
 interface Job {
   readonly slot: string;
   readonly requests: readonly Request[];
@@ -104,7 +103,6 @@ class Lane {
     for (const job of gone) job.failed(new Cancelled(`"${slot}" was cancelled`));
   }
 
-  /** Starts the worker before anything is asked. */
   warm(): void {
     if (this.worker !== null) return;
     const worker = new Worker(this.workshop.script);

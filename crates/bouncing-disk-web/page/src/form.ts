@@ -59,7 +59,6 @@ type Words = [
 
 const LOGARITHMIC = "logarithmic";
 
-/** Makes parameters of the numbers in a part of the state. */
 const parametersOf =
   <Part extends "system" | "start">(part: Part) =>
   (name: keyof State[Part] & string, ...[symbol, label, unit, slider, more]: Words): Parameter => ({
@@ -173,7 +172,6 @@ export class Parameters {
   }
 }
 
-/** Positions of a slider. */
 const POSITIONS = 1000;
 /** A logarithmic slider reaches from a tenth to ten times of its value. */
 const REACH = 10;

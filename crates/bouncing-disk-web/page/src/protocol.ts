@@ -63,7 +63,6 @@ export const OPERATION_COLUMNS = [
 /** Modes in the `bytes` of a motion. */
 export const MODES = ["flight", "sticking", "sliding forward", "sliding backward"] as const;
 
-/** What is wrong with a request. */
 export interface Refusal {
   readonly kind: string;
   /** The name of the parameter, where it is one, and its legal range in words, such as "[0, 1)". */
@@ -97,7 +96,6 @@ export interface VerdictJson {
 }
 
 export interface BranchesJson {
-  /** How many. */
   readonly branches: number;
   readonly bifurcations: readonly ({ readonly kind: string; readonly axial_forcing: number } & ImpactStart)[];
 }
@@ -142,7 +140,6 @@ export type TrapJson = Readonly<Record<"preload_acceleration" | "relative_distan
   readonly forcing_from_to: Range;
 };
 
-/** A number with its 95 % interval. */
 export type IntervalJson = Readonly<Record<"value" | "low" | "high", number>>;
 
 export interface TransientJson {

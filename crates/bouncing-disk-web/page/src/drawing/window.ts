@@ -69,7 +69,6 @@ export class WindowPicture {
     this.host.point?.(at);
   }
 
-  /** Shows the rectangle that is being drawn. */
   rectangle(box: Box | null): void {
     this.box = box;
     this.redrawCursor();
@@ -160,7 +159,6 @@ class Gestures {
     surface.style.touchAction = "pan-y";
   }
 
-  /** Zooms about the middle: for buttons. */
   zoom(factor: number): void {
     const { x, y } = this.host.window();
     this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
