@@ -27,7 +27,7 @@ for (const { id, panels } of PRESETS) {
   });
 }
 
-onPage("the note goes with its state: back, and a change of a parameter", {}, async (page) => {
+onPage("the note goes with its state, and where another view or another system has come", {}, async (page) => {
   await preset(page, "fig07");
   await type(page, "restitution", "0.6");
   await page.waitForSelector("#note .changed");
@@ -36,9 +36,6 @@ onPage("the note goes with its state: back, and a change of a parameter", {}, as
   await page.waitForSelector("#note .changed", { state: "detached" });
   await page.click("#note .close");
   assert.equal(await page.isVisible("#note"), false);
-});
-
-onPage("a note goes where another view or another system has come", {}, async (page) => {
   await preset(page, "fig10");
   await page.click("#tab-toss");
   await page.waitForSelector("#note", { state: "hidden" });
