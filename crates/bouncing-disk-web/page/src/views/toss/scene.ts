@@ -189,7 +189,8 @@ export function paintPathInset(pen: Pen, recording: Recording, now: Moment, widt
   const axes = pathAxes(recording.system);
   const bare = { left: 4, top: 4, width: wide - 8, height: high - 8, ...axes, xTicks: NO_TICKS, yTicks: NO_TICKS, size: 10 };
   pen.moved(width - wide - 2, 2, () => {
-    const plot = narrow ? bare : layOut(pen, wide, high, axes, 11);
+    const laid = () => layOut(pen, wide, high, { ...axes, y: { ...axes.y, widest: "−0000" } }, 11);
+    const plot = narrow ? bare : withAmplitudes(laid(), recording.system);
     pen.rect(0, 0, wide, high, { fill: "--picture-paper", opacity: 0.8 });
     paintPath(pen, plot, recording);
     const mark = { fill: "--platform-mark", stroke: "--picture-paper", width: 1 };
@@ -198,6 +199,15 @@ export function paintPathInset(pen: Pen, recording: Recording, now: Moment, widt
     else paintAxes(pen, plot);
   });
 } // prettier-ignore
+
+/** Few numbers have room: those of the amplitudes say most. */
+function withAmplitudes(plot: Plot, { amplitude, twist_amplitude }: Platform): Plot {
+  const numbers = (size: number, factor = 1) => ({
+    major: (size > 0 ? [-size, 0, size] : [0]).map((value) => ({ value, label: plain(value * factor, 3) })),
+    minor: [],
+  });
+  return { ...plot, xTicks: numbers(twist_amplitude, plot.x.factor), yTicks: numbers(amplitude, plot.y.factor) };
+}
 
 export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
   const angles = recording.span("platform_angle", 0, recording.period);
