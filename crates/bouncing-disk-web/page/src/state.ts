@@ -53,9 +53,7 @@ export function changed(state: State, change: Change): State {
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */
-export function printed(value: number): string {
-  return Object.is(value, -0) ? "-0" : String(value);
-}
+const printed = (value: number): string => (Object.is(value, -0) ? "-0" : String(value));
 
 /** A decimal number with all of its text used; `null` for anything else, hexadecimal digits and infinities included. */
 export function readNumber(text: string): number | null {

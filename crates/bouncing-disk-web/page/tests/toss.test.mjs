@@ -2,18 +2,8 @@
 
 import assert from "node:assert/strict";
 import {
-  fact,
-  onPage,
-  pixelsOf,
-  placeOfDisk,
-  preset,
-  settled,
-  stateOf,
-  svgOf,
-  whenAddress,
-  whenText,
-  within,
-} from "./browser.mjs";
+  fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, whenAddress, whenText, within,
+} from "./browser.mjs"; // prettier-ignore
 
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
 

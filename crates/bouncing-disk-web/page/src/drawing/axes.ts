@@ -169,9 +169,7 @@ export function extent(values: ArrayLike<number>, start = 0, stride = 1): Range 
   return low <= high && low > -Infinity ? [low, high] : null;
 }
 
-export function clamp(value: number, low: number, high: number): number {
-  return Math.min(Math.max(value, low), high);
-}
+export const clamp = (value: number, low: number, high: number): number => Math.min(Math.max(value, low), high);
 
 /** At most about `count` labelled ticks. `factor` turns a value into the unit of the label. */
 export function ticks([low, high]: Range, count: number, factor = 1): Ticks {

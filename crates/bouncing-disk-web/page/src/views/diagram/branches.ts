@@ -15,9 +15,7 @@ export interface Branches {
 }
 
 /** Where branches are drawn: they have no angular speed. */
-export function areDrawn({ diagram }: State): boolean {
-  return diagram.branches && diagram.quantity !== "angular_speed";
-}
+export const areDrawn = ({ diagram }: State): boolean => diagram.branches && diagram.quantity !== "angular_speed";
 
 export function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
   const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;
@@ -117,6 +115,4 @@ export function forcingText(value: number, [low, high]: Range): string {
 }
 
 /** The end of a window, without zeros that say nothing. */
-export function endText(value: number, window: Range): string {
-  return forcingText(value, window).replace(/\.?0+$/, "");
-}
+export const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");
