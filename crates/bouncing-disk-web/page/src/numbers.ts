@@ -44,7 +44,6 @@ export function stepped(value: number, direction: 1 | -1, coarse: boolean, small
   return Number((Math.round(value / step + direction) * step).toPrecision(12));
 }
 
-/** A hyphen in front of a number is a minus. */
 export const minus = (text: string): string => text.replace("-", "\u2212");
 
 function superscript(power: number): string {
@@ -67,7 +66,6 @@ export function plain(value: number | null | undefined, digits = 4): string {
 /** A number that people chose, without zeros that say nothing. */
 export const brief = (value: number, digits = 6): string => minus(String(Number(value.toPrecision(digits))));
 
-/** Thousands stand apart by a comma. */
 export function grouped(text: string): string {
   const [whole = "", part] = text.split(".");
   const spaced = whole.replace(/\B(?=(\d{3})+$)/g, ",");

@@ -27,7 +27,7 @@ const { PI } = Math;
 
 const { table_one: HAND, table_three: SHEET } = tables;
 
-/** The hand of Table I with another c (m), phi_L or lag (rad), or a_e (m); A and a_e Phi are the sides of c, Eq. (13). */
+/** The hand of Table I with other numbers (m, rad); A and a_e Phi are the sides of the stroke, Eq. (13). */
 function tossOf({
   stroke = HAND.stroke,
   angle = HAND.amplitude_angle,

@@ -29,8 +29,9 @@ const coloured = async (page) => (await pixelsOf(page, "#view-basins canvas", CA
 const hold = (page, ...calls) => page.evaluate((which) => (window.holds = which), calls);
 const caption = (page) => page.textContent("#view-basins .alternative");
 const FORCING = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
+const DOUBLING = `#view=basins&${FORCING(0.486)}`;
 
-onPage("no cell of another map stands under the legend of this one", { hash: `#view=basins&${FORCING(0.486)}`, script: holdable }, async (page) => {
+onPage("no cell of another map stands under this legend", { hash: DOUBLING, script: holdable }, async (page) => {
   const before = await coloured(page);
   assert.ok(before > 10_000, `${before}`);
   assert.match(await caption(page), /^Of the starts/);
@@ -70,7 +71,7 @@ onPage("where no basins can be computed, none are shown", "#view=basins", async 
   assert.ok((await page.locator(".attractors li").count()) > 1);
 }); // prettier-ignore
 
-onPage("the share of the window leads, and the sample is described", `#view=basins&${FORCING(0.486)}`, async (page) => {
+onPage("the share of the window leads, and the sample is described", DOUBLING, async (page) => {
   const entries = await page.locator(".attractors li").allTextContents();
   for (const entry of entries) assert.match(entry, /[\d.]+ % of this window; [\d.]+ % .*of the sample\.$/);
   for (const bold of await page.locator(".attractors b").allTextContents()) {
@@ -92,7 +93,7 @@ onPage("the share of the window leads, and the sample is described", `#view=basi
   assert.equal(shares.length, await page.locator(".attractors li").count());
 }); // prettier-ignore
 
-onPage("printed basins have their map and a legend", `#view=basins&${FORCING(0.486)}`, async (page) => {
+onPage("printed basins have their map and a legend", DOUBLING, async (page) => {
   const svg = (await svgOf(page, "basins")).replaceAll(/<[^>]*>/g, " ").replaceAll(/\s+/g, " ");
   assert.match(svg, /Γ = 0\.486, ε = 0\.5/);
   const [words] = /^[^.;:]*/.exec(await page.locator(".attractors li").first().textContent());

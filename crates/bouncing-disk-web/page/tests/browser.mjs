@@ -177,7 +177,6 @@ export async function placeOfDisk(page) {
   return [box.x + middle(0), box.y + middle(1)];
 }
 
-/** The bytes of a file that the browser saves. */
 export async function savedBy(page, act) {
   const [download] = await Promise.all([page.waitForEvent("download"), act()]);
   const chunks = [];

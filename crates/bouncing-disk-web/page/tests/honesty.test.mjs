@@ -52,7 +52,7 @@ onPage("a cycle that rounding chose is called so under the cursor", ONE_FORCING,
 });
 
 for (const [view, host] of [["basins", ".panel"], ["toss", ".toss-left"]])
-  onPage(`a cycle that rounding chose is called so in the view ${view}, and others are not`, `#view=${view}&${ROUNDED}`, async (page) => {
+  onPage(`a cycle that rounding chose is called so in ${view}`, `#view=${view}&${ROUNDED}`, async (page) => {
     const caution = page.locator(`#view-${view} ${host} .caution`);
     await caution.waitFor({ state: "visible" });
     assert.match(await caution.textContent(), /^Rounding-dependent: /);

@@ -79,7 +79,8 @@ test("a steady speed says under which load it is, and a load that drives the rot
 onPage("a motor that nothing turns is said to be one, and keeps no curves of another", "#view=motor", async (page) => {
   const chart = page.locator("#view-motor .chart").first();
   await chart.waitFor();
-  for (const [name, value, said] of [["friction", "0.6", /^Without friction/], ["twist_amplitude", "0.9", /^Without a twist/]]) {
+  const needed = [["friction", "0.6", /^Without friction/], ["twist_amplitude", "0.9", /^Without a twist/]];
+  for (const [name, value, said] of needed) {
     await type(page, name, "0");
     await whenText(page, "#status", said);
     await chart.waitFor({ state: "hidden" });

@@ -47,7 +47,7 @@ export function plotOffers(
   });
 } // prettier-ignore
 
-/** The browser itself draws the SVG. An address with the whole picture in it may be read back from a page on the disk. */
+/** The browser draws the SVG. A page on the disk may read back what an address has all of in itself. */
 async function pngOf(svg: string, ...points: [width: number, height: number]): Promise<Blob> {
   const image = new Image();
   image.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;

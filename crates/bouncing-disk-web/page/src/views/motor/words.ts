@@ -75,8 +75,8 @@ const under = (load: number): string =>
   load === 0 ? "without load" : `under the load of the sheet, ${quantity(load, "N m")}`;
 
 const overpowered = ({ load_torque }: Operation, largest: number): string =>
-  `the load of the sheet, ${quantity(load_torque, "N m")}, is more than the ${quantity(largest, "N m")} that friction ` +
-  "holds at most";
+  `the load of the sheet, ${quantity(load_torque, "N m")}, is more than ` +
+  `the ${quantity(largest, "N m")} that friction holds at most`;
 
 /** The steady speed under the load of the sheet, with no more digits than are known. */
 export function steadySpeed(own: Operation, largestTorque: number): string {
