@@ -6,7 +6,7 @@
  * The glue is what `wasm-bindgen --target no-modules` writes.
  */
 
-import { spawnSync } from "node:child_process";
+import { execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -17,14 +17,9 @@ import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
 
-const { values: options } = parseArgs({
-  options: {
-    wasm: { type: "string" },
-    glue: { type: "string" },
-    out: { type: "string" },
-    check: { type: "boolean", default: false },
-  },
-});
+const text = { type: "string" };
+const { values } = parseArgs({ options: { wasm: text, glue: text, out: text, check: { type: "boolean" } } });
+const { wasm, glue, out, check } = values;
 
 /** The text of a script's bundle, and of the style sheets that it imports. */
 async function bundled(entry) {
@@ -74,62 +69,49 @@ function written(path, content) {
   console.log(`${path.padEnd(60)} ${kilobytes(bytes)} ${kilobytes(gzipSync(content, { level: 9 }).length)} gzipped`);
 }
 
-async function main() {
-  const { wasm, glue, out, check } = options;
-  if (!wasm || !glue || !out) {
-    console.error("usage: node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--check]");
-    process.exitCode = 2;
-    return;
-  }
-  const compiler = join(here, "node_modules/typescript/bin/tsc");
-  if (check && spawnSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" }).status !== 0) {
-    process.exitCode = 1;
-    return;
-  }
-  const html = readFileSync(join(here, "index.html"), "utf8");
-  const page = await bundled("src/main.ts");
-  const worker = await bundled("src/worker.ts");
-  const module = readFileSync(wasm);
-  const workerScript = `${readFileSync(glue, "utf8").trim()}\n${worker.script}\n`;
-  const pageScript = inScript(page.script);
+const compiler = join(here, "node_modules/typescript/bin/tsc");
+if (check) execFileSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" });
+const html = readFileSync(join(here, "index.html"), "utf8");
+const page = await bundled("src/main.ts");
+const worker = await bundled("src/worker.ts");
+const module = readFileSync(wasm);
+const workerScript = `${readFileSync(glue, "utf8").trim()}\n${worker.script}\n`;
+const pageScript = inScript(page.script);
 
-  const single = filled(html, {
-    // No address at all may be asked for anything: the browser itself sees to it.
-    policy: policy(
-      `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:`,
-      "worker-src blob:",
-      "style-src 'unsafe-inline'",
-      "img-src data: blob:",
-      "connect-src 'none'",
-    ),
-    styles: `<style>${page.styles}</style>`,
-    scripts:
-      `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
-      `<script type="text/plain" id="module-base64">${module.toString("base64")}</script>\n` +
-      `<script>${pageScript}</script>`,
-  });
-  const hosted = filled(html, {
-    policy: policy(
-      "script-src 'self' 'wasm-unsafe-eval'",
-      "worker-src 'self'",
-      "style-src 'self' 'unsafe-inline'",
-      "img-src 'self' data: blob:",
-      "connect-src 'self'",
-    ),
-    styles: `<link rel="stylesheet" href="explorer.css?${version(page.styles)}" />`,
-    scripts:
-      `<script id="page-script" src="explorer.js?${version(page.script)}" defer ` +
-      `data-worker="worker.js?${version(workerScript)}" data-module="module.wasm?${version(module)}"></script>`,
-  });
+const single = filled(html, {
+  // No address at all may be asked for anything: the browser itself sees to it.
+  policy: policy(
+    `script-src ${sha256(pageScript)} 'wasm-unsafe-eval' blob:`,
+    "worker-src blob:",
+    "style-src 'unsafe-inline'",
+    "img-src data: blob:",
+    "connect-src 'none'",
+  ),
+  styles: `<style>${page.styles}</style>`,
+  scripts:
+    `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
+    `<script type="text/plain" id="module-base64">${module.toString("base64")}</script>\n` +
+    `<script>${pageScript}</script>`,
+});
+const hosted = filled(html, {
+  policy: policy(
+    "script-src 'self' 'wasm-unsafe-eval'",
+    "worker-src 'self'",
+    "style-src 'self' 'unsafe-inline'",
+    "img-src 'self' data: blob:",
+    "connect-src 'self'",
+  ),
+  styles: `<link rel="stylesheet" href="explorer.css?${version(page.styles)}" />`,
+  scripts:
+    `<script id="page-script" src="explorer.js?${version(page.script)}" defer ` +
+    `data-worker="worker.js?${version(workerScript)}" data-module="module.wasm?${version(module)}"></script>`,
+});
 
-  const site = join(out, "site");
-  rmSync(site, { recursive: true, force: true });
-  written(join(out, "explorer.html"), single);
-  written(join(site, "index.html"), hosted);
-  written(join(site, "explorer.js"), page.script);
-  written(join(site, "explorer.css"), page.styles);
-  written(join(site, "worker.js"), workerScript);
-  written(join(site, "module.wasm"), module);
-}
-
-await main();
+const site = join(out, "site");
+rmSync(site, { recursive: true, force: true });
+written(join(out, "explorer.html"), single);
+written(join(site, "index.html"), hosted);
+written(join(site, "explorer.js"), page.script);
+written(join(site, "explorer.css"), page.styles);
+written(join(site, "worker.js"), workerScript);
+written(join(site, "module.wasm"), module);

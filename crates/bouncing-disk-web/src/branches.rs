@@ -7,8 +7,7 @@ use bouncing_disk::core::orbits::{
     BifurcationKind, Branch, BranchEnd, Continuation, ContinuationParameter, PeriodicOrbit,
 };
 use bouncing_disk::core::{Error as CoreError, ImpactMap, Unobserved};
-use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
 use crate::request::map;
@@ -34,14 +33,6 @@ const STRIDE: f64 = 2.0;
 
 /// Branches are followed so far beyond the first doubling of the pair that they come from: all doublings lie there.
 const BEYOND_DOUBLING: f64 = 2.0;
-
-#[derive(Debug, Serialize)]
-struct BifurcationJson {
-    kind: &'static str,
-    axial_forcing: f64,
-    impact_phase: f64,
-    normalised_speed: f64,
-}
 
 /// How many branches there are in a window, and their bifurcations with the first impact of the orbit there. Numbers: rows
 /// of the forcing, the phase (rad) and the normalised speed of one impact of an orbit on a branch, the number of the
@@ -92,7 +83,7 @@ fn if_any<T>(found: Result<T, CoreError>) -> Result<Option<T>, CoreError> {
 struct Found {
     window: (f64, f64),
     branches: usize,
-    bifurcations: Vec<BifurcationJson>,
+    bifurcations: Vec<Value>,
     numbers: Vec<f64>,
     lines: usize,
 }
@@ -193,12 +184,12 @@ impl Found {
         self.branches += 1;
         self.bifurcations.extend(here.iter().filter_map(|found| {
             let state = found.point.orbit.states.first()?;
-            Some(BifurcationJson {
-                kind: kind(&found.kind),
-                axial_forcing: found.point.parameter,
-                impact_phase: state.phase().angle(),
-                normalised_speed: state.normalised_speed(),
-            })
+            Some(json!({
+                "kind": kind(&found.kind),
+                "axial_forcing": found.point.parameter,
+                "impact_phase": state.phase().angle(),
+                "normalised_speed": state.normalised_speed(),
+            }))
         }));
         Ok(())
     }

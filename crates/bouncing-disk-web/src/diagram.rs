@@ -29,7 +29,6 @@ const NEARLY: f64 = 1e-3;
 /// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
 const SPIN_UPS: f64 = 10.0;
 
-/// What one column has.
 struct Column {
     impacts: Vec<(ImpactState, f64)>,
     left_out: usize,
@@ -99,7 +98,6 @@ fn vertical(
     Ok(columns)
 }
 
-/// The forcings of the columns that are asked for.
 fn forcings(request: &DiagramRequest) -> Result<Vec<f64>, Refusal> {
     let ([low, high], [from, to], count) = (request.axial_forcing, request.columns, request.count);
     if !(2..=MOST_COLUMNS).contains(&count) {

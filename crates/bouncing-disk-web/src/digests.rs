@@ -18,11 +18,11 @@ use bouncing_disk::core::{
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::motor::{
-    MotorField, MotorParameters, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter,
-    SensitivityQuantity, SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
+    MotorField, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter, SensitivityQuantity,
+    SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
 use bouncing_disk::toss::{InitialSpin, single_toss};
-use bouncing_disk::{Error, System};
+use bouncing_disk::{Error, Motor, System};
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -50,7 +50,6 @@ pub fn golden_differences() -> Vec<String> {
     .concat()
 }
 
-/// All of them, by their names.
 fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
     Ok(vec![
         ("diagram", diagram(ChatterPolicy::Complete)?),
@@ -116,30 +115,23 @@ fn judged() -> Result<Digest, Error> {
     let settings = VerdictSettings { impacts: 20_000, ..VerdictSettings::default() };
     let mut digest = Digest::new();
     for verdict in verdicts(&starts(&forcings(100, 0.2, 0.005), 0.5)?, settings, &Unobserved)? {
-        match verdict {
+        let (kind, numbers) = match verdict {
             Verdict::Periodic { impacts, platform_periods, .. } => {
-                digest.bytes(&[0]);
-                digest.number(impacts as f64);
-                digest.number(platform_periods as f64);
+                (0, [Some(impacts as f64), Some(platform_periods as f64)])
             }
-            Verdict::Chaotic { exponent, standard_error, .. } => {
-                digest.bytes(&[1]);
-                digest.number(exponent);
-                digest.number(standard_error);
-            }
+            Verdict::Chaotic { exponent, standard_error, .. } => (1, [Some(exponent), Some(standard_error)]),
             Verdict::Chattering { cycle, after } => {
-                digest.bytes(&[2]);
-                digest.number(after as f64);
-                if let CycleTrust::ChosenByRounding { exponent: Some(exponent), .. } = cycle.trust {
-                    digest.number(exponent);
-                }
+                let exponent = match cycle.trust {
+                    CycleTrust::ChosenByRounding { exponent, .. } => exponent,
+                    _ => None,
+                };
+                (2, [Some(after as f64), exponent])
             }
-            Verdict::AtRest { after, .. } => {
-                digest.bytes(&[3]);
-                digest.number(after as f64);
-            }
-            _ => digest.bytes(&[4]),
-        }
+            Verdict::AtRest { after, .. } => (3, [Some(after as f64), None]),
+            _ => (4, [None; 2]),
+        };
+        digest.bytes(&[kind]);
+        numbers.into_iter().flatten().for_each(|number| digest.number(number));
     }
     Ok(digest)
 }
@@ -206,28 +198,8 @@ fn crisis() -> Result<Digest, Error> {
     Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
 }
 
-/// What the three calls about a motor in operation give.
 fn operations() -> Result<Digest, Error> {
-    let sheet = MotorParameters {
-        drive_frequency: 70e3,
-        amplitude: 1e-8,
-        peak_angular_speed: Some(30.0),
-        twist_amplitude: None,
-        phase_lag: 0.0,
-        mass: Some(1e-3),
-        density: None,
-        rotor_radius: None,
-        rotor_thickness: None,
-        contact_radius: 1.25e-3,
-        gyration_radius: Some(6.3e-3),
-        preload_force: None,
-        preload_acceleration: Some(9.8),
-        spring_constant: None,
-        friction: 0.1,
-        restitution: 0.5,
-        load_torque: 0.0,
-    };
-    let motor = sheet.build()?;
+    let motor = Motor::paper_70_khz().with(|sheet| sheet.mass = Some(1e-3))?;
     let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
     let axes = vec![
         SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]),

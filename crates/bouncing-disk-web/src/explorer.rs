@@ -50,9 +50,7 @@ impl Explorer {
             }
             Request::Basins(request) => self.attractors.rows(&request),
             Request::MotorReport { sheet } => motor::report(sheet),
-            Request::MotorTransient { sheet, members, rise_times, points, seed } => {
-                motor::transient(sheet, members, rise_times, points, seed)
-            }
+            Request::MotorTransient(request) => motor::transient(&request),
             Request::MotorLoads(request) => motor::loads(&request),
             Request::MotorStall { sheet, relative_error, seed } => motor::stall(sheet, relative_error, seed),
             Request::SheetWrite { sheet } => motor::write(sheet),

@@ -133,7 +133,6 @@ const fn carried(platform: &PlatformState) -> DiskState {
     DiskState { mode: Mode::Sticking, height, axial_velocity, angle, angular_speed }
 }
 
-/// The columns of an event but its time.
 fn event(scales: &Scales, record: &EventRecord) -> [f64; 5] {
     let after = scales.state(&record.after);
     let (speed, tangential) = match record.event {

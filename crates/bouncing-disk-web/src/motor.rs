@@ -1,16 +1,18 @@
 //! Motors by their data sheets.
 
+use std::iter;
+
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
 use bouncing_disk::motor::{
-    Estimate, MotorParameters, OperatingPoint, OperatingSettings, Operation, Shortfall, SpeedCurve,
-    TransientMember, TransientSettings, transients,
+    Estimate, MotorParameters, OperatingSettings, Operation, Shortfall, SpeedCurve, TransientMember,
+    TransientSettings, transients,
 };
 use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{LoadsRequest, SystemParameters};
+use crate::request::{LoadsRequest, SystemParameters, TransientRequest};
 
 /// Impacts that an answer may take where the request says nothing: a second or two for most motors.
 const FEW_IMPACTS: u64 = 5_000_000;
@@ -51,20 +53,15 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
 /// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
 /// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
 /// mean angular speed over the members and its standard error (rad/s).
-pub(crate) fn transient(
-    sheet: MotorParameters,
-    members: usize,
-    rise_times: f64,
-    points: usize,
-    seed: u64,
-) -> Result<Reply, Refusal> {
+pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
+    let TransientRequest { sheet, members, rise_times, points: intervals, seed } = *request;
     let system = *sheet.build()?.system();
     let duration = rise_times * system.rise_time();
-    let settings = TransientSettings { duration, intervals: points, seed, ..TransientSettings::default() };
+    let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
     let runs = TransientMember::of_ensemble(&system, &settings, members)?;
     let curves = transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
-    let mut numbers = Vec::with_capacity(3 * times.len());
+    let mut numbers = Vec::new();
     for (place, time) in times.iter().enumerate() {
         let speeds: Vec<f64> = curves.iter().map(|curve| curve.speeds[place]).collect();
         let speed = Spread::of(&speeds)?;
@@ -73,7 +70,8 @@ pub(crate) fn transient(
     let (rise, refusal) = match TransientFit::new(&curves, &FitSettings::default()) {
         Ok(fit) => (Some(rise_of(&fit)), None),
         Err(FitError::Refused(reason)) => (None, Some(refused_since(&reason))),
-        Err(error) => return Err(error.into()),
+        Err(FitError::Model(error)) => return Err(error.into()),
+        Err(_) => (None, Some("the run-up does not determine one")),
     };
     Reply::new(&json!({ "points": times.len(), "rise": rise, "refusal": refusal }), numbers, Vec::new())
 }
@@ -107,14 +105,8 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let settings = settings(*relative_error, *most_impacts, *seed)?;
     let operations = sheet.build()?.torque_speed_curve(load_torques, &settings, &Unobserved)?;
-    let mut numbers = Vec::with_capacity(10 * operations.len());
-    let mut shortfalls = Vec::with_capacity(operations.len());
-    for operation in &operations {
-        let (row, shortfall) = told(operation);
-        numbers.extend(row);
-        shortfalls.push(shortfall);
-    }
-    Reply::new(&json!({ "shortfalls": shortfalls }), numbers, Vec::new())
+    let shortfalls: Vec<_> = operations.iter().map(lacking).collect();
+    Reply::new(&json!({ "shortfalls": shortfalls }), operations.iter().flat_map(row).collect(), Vec::new())
 }
 
 fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
@@ -125,73 +117,54 @@ fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result
     Ok(OperatingSettings { relative_error, seed, most_impacts, ..OperatingSettings::default() })
 }
 
-/// A row of a curve, and what it lacks.
-fn told(operation: &Operation) -> ([f64; 10], Option<String>) {
-    match operation {
-        Operation::Steady(point) => (row(point, 0.0), None),
-        Operation::Unsettled(point, shortfall) => (row(point, 1.0), Some(lacking(shortfall))),
-        Operation::Runaway { load_torque, largest_torque, acceleration } => {
-            let mut numbers = [f64::NAN; 10];
-            (numbers[0], numbers[9]) = (*load_torque, 2.0);
-            let text = format!(
-                "the load drives the rotor: friction holds {largest_torque:.3e} N m at most, and the rest of the load \
-                 accelerates the rotor by {acceleration:.3e} rad/s^2"
-            );
-            (numbers, Some(text))
-        }
-        _ => ([f64::NAN; 10], Some("unknown".to_owned())),
-    }
-}
-
-fn row(point: &OperatingPoint, status: f64) -> [f64; 10] {
+fn row(operation: &Operation) -> Vec<f64> {
     let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
-    let efficiency = point.efficiency.unwrap_or(none);
-    let OperatingPoint { load_torque, speed, mechanical_power, input_power, .. } = point;
-    [
-        *load_torque,
-        speed.value,
-        speed.standard_error,
-        mechanical_power.value,
-        mechanical_power.standard_error,
-        input_power.value,
-        input_power.standard_error,
-        efficiency.value,
-        efficiency.standard_error,
-        status,
-    ]
+    let numbers = operation.point().map_or([none; 4], |point| {
+        [point.speed, point.mechanical_power, point.input_power, point.efficiency.unwrap_or(none)]
+    });
+    let status = match operation {
+        Operation::Steady(_) => 0.0,
+        Operation::Unsettled(..) => 1.0,
+        _ => 2.0,
+    };
+    let numbers = numbers.iter().flat_map(|number| [number.value, number.standard_error]);
+    iter::once(operation.load_torque()).chain(numbers).chain([status]).collect()
 }
 
-fn lacking(shortfall: &Shortfall) -> String {
-    match shortfall {
-        Shortfall::Error { standard_error, wanted } => {
+fn lacking(operation: &Operation) -> Option<String> {
+    Some(match operation {
+        Operation::Unsettled(_, Shortfall::Error { standard_error, wanted }) => {
             format!(
                 "the error of the speed is {standard_error:.3e} rad/s, and {wanted:.3e} rad/s was asked for"
             )
         }
-        Shortfall::Drift { drift, standard_error } => {
+        Operation::Unsettled(_, Shortfall::Drift { drift, standard_error }) => {
             format!("the speed still drifts, by {drift:.3e} +- {standard_error:.3e} rad/s")
         }
-        Shortfall::PowerBalance { stored_power, input_power } => {
+        Operation::Unsettled(_, Shortfall::PowerBalance { stored_power, input_power }) => {
             format!("the disk stores {stored_power:.3e} W of the {input_power:.3e} W that are put in")
         }
-        _ => "unknown".to_owned(),
-    }
+        Operation::Runaway { largest_torque, acceleration, .. } => format!(
+            "the load drives the rotor: friction holds {largest_torque:.3e} N m at most, and the rest of the load \
+             accelerates the rotor by {acceleration:.3e} rad/s^2"
+        ),
+        _ => return None,
+    })
 }
 
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let (torque, bracket, speed) =
-        match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
-            Ok(stall) => (Some(stall.torque), Some(stall.bracket), stall.no_load_speed),
-            Err(Error::DoesNotTurn { speed, standard_error }) => {
-                (None, None, Estimate { value: speed, standard_error })
-            }
-            Err(error) => return Err(error.into()),
-        };
+    let (torque, speed) = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved)
+    {
+        Ok(stall) => (Some(stall.torque), stall.no_load_speed),
+        Err(Error::DoesNotTurn { speed, standard_error }) => {
+            (None, Estimate { value: speed, standard_error })
+        }
+        Err(error) => return Err(error.into()),
+    };
     Reply::short(&json!({
         "torque": torque.map(|torque| torque.value),
         "torque_error": torque.map(|torque| torque.standard_error),
-        "bracket": bracket,
         "no_load_speed": speed.value,
         "no_load_speed_error": speed.standard_error,
     }))
@@ -202,9 +175,8 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
     Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
-/// The data sheet of such a text.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
-    sheet_of(&Motor::from_json(text)?)
+    sheet_of(&Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?)
 }
 
 /// The sheet of a system and a mass (kg), with the load as a torque.

@@ -75,7 +75,6 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
     }))
 }
 
-/// Real and imaginary part of each.
 fn pairs(multipliers: Multipliers) -> [[f64; 2]; 2] {
     match multipliers {
         Multipliers::Real(first, second) => [[first, 0.0], [second, 0.0]],

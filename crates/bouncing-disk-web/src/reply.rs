@@ -3,8 +3,6 @@
 use bouncing_disk::Error;
 use bouncing_disk::core::Error as CoreError;
 use bouncing_disk::core::numerics::digest::Digest;
-use bouncing_disk::estimate::FitError;
-use bouncing_disk::motor::MotorFileError;
 use serde::Serialize;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -26,7 +24,6 @@ pub struct Reply {
 }
 
 impl Reply {
-    /// An answer of all three parts.
     pub(crate) fn new(json: &impl Serialize, numbers: Vec<f64>, bytes: Vec<u8>) -> Result<Self, Refusal> {
         let json = serde_json::to_string(json).map_err(|error| Refusal::of_request(&error))?;
         let mut digest = Digest::of(json.as_bytes());
@@ -38,12 +35,10 @@ impl Reply {
         Ok(Self { json, numbers, bytes, refused: false, digest: digest.to_string() })
     }
 
-    /// An answer that is JSON alone.
     pub(crate) fn short(json: &impl Serialize) -> Result<Self, Refusal> {
         Self::new(json, Vec::new(), Vec::new())
     }
 
-    /// The answer to a request that cannot be met.
     pub(crate) fn refusal(refusal: &Refusal) -> Self {
         // Texts and finite numbers can always be written.
         let json = serde_json::to_string(refusal).unwrap_or_default();
@@ -64,7 +59,7 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
-    const fn new(kind: &'static str, message: String) -> Self {
+    pub(crate) const fn new(kind: &'static str, message: String) -> Self {
         Self { kind, quantity: None, value: None, range: None, message }
     }
 
@@ -100,23 +95,5 @@ impl From<Error> for Refusal {
 impl From<CoreError> for Refusal {
     fn from(error: CoreError) -> Self {
         Error::from(error).into()
-    }
-}
-
-impl From<FitError> for Refusal {
-    fn from(error: FitError) -> Self {
-        match error {
-            FitError::Model(error) => error.into(),
-            _ => Self::new("computation", error.to_string()),
-        }
-    }
-}
-
-impl From<MotorFileError> for Refusal {
-    fn from(error: MotorFileError) -> Self {
-        match error {
-            MotorFileError::Illegal(error) => error.into(),
-            _ => Self::new("text", error.to_string()),
-        }
     }
 }

@@ -13,54 +13,21 @@ use crate::reply::Refusal;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SystemParameters {
-    amplitude: f64,
-    twist_amplitude: f64,
-    angular_frequency: f64,
-    phase_lag: f64,
-    contact_radius: f64,
-    gyration_radius: f64,
-    friction: f64,
-    restitution: f64,
-    preload_acceleration: f64,
-    load_acceleration: f64,
+    #[serde(flatten)]
+    platform: PlatformParameters,
+    #[serde(flatten)]
+    disk: DiskParameters,
 }
 
 impl SystemParameters {
-    /// The system, checked.
     pub(crate) fn build(self) -> Result<System, Refusal> {
-        let platform = PlatformParameters {
-            amplitude: self.amplitude,
-            twist_amplitude: self.twist_amplitude,
-            angular_frequency: self.angular_frequency,
-            phase_lag: self.phase_lag,
-        };
-        let disk = DiskParameters {
-            contact_radius: self.contact_radius,
-            gyration_radius: self.gyration_radius,
-            friction: self.friction,
-            restitution: self.restitution,
-            preload_acceleration: self.preload_acceleration,
-            load_acceleration: self.load_acceleration,
-        };
-        Ok(System::new(platform.build()?, disk.build()?)?)
+        Ok(System::new(self.platform.build()?, self.disk.build()?)?)
     }
 }
 
 impl From<&System> for SystemParameters {
     fn from(system: &System) -> Self {
-        let (platform, disk) = (system.platform(), system.disk());
-        Self {
-            amplitude: platform.amplitude(),
-            twist_amplitude: platform.twist_amplitude(),
-            angular_frequency: platform.angular_frequency(),
-            phase_lag: platform.phase_lag(),
-            contact_radius: disk.contact_radius(),
-            gyration_radius: disk.gyration_radius(),
-            friction: disk.friction(),
-            restitution: disk.restitution(),
-            preload_acceleration: disk.preload_acceleration(),
-            load_acceleration: disk.load_acceleration(),
-        }
+        Self { platform: system.platform().parameters(), disk: system.disk().parameters() }
     }
 }
 
@@ -73,7 +40,6 @@ pub(crate) struct ImpactStart {
 }
 
 impl ImpactStart {
-    /// The state, checked.
     pub(crate) fn state(self) -> Result<ImpactState, Refusal> {
         Ok(ImpactState::from_normalised(self.impact_phase, self.normalised_speed)?)
     }
@@ -102,7 +68,6 @@ pub(crate) enum Request {
     Check {
         system: SystemParameters,
     },
-    /// The motion of the engine.
     Motion {
         system: SystemParameters,
         start: MotionStart,
@@ -131,16 +96,8 @@ pub(crate) enum Request {
     MotorReport {
         sheet: MotorParameters,
     },
-    /// Run-ups of so many motors.
-    MotorTransient {
-        sheet: MotorParameters,
-        members: usize,
-        rise_times: f64,
-        points: usize,
-        seed: u64,
-    },
+    MotorTransient(TransientRequest),
     MotorLoads(LoadsRequest),
-    /// The load that stops the motor.
     MotorStall {
         sheet: MotorParameters,
         relative_error: f64,
@@ -191,6 +148,17 @@ pub(crate) struct BasinsRequest {
     pub(crate) rows: [usize; 2],
 }
 
+/// Run-ups of so many motors.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct TransientRequest {
+    pub(crate) sheet: MotorParameters,
+    pub(crate) members: usize,
+    pub(crate) rise_times: f64,
+    pub(crate) points: usize,
+    pub(crate) seed: u64,
+}
+
 /// The steady operation of a motor under loads (N m).
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -204,7 +172,6 @@ pub(crate) struct LoadsRequest {
     pub(crate) seed: u64,
 }
 
-/// The map of a forcing.
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {
     Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
 }

@@ -14,7 +14,6 @@ use crate::request::{BasinsRequest, ImpactStart, map};
 pub(crate) struct SharedAttractors(Option<Attractors>);
 
 impl SharedAttractors {
-    /// The attractors, searched for where they are not those of the last map.
     fn of(&mut self, axial_forcing: f64, restitution: f64) -> Result<&Attractors, Refusal> {
         let map = map(axial_forcing, restitution)?;
         let found = match self.0.take() {

@@ -76,5 +76,4 @@ export class Address {
   }
 }
 
-/** The address of this page with a state. */
 export const link = (state: State): string => location.href.replace(/#.*$/s, "") + toHash(state);

@@ -13,7 +13,7 @@ const GRACE = 40;
 const MOST_DEATHS = 3;
 
 export function makeClient(source: Source): Client {
-  const workshop = new Workshop(source);
+  const workshop = workshopOf(source);
   const quick = new Lane(workshop);
   const heavy = new Lane(workshop);
   quick.warm();
@@ -30,34 +30,22 @@ export function makeClient(source: Source): Client {
   };
 }
 
-/** What both lanes share: how to make a worker, and the module, once one of them has compiled it. */
-class Workshop {
-  private compiled: WebAssembly.Module | null = null;
-  private readonly address: string;
+/** What both lanes share: where the worker's script is, and the module, once one of them has compiled it. */
+interface Workshop {
+  readonly script: string;
+  module: ModuleSource;
+}
 
-  constructor(private readonly source: Source) {
-    const script = "script" in source ? new Blob([source.script], { type: "text/javascript" }) : null;
-    this.address = script === null ? (source as { worker: string }).worker : URL.createObjectURL(script);
+function workshopOf(source: Source): Workshop {
+  if ("worker" in source) {
+    return { script: source.worker, module: { address: new URL(source.module, document.baseURI).href } };
   }
-
-  worker(): Worker {
-    return new Worker(this.address);
-  }
-
-  module(): ModuleSource {
-    if (this.compiled !== null) return { compiled: this.compiled };
-    if ("base64" in this.source) return { base64: this.source.base64 };
-    return { address: new URL(this.source.module, document.baseURI).href };
-  }
-
-  keep(module: WebAssembly.Module): void {
-    this.compiled = module;
-  }
+  const script = URL.createObjectURL(new Blob([source.script], { type: "text/javascript" }));
+  return { script, module: { base64: source.base64 } };
 }
 
 type Each = (response: Response<never>, index: number) => void;
 
-/** Requests of one slot, answered in their order. */
 interface Job {
   readonly slot: string;
   readonly requests: readonly Request[];
@@ -65,8 +53,12 @@ interface Job {
   readonly done: (last: Response<never>) => void;
   readonly failed: (error: Error) => void;
   next?: number;
-  /** True once the job has been cancelled while its `each` ran. */
-  ended?: boolean;
+}
+
+interface Running {
+  readonly id: number;
+  readonly job: Job;
+  wanted: boolean;
 }
 
 /** One honest sentence about a worker's end. */
@@ -82,8 +74,7 @@ class Lane {
   private worker: Worker | null = null;
   private ready = false;
   private queue: Job[] = [];
-  private running: { id: number; job: Job; wanted: boolean } | null = null;
-  private delivering: Job | null = null;
+  private running: Running | null = null;
   private lastId = 0;
   private deaths = 0;
 
@@ -109,17 +100,12 @@ class Lane {
         if (this.running === running) this.replace();
       }, GRACE);
     }
-    if (this.delivering?.slot === slot) {
-      this.delivering.ended = true;
-      gone.push(this.delivering);
-    }
     for (const job of gone) job.failed(new Cancelled(`"${slot}" was cancelled`));
   }
 
-  /** Starts the worker before anything is asked. */
   warm(): void {
     if (this.worker !== null) return;
-    const worker = this.workshop.worker();
+    const worker = new Worker(this.workshop.script);
     this.worker = worker;
     this.ready = false;
     worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
@@ -129,7 +115,7 @@ class Lane {
       event.preventDefault();
       if (this.worker === worker) this.fail(event.message || "no reason given", !this.ready);
     };
-    this.tell({ kind: "start", module: this.workshop.module() });
+    this.tell({ kind: "start", module: this.workshop.module });
   }
 
   private tell(message: ToWorker): void {
@@ -153,33 +139,32 @@ class Lane {
     }
     const running = this.running;
     if (message.kind === "ready") {
-      if (message.module !== null) this.workshop.keep(message.module);
+      if (message.module !== null) this.workshop.module = { compiled: message.module };
       this.ready = true;
     } else if (running?.id === message.id) {
-      this.running = null;
       this.deaths = 0;
-      if (running.wanted) this.deliver(running.job, message);
+      // What its `each` asks for waits, and may cancel it.
+      if (running.wanted) this.deliver(running, message);
+      this.running = null;
     }
     this.pump();
   }
 
-  private deliver(job: Job, message: Exclude<FromWorker, { kind: "ready" | "failed" }>): void {
+  private deliver(running: Running, message: Exclude<FromWorker, { kind: "ready" | "failed" }>): void {
+    const { job } = running;
     const { next = 0 } = job;
-    this.delivering = job;
     try {
       if (message.kind === "refused") throw new Refused(JSON.parse(message.json) as Refusal);
       const { digest, numbers, bytes } = message;
       const response = { json: JSON.parse(message.json) as never, numbers, bytes, digest };
       job.each(response, next);
-      if (job.ended === true) return;
+      if (!running.wanted) return;
       job.next = next + 1;
       if (job.next >= job.requests.length) job.done(response);
       // Behind the jobs of other slots, so that a long series does not keep them waiting.
       else this.queue.push(job);
     } catch (error) {
       job.failed(error instanceof Error ? error : new Error(String(error)));
-    } finally {
-      this.delivering = null;
     }
   }
 

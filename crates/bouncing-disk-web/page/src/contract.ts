@@ -4,7 +4,6 @@ import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, Syste
 
 export type ViewName = "toss" | "diagram" | "basins" | "motor";
 
-/** What is drawn over the forcing. */
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
 /**
@@ -13,7 +12,6 @@ export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
  */
 export interface State {
   readonly view: ViewName;
-  /** Shared by all views. */
   readonly system: Readonly<SystemParameters>;
   /** Mass of the disk (kg), which only the motor's torques and powers depend on. */
   readonly mass: number;
@@ -29,7 +27,6 @@ export interface State {
   readonly motor: Readonly<{ loads: Range; points: number; rise_times: number }>;
 }
 
-/** Some of the state, or of its parts. */
 export type Change = { [Key in keyof State]?: State[Key] extends object ? Partial<State[Key]> : State[Key] };
 
 /** A request that a later one with the same slot has replaced, or whose view is hidden. */
@@ -70,7 +67,6 @@ export interface Offer {
 
 export interface Context {
   readonly client: Client;
-  /** The state at this time. */
   state(): State;
   /** Another state: the page, the address and all views follow. `settled: false` while a drag or a wheel goes on, when
    * the address is replaced and no entry of the history made. */

@@ -20,6 +20,12 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+export const div = (name: string, ...children: Child[]): HTMLElement => element("div", { class: name }, ...children);
+
+/** A part of a view, with its name for screen readers; `panel` is the class of those that consist of words. */
+export const section = (label: string, name: "panel" | null, ...children: Child[]): HTMLElement =>
+  element("section", { class: name, "aria-label": label }, ...children);
+
 /** An element of `index.html`, which is there, or the page is not ours. */
 export function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
   const found = document.getElementById(id);
@@ -40,25 +46,16 @@ export function rich(text: string): Node[] {
     .map((part) => (part.startsWith("_") ? element("sub", {}, part.slice(1)) : document.createTextNode(part)));
 }
 
-/** Something kept from visit to visit; a page on the disk may not be allowed to. */
-export const kept = {
-  read(name: string): string | null {
-    try {
-      return localStorage.getItem(`bouncing-disk ${name}`);
-    } catch {
-      return null;
-    }
-  },
-  write(name: string, value: string): void {
-    try {
-      localStorage.setItem(`bouncing-disk ${name}`, value);
-    } catch {
-      // It lasts until the page is closed, then.
-    }
-  },
-};
+/** Something kept from visit to visit; null where there is none, or where a page on the disk may keep nothing. */
+export function kept(name: string, value?: string): string | null {
+  try {
+    if (value !== undefined) localStorage.setItem(`bouncing-disk ${name}`, value);
+    return localStorage.getItem(`bouncing-disk ${name}`);
+  } catch {
+    return null;
+  }
+}
 
-/** A button that is not a form's. */
 export function button(label: string | Node[], press: () => void, attributes: Attributes = {}): HTMLButtonElement {
   return element("button", { type: "button", onclick: press, ...attributes }, ...[label].flat());
 }
@@ -79,7 +76,6 @@ export function setText(target: Node, text: string): void {
   if (target.textContent !== text) target.textContent = text;
 }
 
-/** A list of names and values that are filled in later. */
 export class Facts {
   readonly root = element("dl", { class: "facts" });
   private readonly values = new Map<string, HTMLElement>();
@@ -111,20 +107,22 @@ export function oncePerFrame(draw: () => void): () => void {
   };
 }
 
+/** Where an event is on an element, in its pixels. */
+export function placeOn(surface: HTMLElement, event: MouseEvent): { x: number; y: number } {
+  const box = surface.getBoundingClientRect();
+  return { x: event.clientX - box.left, y: event.clientY - box.top };
+}
+
 /** Calls when `milliseconds` have gone by without another call; `stop` forgets what waits. */
 export function debounced<Values extends unknown[]>(
   milliseconds: number,
   call: (...values: Values) => void,
 ): { (...values: Values): void; stop(): void } {
-  let timer: ReturnType<typeof setTimeout> | undefined;
+  let timer: number | undefined;
   const later = (...values: Values) => {
     clearTimeout(timer);
-    timer = setTimeout(() => call(...values), milliseconds);
+    timer = window.setTimeout(() => call(...values), milliseconds);
   };
   later.stop = () => clearTimeout(timer);
   return later;
-}
-
-export function prefersLessMotion(): boolean {
-  return window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

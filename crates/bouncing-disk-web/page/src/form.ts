@@ -2,7 +2,7 @@
 
 import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
-import { abridged, shown, stepped, typed } from "./numbers";
+import { abridged, prefixOf, shown, stepped, typed } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
 import { amplitudeOf } from "./state";
 import type { ChangeOptions } from "./store";
@@ -40,41 +40,32 @@ function asTyped(axialForcing: number, system: Readonly<SystemParameters>): numb
 
 const inPi = (value: number): string => (value === 0 ? "" : `${shown(value / Math.PI, 4)} π`);
 
-/** Units with the least size for which they are taken, and their number in one of the base unit. */
-type Units = readonly (readonly [number, string, number])[];
-const SECONDS: Units = [[0.1, "s", 1], [1e-4, "ms", 1e3], [0, "µs", 1e6]]; // prettier-ignore
-const METRES: Units = [[1e-2, "m", 1], [1e-5, "mm", 1e3], [0, "µm", 1e6]]; // prettier-ignore
-const SMALL_METRES: Units = [[1e-4, "mm", 1e3], [1e-7, "µm", 1e6], [0, "nm", 1e9]]; // prettier-ignore
-const HERTZ: Units = [[1e3, "kHz", 1e-3], [0, "Hz", 1]]; // prettier-ignore
-
-function measured(value: number, units: Units): string {
-  const size = Math.abs(value);
-  const [, unit, factor] = units.find(([least]) => size >= least && size > 0) ?? (units[0] as Units[number]);
-  return `${shown(value * factor, 4)} ${unit}`;
+/** With the prefix of its unit, to four digits. */
+function measured(value: number, unit: string): string {
+  const prefix = prefixOf(Math.abs(value));
+  return `${shown(value * prefix.factor, 4)} ${prefix.symbol}${unit}`;
 }
 
-const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, SMALL_METRES));
-const hertz = (value: number): string => measured(value / (2 * Math.PI), HERTZ);
+const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, "m"));
+const hertz = (value: number): string => measured(value / (2 * Math.PI), "Hz");
 
-type Words = Omit<Parameter, "name" | "value" | "change" | "symbol" | "label" | "unit" | "slider">;
+type Words = [
+  symbol: string,
+  label: string,
+  unit: string,
+  Parameter["slider"],
+  more?: Pick<Parameter, "angle" | "hint">,
+];
 
 const LOGARITHMIC = "logarithmic";
 
-/** Makes parameters of the numbers in a part of the state. */
 const parametersOf =
   <Part extends "system" | "start">(part: Part) =>
-  (
-    name: keyof State[Part] & string,
-    symbol: string,
-    label: string,
-    unit: string,
-    slider: Parameter["slider"],
-    more: Words = {},
-  ): Parameter => ({
-    name, symbol, label, unit, slider, ...more,
+  (name: keyof State[Part] & string, ...[symbol, label, unit, slider, more]: Words): Parameter => ({
+    ...{ name, symbol, label, unit, slider, ...more },
     value: (state) => state[part][name] as number,
     change: (value) => ({ [part]: { [name]: value } }),
-  }); // prettier-ignore
+  });
 const ofSystem = parametersOf("system");
 const ofStart = parametersOf("start");
 
@@ -162,9 +153,9 @@ export class Parameters {
     const rows = [
       ["Γ_T", "angular forcing", angular_forcing === null ? "none, no friction" : shown(angular_forcing, 4)],
       ["Aω²/g", "peak acceleration", `${shown(summary.peak_acceleration, 4)} g`],
-      ["2π/ω", "period", measured(summary.period, SECONDS)],
-      ["c", "stroke", measured(summary.stroke, METRES)],
-      ["t_r", "rise time", rise_time === null ? "none" : measured(rise_time, SECONDS)],
+      ["2π/ω", "period", measured(summary.period, "s")],
+      ["c", "stroke", measured(summary.stroke, "m")],
+      ["t_r", "rise time", rise_time === null ? "none" : measured(rise_time, "s")],
     ] as const;
     this.list.replaceChildren(
       ...rows.map(([sign, name, value]) =>
@@ -181,7 +172,6 @@ export class Parameters {
   }
 }
 
-/** Positions of a slider. */
 const POSITIONS = 1000;
 /** A logarithmic slider reaches from a tenth to ten times of its value. */
 const REACH = 10;

@@ -1,6 +1,10 @@
 /** Puts the page together: state, address, form, views and tools. */
 
-import "./style.css";
+// Where two of these say something of the same, the later one counts.
+import "./styles/theme.css";
+import "./styles/page.css";
+import "./styles/screens.css";
+import "./styles/views.css";
 import { Address, link } from "./address";
 import { makeClient, type Source } from "./client";
 import type { Context, Offer, State, ViewKind } from "./contract";
@@ -8,8 +12,8 @@ import { fileName, save } from "./drawing/files";
 import { byId, element } from "./elements";
 import { Parameters } from "./form";
 import { Notes, Problems, TourPanel } from "./notes";
-import { openingPanel, stateOf, type Panel, type Preset } from "./presets";
-import { helpDialog, Menu, presetDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
+import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
+import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
 import { basins } from "./views/basins";
 import { diagram } from "./views/diagram";
@@ -81,7 +85,18 @@ function begin(): void {
     open(stateOf(panel));
   };
   const notes = new Notes(byId("note"), choose);
-  const presets = presetDialog((preset) => choose(preset, openingPanel(preset)));
+  const presets = choices(
+    "Figures and tables of the paper",
+    "presets",
+    "Each opens the view and the parameters that come nearest to it, and says what to see.",
+    () =>
+      PRESETS.map((preset) => ({
+        label: preset.place,
+        note: preset.title,
+        attributes: { "data-preset": preset.id },
+        act: () => choose(preset, openingPanel(preset)),
+      })),
+  );
   const help = helpDialog();
   const tour = new TourPanel(open);
   byId("main").prepend(tour.element);
@@ -98,8 +113,7 @@ function begin(): void {
       problems.add(`${name} cannot be made: ${String(error)}`);
     }
   };
-  const place = tool("export").nextSibling;
-  const menu = new Menu(tool("export"), () => [
+  const exports = choices("Export", "export", "Data and pictures of this view, and its address.", () => [
     ...(stage.view?.offers() ?? []).map((offer) => ({
       label: offer.name,
       note: offer.kind.toUpperCase(),
@@ -107,11 +121,11 @@ function begin(): void {
     })),
     { label: "link to this state", note: "COPY", act: copy },
   ]);
-  byId("tools").insertBefore(menu.element, place);
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [
-    ["p", "presets", () => presets.showModal()],
+    ["p", "presets", presets],
     ["t", "tour", () => tour.begin()],
+    ["e", "export", exports],
     ["l", "link", copy],
     ["d", "theme", () => context.announce(themes.next())],
     ["?", "help", () => help.showModal()],
@@ -135,7 +149,6 @@ function begin(): void {
     const view = VIEWS[Number(event.key) - 1]?.name;
     const own = tools.find(([key]) => key === event.key)?.[2];
     if (view !== undefined) store.change({ view });
-    else if (event.key === "e") tool("export").click();
     else if (own !== undefined) own();
     else return;
     event.preventDefault();

@@ -18,7 +18,6 @@ function isNear(state: State, shown: State): boolean {
 }
 
 export class Notes {
-  /** The preset and the panel that were shown last. */
   private shown: { preset: Preset; panel: Panel } | null = null;
 
   constructor(
@@ -114,7 +113,7 @@ export class TourPanel {
 
   constructor(private readonly open: (state: State) => void) {
     const end = button("End", () => this.end());
-    const buttons = [end, element("span", { class: "spring" }), this.back, this.next];
+    const buttons = [end, this.back, this.next];
     const parts = [this.place, this.title, this.text, element("div", { class: "buttons" }, ...buttons)];
     this.element = element("section", { class: "tour", hidden: true, "aria-label": "Guided tour" }, ...parts);
     this.element.addEventListener("keydown", (event) => this.pressed(event));

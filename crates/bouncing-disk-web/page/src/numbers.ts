@@ -44,10 +44,7 @@ export function stepped(value: number, direction: 1 | -1, coarse: boolean, small
   return Number((Math.round(value / step + direction) * step).toPrecision(12));
 }
 
-/** A hyphen in front of a number is a minus. */
-export function minus(text: string): string {
-  return text.replace("-", "\u2212");
-}
+export const minus = (text: string): string => text.replace("-", "\u2212");
 
 function superscript(power: number): string {
   return [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
@@ -67,11 +64,8 @@ export function plain(value: number | null | undefined, digits = 4): string {
 }
 
 /** A number that people chose, without zeros that say nothing. */
-export function brief(value: number, digits = 6): string {
-  return minus(String(Number(value.toPrecision(digits))));
-}
+export const brief = (value: number, digits = 6): string => minus(String(Number(value.toPrecision(digits))));
 
-/** Thousands stand apart by a comma. */
 export function grouped(text: string): string {
   const [whole = "", part] = text.split(".");
   const spaced = whole.replace(/\B(?=(\d{3})+$)/g, ",");
@@ -104,9 +98,7 @@ export function toldApart(one: number, other: number, least = 2): [string, strin
   return [text(one), text(other)];
 }
 
-export function percent(share: number, decimals = 1): string {
-  return `${(100 * share).toFixed(decimals)} %`;
-}
+export const percent = (share: number, decimals = 1): string => `${(100 * share).toFixed(decimals)} %`;
 
 const PREFIXES = ["p", "n", "µ", "m", "", "k", "M", "G"] as const;
 

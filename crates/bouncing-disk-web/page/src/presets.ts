@@ -1,8 +1,8 @@
 /** A preset for every figure and table of the paper, and the guided tour: states, and what to see in each. */
 
-import type { Change, State } from "./contract";
-import type { SystemParameters } from "./protocol";
-import { amplitudeOf, changed, DEFAULT_STATE, DEFAULT_SYSTEM } from "./state";
+import type { Change, Quantity, State } from "./contract";
+import type { Range, SystemParameters } from "./protocol";
+import { amplitudeOf, changed, DEFAULT_STATE, DEFAULT_SYSTEM, systemOf } from "./state";
 import tables from "./tables.json";
 
 export interface Panel {
@@ -25,24 +25,17 @@ export interface Preset {
 
 const { PI } = Math;
 
-/** Table I's c (m), phi_L (rad) and a_e (m), and a lag (rad). */
-interface Hand {
-  stroke?: number;
-  angle?: number;
-  contact?: number;
-  lag?: number;
-}
+const { table_one: HAND, table_three: SHEET } = tables;
 
-/** The hand of Table I with other numbers; A and a_e Phi are the sides of the stroke, Eq. (13). */
-function tossOf(hand: Hand): Partial<SystemParameters> {
-  const { table_one: table } = tables;
-  const { stroke = table.stroke, angle = table.amplitude_angle, contact = table.contact_radius, lag = 0 } = hand;
-  return {
-    amplitude: stroke * Math.cos(angle),
-    twist_amplitude: (stroke * Math.sin(angle)) / contact,
-    phase_lag: lag,
-    contact_radius: contact,
-  };
+/** The hand of Table I with other numbers (m, rad); A and a_e Phi are the sides of the stroke, Eq. (13). */
+function tossOf({
+  stroke = HAND.stroke,
+  angle = HAND.amplitude_angle,
+  contact_radius = HAND.contact_radius,
+  lag: phase_lag = 0,
+}): Partial<SystemParameters> {
+  const twist_amplitude = (stroke * Math.sin(angle)) / contact_radius;
+  return { amplitude: stroke * Math.cos(angle), twist_amplitude, phase_lag, contact_radius };
 }
 
 /** Table I, with the restitution of Sec. IV, which a single toss does not depend on. */
@@ -71,37 +64,20 @@ function withTwist(system: SystemParameters, forcing: number): SystemParameters 
 const REST: State["start"] = { impact_phase: 1.5 * PI, normalised_speed: 0, angular_speed: 0 };
 
 /** A drive frequency (Hz), the largest angular speed of the stator (rad/s) and a preload acceleration (m/s²). */
-interface Drive {
-  frequency?: number;
-  speed?: number;
-  preload?: number;
-}
-
-function motorOf(drive: Drive): Partial<SystemParameters> {
-  const { table_three: table } = tables;
-  const { frequency = table.drive_frequency, speed = table.peak_angular_speed } = drive;
-  const preload = drive.preload ?? table.preload_acceleration;
+function motorOf({
+  frequency = SHEET.drive_frequency,
+  speed = SHEET.peak_angular_speed,
+  preload: preload_acceleration = SHEET.preload_acceleration,
+}): Partial<SystemParameters> {
   const angular_frequency = 2 * PI * frequency;
-  return { angular_frequency, twist_amplitude: speed / angular_frequency, preload_acceleration: preload };
+  return { angular_frequency, twist_amplitude: speed / angular_frequency, preload_acceleration };
 }
 
 /** Its rotor's mass (kg), as the paper prints such numbers: to three digits. */
-const MASS = Number(tables.table_three.mass.toPrecision(3));
+const MASS = Number(SHEET.mass.toPrecision(3));
 
 /** The motor of Table III, its "70" read as the drive frequency in kHz. */
-const MOTOR: Readonly<SystemParameters> = {
-  amplitude: tables.table_three.amplitude,
-  twist_amplitude: 0,
-  angular_frequency: 0,
-  phase_lag: tables.table_three.phase_lag,
-  contact_radius: tables.table_three.contact_radius,
-  gyration_radius: tables.table_three.gyration_radius,
-  friction: tables.table_three.friction,
-  restitution: tables.table_three.restitution,
-  preload_acceleration: tables.table_three.preload_acceleration,
-  load_acceleration: 0,
-  ...motorOf({}),
-};
+const MOTOR: Readonly<SystemParameters> = { ...systemOf(SHEET), ...motorOf({}) };
 
 /** A single toss: the dough lies on the hand at its lowest point. */
 const toss = (label: string, change: Change["system"]): Panel => ({
@@ -110,22 +86,20 @@ const toss = (label: string, change: Change["system"]): Panel => ({
 });
 
 /** The orbit diagram of Fig. 6, whose columns begin with this impact. */
-const diagram = (label: string, quantity: State["diagram"]["quantity"], change: Change["system"]): Panel => ({
+const diagram = (
+  label: string,
+  quantity: Quantity,
+  system: SystemParameters,
+  axial_forcing: Range = [0.3, 0.65],
+): Panel => ({
   label,
-  change: {
-    view: "diagram",
-    system: change,
-    diagram: { axial_forcing: [0.3, 0.65], quantity, range: null, branches: true },
-  },
+  change: { view: "diagram", system, diagram: { ...DEFAULT_STATE.diagram, axial_forcing, quantity } },
 });
 
 /** A panel of Fig. 7; the paper does not print its window, and speeds up to 5 give its two shares. */
 const basins = (label: string, forcing: number): Panel => ({
   label: `${label} Γ = ${forcing}`,
-  change: {
-    view: "basins",
-    system: withForcing(multipleToss, forcing),
-  },
+  change: { view: "basins", system: withForcing(multipleToss, forcing) },
 });
 
 const motor = (label: string, change: Change["system"]): Panel => ({
@@ -137,17 +111,17 @@ const motor = (label: string, change: Change["system"]): Panel => ({
 const braking = (label: string, preload: number): Panel => ({
   label,
   change: {
+    ...motor("", { amplitude: 1e-6, twist_amplitude: 0, angular_frequency: 20 * PI, preload_acceleration: preload })
+      .change,
     view: "toss",
-    system: {
-      ...MOTOR,
-      amplitude: 1e-6,
-      twist_amplitude: 0,
-      angular_frequency: 20 * PI,
-      preload_acceleration: preload,
-    },
-    mass: MASS,
     start: { impact_phase: 0, normalised_speed: 0.02, angular_speed: 30 },
   },
+});
+
+/** A disk that is tossed again and again, at this forcing. */
+const bouncing = (label: string, forcing: number, start: Change["start"] = DEFAULT_STATE.start): Panel => ({
+  label,
+  change: { view: "toss", system: withForcing(multipleToss, forcing), start },
 });
 
 /** "fig06" of "Fig. 6", and "table3" of "Table III", whose numerals are as long as they are large. */
@@ -190,12 +164,7 @@ export const PRESETS: readonly Preset[] = (
         "The flow chart is the engine behind every picture here, and its inset is this motion: a flight, impacts " +
         "that come ever faster, attachment, a ride on the platform, and separation. Watch the mode change " +
         "between flight, sticking and sliding.",
-      panels: [
-        {
-          label: "chattering",
-          change: { view: "toss", system: withForcing(multipleToss, 0.4), start: REST },
-        },
-      ],
+      panels: [bouncing("chattering", 0.4, REST)],
     },
     {
       place: "Fig. 4",
@@ -343,16 +312,7 @@ export const PRESETS: readonly Preset[] = (
         "The figure measures the diameter of a dough in a video; it grows by 3 % with each toss, which is why " +
         "the model leaves deformation out. Nothing of it can be computed, so this shows what the video shows: " +
         "multiple tosses, with the semielliptical motion of the hand that makes them easy.",
-      panels: [
-        {
-          label: "multiple tosses",
-          change: {
-            view: "toss",
-            system: withForcing(multipleToss, 0.48),
-            start: { impact_phase: 0.7, normalised_speed: 1.35, angular_speed: 0 },
-          },
-        },
-      ],
+      panels: [bouncing("multiple tosses", 0.48, { impact_phase: 0.7, normalised_speed: 1.35 })],
     },
     {
       place: "Table I",
@@ -372,7 +332,7 @@ export const PRESETS: readonly Preset[] = (
       panels: [
         toss("c + 0.05 m", tossOf({ stroke: 0.3 })),
         toss("ω + 5 rad/s", { angular_frequency: 20 }),
-        toss("a_e + 15 mm", tossOf({ contact: 0.15 })),
+        toss("a_e + 15 mm", tossOf({ contact_radius: 0.15 })),
         toss("a_g + 10 mm", { gyration_radius: 0.12 }),
         toss("μ + 0.1", { friction: 0.7 }),
         toss("φ_L + 0.14", tossOf({ angle: 0.69 })),
@@ -409,7 +369,7 @@ export const STEPS: readonly Step[] = [
       "A hand rises and twists; the dough on it is carried along by friction until the hand falls away from " +
       "under it. Both motions together throw it up and spin it: with the numbers of Table I it leaves the hand " +
       "with 14 rad/s.",
-    change: { view: "toss", system: TABLE_ONE, start: REST },
+    change: toss("", {}).change,
   },
   {
     title: "One bounce in every period",
@@ -417,10 +377,7 @@ export const STEPS: readonly Step[] = [
       "With Γ = Aω²/(πg) = 0.45 the disk can land once in every period of the platform, always at the same " +
       "phase. Each impact takes it nearer to the speed at which the platform turns at that phase, and then " +
       "nothing slips any more.",
-    change: {
-      view: "toss",
-      system: withForcing(multipleToss, 0.45),
-    },
+    change: bouncing("", 0.45).change,
   },
   {
     title: "The road to chaos",
@@ -428,11 +385,7 @@ export const STEPS: readonly Step[] = [
       "Here the forcing runs along the axis, and each column shows at which phases the disk lands in the long " +
       "run. One line becomes two, four, eight: the period doubles at 0.486, 0.531, 0.540, and beyond about " +
       "0.543 bands of chaos follow.",
-    change: {
-      view: "diagram",
-      system: withForcing(multipleToss, 0.45),
-      diagram: { axial_forcing: [0.32, 0.58], quantity: "impact_phase", range: null, branches: true },
-    },
+    change: diagram("", "impact_phase", withForcing(multipleToss, 0.45), [0.32, 0.58]).change,
   },
   {
     title: "Chaos, bounce by bounce",
@@ -440,10 +393,7 @@ export const STEPS: readonly Step[] = [
       "The same disk at Γ = 0.55: no two bounces are alike, though every one follows from the last. Two starts " +
       "that differ in the last digit of a double part within some hundred impacts, so a program has to fix " +
       "every bit to show the same picture twice.",
-    change: {
-      view: "toss",
-      system: withForcing(multipleToss, 0.55),
-    },
+    change: bouncing("", 0.55).change,
   },
   {
     title: "Where a start leads",
@@ -451,7 +401,7 @@ export const STEPS: readonly Step[] = [
       "Every point of this plane is an impact, by its phase and its speed; its colour says where the disk " +
       "ends. At Γ = 0.486 the orbit with one bounce a period has its widest basin, which is why this motion is " +
       "easy to keep up; along the axis of speed zero lies nothing of it.",
-    change: { view: "basins", system: withForcing(multipleToss, 0.486) },
+    change: basins("", 0.486).change,
   },
   {
     title: "What falls asleep",
@@ -459,7 +409,7 @@ export const STEPS: readonly Step[] = [
       "Begin at rest and the other attractor shows: impacts come faster and faster, infinitely many in a " +
       "finite time, until the disk lies on the platform, rides it and is thrown again. The sum of that " +
       "sequence is computed, not cut off.",
-    change: { view: "toss", system: withForcing(multipleToss, 0.45), start: REST },
+    change: bouncing("", 0.45, REST).change,
   },
   {
     title: "A motor",
@@ -467,7 +417,7 @@ export const STEPS: readonly Step[] = [
       "The same equations, 30,000 times faster: the rotor of an ultrasonic motor on a stator that moves by 10 " +
       "nm at 70 kHz. Thousands of impacts drag it to its steady speed; that speed is an average over motors " +
       "that differ by less than anybody can set, and carries an error.",
-    change: { view: "motor", system: MOTOR, mass: MASS, start: { angular_speed: 0 } },
+    change: motor("", {}).change,
   },
   {
     title: "Which lag is best?",
@@ -475,10 +425,6 @@ export const STEPS: readonly Step[] = [
       "Back to the disk: over the forcing, its angular speed in units of the platform's largest one. With θ = " +
       "−0.26π it is at its fastest where the period doubles; set θ to 0 in the form and the fastest place " +
       "moves to Γ = 1/3, where the orbit is born.",
-    change: {
-      view: "diagram",
-      system: withTwist(withForcing(multipleToss, 0.486), 1),
-      diagram: { axial_forcing: [0.32, 0.58], quantity: "angular_speed", range: null, branches: true },
-    },
+    change: diagram("", "angular_speed", withTwist(withForcing(multipleToss, 0.486), 1), [0.32, 0.58]).change,
   },
 ];

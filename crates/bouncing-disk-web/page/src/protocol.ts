@@ -1,22 +1,18 @@
 /**
- * What the page reads of the module's answers; all of it, and the requests, are described in `src/request.rs` and its
- * neighbours, whose names these are. Numbers are SI and angles are radians, unless a name says otherwise: phases of
- * pictures are in periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
- * velocity, as in Fig. 7 of the paper.
- *
- * A request is JSON, so that it can be kept in a link, printed and given to the native library, which answers it with
- * the same bits.
+ * What the page reads of the module's answers; all of it, and the requests with their units, are described in
+ * `src/request.rs` and its neighbours, whose names these are. A request is JSON, so that it can be printed and given to
+ * the native library, which answers it with the same bits.
  */
 
 /** From a low to a high number. */
 export type Range = [number, number];
 
 /** Platform and disk, as `System` of the library. */
-export type SystemParameters = Record<
-  | "amplitude" | "twist_amplitude" | "angular_frequency" | "phase_lag" | "contact_radius" | "gyration_radius"
-  | "friction" | "restitution" | "preload_acceleration" | "load_acceleration",
-  number
->; // prettier-ignore
+export const SYSTEM_NAMES = [
+  "amplitude", "twist_amplitude", "angular_frequency", "phase_lag", "contact_radius", "gyration_radius",
+  "friction", "restitution", "preload_acceleration", "load_acceleration",
+] as const; // prettier-ignore
+export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
 export type MotorSheet = { readonly load_torque: number } & Readonly<Record<string, number | null>>;
@@ -35,11 +31,9 @@ export type MotionStart =
 
 /** The module refuses a request with a name that it does not know, or without one that it needs. */
 export interface Request {
-  readonly call:
-    | "check" | "motion" | "diagram" | "orbit" | "branches" | "attractors" | "basins" | "motor_report"
-    | "motor_transient" | "motor_loads" | "motor_stall" | "sheet_write" | "sheet_read" | "sheet_of_system";
+  readonly call: string;
   readonly [name: string]: unknown;
-} // prettier-ignore
+}
 
 export interface Response<Json> {
   readonly json: Json;
@@ -69,7 +63,6 @@ export const OPERATION_COLUMNS = [
 /** Modes in the `bytes` of a motion. */
 export const MODES = ["flight", "sticking", "sliding forward", "sliding backward"] as const;
 
-/** What is wrong with a request. */
 export interface Refusal {
   readonly kind: string;
   /** The name of the parameter, where it is one, and its legal range in words, such as "[0, 1)". */
@@ -78,15 +71,8 @@ export interface Refusal {
   readonly message: string;
 }
 
-export interface Summary {
-  readonly axial_forcing: number;
-  readonly angular_forcing: number | null;
-  readonly period: number;
-  readonly peak_acceleration: number;
-  readonly stroke: number;
-  readonly rise_time: number | null;
-  readonly bounces: boolean;
-}
+export type Summary = Readonly<Record<"axial_forcing" | "period" | "peak_acceleration" | "stroke", number>> &
+  Readonly<Record<"angular_forcing" | "rise_time", number | null>> & { readonly bounces: boolean };
 
 export interface MotionJson {
   readonly samples: number;
@@ -110,7 +96,6 @@ export interface VerdictJson {
 }
 
 export interface BranchesJson {
-  /** How many. */
   readonly branches: number;
   readonly bifurcations: readonly ({ readonly kind: string; readonly axial_forcing: number } & ImpactStart)[];
 }
@@ -150,24 +135,17 @@ export interface ReportJson {
   readonly trap: TrapJson | null;
 }
 
-export interface TrapJson {
-  readonly preload_acceleration: number;
+export type TrapJson = Readonly<Record<"preload_acceleration" | "relative_distance", number>> & {
   readonly caught: boolean;
-  readonly relative_distance: number;
   readonly forcing_from_to: Range;
-}
+};
 
-/** A number with its 95 % interval. */
 export type IntervalJson = Readonly<Record<"value" | "low" | "high", number>>;
 
 export interface TransientJson {
   readonly points: number;
   readonly rise: { form: "exponential" | "ramp"; constant: IntervalJson; residual: number } | null;
   readonly refusal: string | null;
-}
-
-export interface OperationsJson {
-  readonly shortfalls: readonly (string | null)[];
 }
 
 export interface StallJson {

@@ -1,8 +1,7 @@
-/** What stands around the views: tabs, the stage, the menu of files, dialogs and the theme. */
+/** What stands around the views: tabs, the stage, dialogs and the theme. */
 
 import type { Context, State, View, ViewKind, ViewName } from "./contract";
-import { button, closeButton, element, kept, roved } from "./elements";
-import { PRESETS, type Preset } from "./presets";
+import { button, closeButton, div, element, kept, oncePerFrame, roved } from "./elements";
 
 /** The tabs of the views: arrow keys move between them, as everywhere. */
 export class Tabs {
@@ -42,7 +41,8 @@ export class Stage {
   private readonly hosts: ReadonlyMap<ViewName, HTMLElement>;
   private readonly made = new Map<ViewName, View>();
   private present: ViewName | null = null;
-  private frame = 0;
+  /** Once in the next frame, however often it is asked for. */
+  readonly redraw = oncePerFrame(() => this.view?.redraw());
 
   constructor(
     place: HTMLElement,
@@ -81,79 +81,6 @@ export class Stage {
     if (this.view === undefined && kind && host) this.made.set(kind.name, kind.make(host, this.context));
     this.view?.show(state);
   }
-
-  /** Once in the next frame, however often it is asked for. */
-  redraw(): void {
-    cancelAnimationFrame(this.frame);
-    this.frame = requestAnimationFrame(() => this.view?.redraw());
-  }
-}
-
-interface Item {
-  readonly label: string;
-  /** Set apart at the end of the line. */
-  readonly note: string;
-  act(): void;
-}
-
-/** A button that opens a list of things to do, by mouse, touch and keyboard. */
-export class Menu {
-  readonly element: HTMLElement;
-  private readonly list = element("div", { class: "items", role: "menu", hidden: true });
-
-  constructor(
-    private readonly opener: HTMLButtonElement,
-    private readonly items: () => Item[],
-  ) {
-    opener.setAttribute("aria-haspopup", "menu");
-    opener.setAttribute("aria-expanded", "false");
-    opener.addEventListener("click", () => (this.list.hidden ? this.open() : this.close()));
-    opener.addEventListener("keydown", (event) => {
-      if (event.key !== "ArrowDown") return;
-      event.preventDefault();
-      this.open();
-    });
-    this.list.addEventListener("keydown", (event) => this.pressed(event));
-    this.element = element("div", { class: "menu" }, opener, this.list);
-    document.addEventListener("pointerdown", (event) => {
-      if (!this.element.contains(event.target as Node)) this.close(false);
-    });
-    this.element.addEventListener("focusout", (event) => {
-      if (event.relatedTarget !== null && !this.element.contains(event.relatedTarget as Node)) this.close(false);
-    });
-  }
-
-  private open(): void {
-    const buttons = this.items().map(({ label, note, act }) => {
-      const chosen = () => {
-        this.close();
-        act();
-      };
-      const words = [element("span", {}, label), element("span", { class: "kind" }, note)];
-      return button(words, chosen, { role: "menuitem", tabindex: -1 });
-    });
-    this.list.replaceChildren(...buttons);
-    this.list.hidden = false;
-    this.opener.setAttribute("aria-expanded", "true");
-    buttons[0]?.focus();
-  }
-
-  private close(focus = true): void {
-    if (this.list.hidden) return;
-    this.list.hidden = true;
-    this.opener.setAttribute("aria-expanded", "false");
-    if (focus) this.opener.focus();
-  }
-
-  private pressed(event: KeyboardEvent): void {
-    const buttons = [...this.list.querySelectorAll("button")];
-    const target = roved(event.key, buttons.indexOf(document.activeElement as HTMLButtonElement), buttons.length);
-    if (event.key === "Escape") this.close();
-    else if (target !== undefined) buttons[target]?.focus();
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
-  }
 }
 
 const THEMES = ["automatic", "light", "dark"] as const;
@@ -167,16 +94,15 @@ export class Themes {
     private readonly opener: HTMLButtonElement,
     private readonly changed: () => void,
   ) {
-    const name = kept.read("theme");
+    const name = kept("theme");
     this.theme = THEMES.find((theme) => theme === name) ?? "automatic";
     dark.addEventListener("change", () => this.apply());
     this.apply();
   }
 
-  /** Takes the next one, and says its name. */
   next(): string {
     this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
-    kept.write("theme", this.theme);
+    kept("theme", this.theme);
     this.apply();
     return `Colours: ${this.theme}`;
   }
@@ -195,15 +121,8 @@ export class Themes {
 function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
   const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
   const heading = element("h2", { id: `${name}-title` }, title);
-  made.append(
-    element(
-      "div",
-      { class: "sheet" },
-      heading,
-      closeButton("Close", () => made.close()),
-      ...content,
-    ),
-  );
+  const close = closeButton("Close", () => made.close());
+  made.append(div("sheet", heading, close, ...content));
   // A click beside the sheet closes it.
   made.addEventListener("click", (event) => {
     if (event.target === made) made.close();
@@ -212,30 +131,36 @@ function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElem
   return made;
 }
 
-/** The figures and tables of the paper to choose from. */
-export function presetDialog(choose: (preset: Preset) => void): HTMLDialogElement {
-  const cards = PRESETS.map((preset) => {
-    const chosen = () => {
-      made.close();
-      choose(preset);
-    };
-    const words = [element("b", {}, preset.place), element("span", {}, preset.title)];
-    return button(words, chosen, { class: "card", "data-preset": preset.id });
-  });
-  const made = dialog(
-    "Figures and tables of the paper",
-    "presets",
-    element("p", {}, "Each opens the view and the parameters that come nearest to it, and says what to see."),
-    element("div", { class: "cards" }, ...cards),
-  );
+interface Choice {
+  readonly label: string;
+  readonly note: string;
+  readonly attributes?: Readonly<Record<string, string>>;
+  act(): void;
+}
+
+/** A dialog of things to choose from, made anew whenever it is opened; arrow keys move between them, too. */
+export function choices(title: string, name: string, words: string, choicesNow: () => Choice[]): () => void {
+  const cards = div("cards");
+  const made = dialog(title, name, element("p", {}, words), cards);
   made.addEventListener("keydown", (event) => {
-    const at = cards.indexOf(document.activeElement as HTMLButtonElement);
-    const target = roved(event.key, at, cards.length);
+    const buttons = [...cards.querySelectorAll("button")];
+    const at = buttons.indexOf(document.activeElement as HTMLButtonElement);
+    const target = roved(event.key, at, buttons.length);
     if (target === undefined || at < 0) return;
     event.preventDefault();
-    cards[target]?.focus();
+    buttons[target]?.focus();
   });
-  return made;
+  return () => {
+    const buttons = choicesNow().map(({ label, note, attributes, act }) => {
+      const chosen = () => {
+        made.close();
+        act();
+      };
+      return button([element("b", {}, label), element("span", {}, note)], chosen, { class: "card", ...attributes });
+    });
+    cards.replaceChildren(...buttons);
+    made.showModal();
+  };
 }
 
 const KEYS: readonly [string, string][] = [
@@ -255,12 +180,11 @@ const KEYS: readonly [string, string][] = [
 ];
 
 /** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
-export const shortcutsOn = (): boolean => kept.read("keys") !== "off";
+export const shortcutsOn = (): boolean => kept("keys") !== "off";
 
-/** The keyboard's help and what this is. */
 export function helpDialog(): HTMLDialogElement {
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
-  box.addEventListener("change", () => kept.write("keys", box.checked ? "on" : "off"));
+  box.addEventListener("change", () => kept("keys", box.checked ? "on" : "off"));
   const keys = KEYS.map(([key, what]) => {
     const caps = key.split(" ").map((one) => element("kbd", {}, one));
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));

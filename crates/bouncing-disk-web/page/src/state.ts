@@ -1,7 +1,7 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
 import type { Change, Quantity, State, ViewName } from "./contract";
-import type { FlightStart, Range, SystemParameters } from "./protocol";
+import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
@@ -11,21 +11,20 @@ const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "an
 const MOST_POINTS = 200;
 const MOST_RISE_TIMES = 1000;
 
+/** The parameters of a system among the numbers of a table, in the order of the address; 0 where the table has none. */
+export function systemOf(table: Readonly<Record<string, number>>): SystemParameters {
+  return Object.fromEntries(SYSTEM_NAMES.map((name) => [name, table[name] ?? 0])) as SystemParameters;
+}
+
 /**
  * The hands and the dough of Table I, made to toss again and again at Gamma = 0.45, with the lag of Fig. 6(d): there
  * the disk can bounce once in every period, and all four views have something to show.
  */
 export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
+  ...systemOf(tables.table_one),
   amplitude: 0.0616,
   twist_amplitude: 0.9,
-  angular_frequency: tables.table_one.angular_frequency,
   phase_lag: -0.8168,
-  contact_radius: tables.table_one.contact_radius,
-  gyration_radius: tables.table_one.gyration_radius,
-  friction: tables.table_one.friction,
-  restitution: tables.table_one.restitution,
-  preload_acceleration: tables.table_one.preload_acceleration,
-  load_acceleration: 0,
 };
 
 export const DEFAULT_STATE: State = {
@@ -54,9 +53,7 @@ export function changed(state: State, change: Change): State {
 }
 
 /** The shortest digits that give the same bits back. JavaScript prints a negative zero without its sign. */
-export function printed(value: number): string {
-  return Object.is(value, -0) ? "-0" : String(value);
-}
+const printed = (value: number): string => (Object.is(value, -0) ? "-0" : String(value));
 
 /** A decimal number with all of its text used; `null` for anything else, hexadecimal digits and infinities included. */
 export function readNumber(text: string): number | null {
@@ -169,9 +166,7 @@ function keyOf<Part extends keyof Parts, Name extends keyof Parts[Part]>(
 /** The hash's keys, in the order in which they are written. */
 const KEYS: Readonly<Record<string, Key>> = {
   view: whole("view", oneOf(VIEW_NAMES)),
-  ...Object.fromEntries(
-    (Object.keys(DEFAULT_SYSTEM) as (keyof SystemParameters)[]).map((name) => [name, keyOf("system", name, NUMBER)]),
-  ),
+  ...Object.fromEntries(SYSTEM_NAMES.map((name) => [name, keyOf("system", name, NUMBER)])),
   mass: whole("mass", NUMBER),
   impact_phase: keyOf("start", "impact_phase", NUMBER),
   normalised_speed: keyOf("start", "normalised_speed", NUMBER),

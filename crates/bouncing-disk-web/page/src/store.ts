@@ -26,11 +26,8 @@ interface Waiting {
 
 /** What the library calls the parts of a start where a motion begins with it; `check` knows nothing of them. */
 const START_NAMES: Readonly<Record<string, string>> = {
-  impact_phase: "impact_phase",
   phase: "impact_phase",
-  normalised_speed: "normalised_speed",
   axial_impact_velocity: "normalised_speed",
-  angular_speed: "angular_speed",
   tangential_impact_velocity: "angular_speed",
 };
 /** The speed of an impact is its velocity (disk minus platform) without the sign. */
@@ -177,9 +174,9 @@ async function only(answer: Promise<unknown>, of: (refusal: Refusal) => Refusal 
 
 /** A refusal of the start in the words of the form; an impact so hard that its flight is too long is one, too. */
 function ofStart(refusal: Refusal, change: Change): Refusal | null {
-  const name = START_NAMES[refusal.quantity ?? ""];
+  const name = START_NAMES[refusal.quantity ?? ""] ?? refusal.quantity ?? "";
   if (refusal.kind === "computation" && change.start?.normalised_speed !== undefined) return refusal;
-  if (name === undefined) return null;
+  if (!Object.hasOwn(DEFAULT_STATE.start, name)) return null;
   return { ...refusal, quantity: name, range: name === "normalised_speed" ? SPEEDS : refusal.range };
 }
 

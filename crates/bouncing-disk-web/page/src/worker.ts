@@ -30,7 +30,6 @@ interface Explorer {
   respond(request: string): Reply;
 }
 
-/** The glue's global. */
 declare const wasm_bindgen: {
   initSync(options: { module: WebAssembly.Module }): unknown;
   Explorer: new () => Explorer;

@@ -2,8 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { test } from "node:test";
-import { coloursOf, preset, settled, VIEWS, visit, within } from "./browser.mjs";
+import { coloursOf, onPage, settled, VIEWS, visit } from "./browser.mjs";
 
 /** What the Web Content Accessibility Guidelines ask of text, and of lines and marks that carry meaning. */
 const TEXT = 4.5;
@@ -52,114 +51,86 @@ const PAIRS = [
 ]; // prettier-ignore
 
 for (const scheme of ["light", "dark"])
-  test(`text and what pictures show stand out from their grounds: ${scheme}`, () =>
-    within({ colorScheme: scheme }, async (page) => {
-      const values = await coloursOf(page, NAMES);
-      const colours = Object.fromEntries(NAMES.map((name, index) => [name, values[index]]));
-      const weak = [];
-      for (const [name, grounds, least] of PAIRS)
-        for (const ground of grounds) {
-          const found = contrast(colours[name], colours[ground]);
-          if (!(found >= least)) weak.push(`${name} on ${ground}: ${found.toFixed(2)}, not ${least}`);
-        }
-      assert.deepEqual(weak, []);
-    }));
-
-test("the categories of basins differ from each other in lightness or hue for every kind of colour vision", () =>
-  within({}, async (page) => {
-    // Viénot's projections in linear light: without long, without middle waves.
-    const blind = {
-      protanope: [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
-      deuteranope: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
-      all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    }; // prettier-ignore
-    for (const scheme of ["light", "dark"]) {
-      await page.evaluate((wanted) => (document.documentElement.dataset.scheme = wanted), scheme);
-      const names = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
-      const colours = await coloursOf(page, names);
-      for (const [kind, matrix] of Object.entries(blind)) {
-        const seen = colours.map((colour) => {
-          const light = linear(colour);
-          return matrix.map((row) =>
-            Math.cbrt(
-              Math.max(
-                0,
-                row.reduce((sum, one, at) => sum + one * light[at], 0),
-              ),
-            ),
-          );
-        });
-        for (let one = 0; one < 8; one++)
-          for (let other = 0; other < one; other++) {
-            const apart = Math.hypot(...seen[one].map((part, at) => part - seen[other][at]));
-            assert.ok(apart > 0.1, `${scheme}, ${kind}: categories ${other} and ${one} are ${apart.toFixed(3)} apart`);
-          }
+  onPage(`text and pictures stand out from their grounds: ${scheme}`, { colorScheme: scheme }, async (page) => {
+    const values = await coloursOf(page, NAMES);
+    const colours = Object.fromEntries(NAMES.map((name, index) => [name, values[index]]));
+    const weak = [];
+    for (const [name, grounds, least] of PAIRS)
+      for (const ground of grounds) {
+        const found = contrast(colours[name], colours[ground]);
+        if (!(found >= least)) weak.push(`${name} on ${ground}: ${found.toFixed(2)}, not ${least}`);
       }
-    }
-  }));
+    assert.deepEqual(weak, []);
+  });
 
-test("what is tapped has 40 pixels at least", () =>
-  within({ width: 360, height: 740, hasTouch: true }, async (page) => {
-    assert.ok(await page.evaluate(() => matchMedia("(pointer: coarse)").matches), "the page believes in fingers");
-    const small = () =>
-      page.evaluate((least) => {
-        const wanted = "button, select, summary, input:not([type=checkbox], [type=file]), label:has([type=checkbox])";
-        return [...document.querySelectorAll(wanted)]
-          .filter((one) => one.checkVisibility() && !one.disabled)
-          .map((one) => [one.getBoundingClientRect(), one])
-          .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
-          .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
-      }, TARGET);
-    for (const group of await page.locator("aside details").all())
-      await group.evaluate((one) => {
-        one.open = true;
+onPage("the categories of basins differ for every kind of colour vision", {}, async (page) => {
+  // Viénot's projections in linear light: without long, without middle waves.
+  const blind = {
+    protanope: [[0.11238, 0.88762, 0], [0.11238, 0.88762, 0], [0.00401, -0.00401, 1]],
+    deuteranope: [[0.29275, 0.70725, 0], [0.29275, 0.70725, 0], [-0.02234, 0.02234, 1]],
+    all: [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
+  }; // prettier-ignore
+  for (const scheme of ["light", "dark"]) {
+    await page.evaluate((wanted) => (document.documentElement.dataset.scheme = wanted), scheme);
+    const names = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
+    const colours = await coloursOf(page, names);
+    for (const [kind, matrix] of Object.entries(blind)) {
+      const seen = colours.map((colour) => {
+        const light = linear(colour);
+        const sums = matrix.map((row) => row.reduce((sum, one, at) => sum + one * light[at], 0));
+        return sums.map((sum) => Math.cbrt(Math.max(0, sum)));
       });
-    for (const view of VIEWS) {
-      await visit(page, view, "tap");
-      assert.deepEqual(await small(), [], view);
+      for (let one = 0; one < 8; one++)
+        for (let other = 0; other < one; other++) {
+          const apart = Math.hypot(...seen[one].map((part, at) => part - seen[other][at]));
+          assert.ok(apart > 0.1, `${scheme}, ${kind}: categories ${other} and ${one} are ${apart.toFixed(3)} apart`);
+        }
     }
-    await page.tap("#presets-button");
-    assert.deepEqual(await small(), [], "figures");
-    await page.locator("dialog.presets .card").first().tap();
-    await settled(page);
-    assert.deepEqual(await small(), [], "note");
-    await page.tap("#tour-button");
-    assert.deepEqual(await small(), [], "tour");
-  }));
+  }
+});
 
-test("on a telephone the picture comes first and the form is folded below it", () =>
-  within({ width: 360, height: 740, hasTouch: true }, async (page) => {
-    for (const view of VIEWS) {
-      await visit(page, view, "tap");
-      const seen = await page.evaluate((name) => {
-        const boxOf = (element) => element.getBoundingClientRect();
-        const picture = boxOf(document.querySelector(`#view-${name} canvas`));
-        return {
-          top: picture.top + scrollY,
-          right: picture.right,
-          form: boxOf(document.getElementById("parameters")).top + scrollY,
-          open: document.querySelectorAll("aside details[open]").length,
-          tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab)).map(({ right }) => right),
-        };
-      }, view);
-      assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
-      assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
-      assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
-      assert.equal(seen.open, 0);
-    }
-  }));
+onPage("what is tapped has 40 pixels at least", { width: 360, height: 740, hasTouch: true }, async (page) => {
+  assert.ok(await page.evaluate(() => matchMedia("(pointer: coarse)").matches), "the page believes in fingers");
+  const small = () =>
+    page.evaluate((least) => {
+      const wanted = "button, select, summary, input:not([type=checkbox], [type=file]), label:has([type=checkbox])";
+      return [...document.querySelectorAll(wanted)]
+        .filter((one) => one.checkVisibility() && !one.disabled)
+        .map((one) => [one.getBoundingClientRect(), one])
+        .filter(([box]) => box.width < least - 0.5 || box.height < least - 0.5)
+        .map(([box, one]) => `${one.id || one.outerHTML.slice(0, 60)}: ${box.width} x ${box.height}`);
+    }, TARGET);
+  await page.locator("aside details").evaluateAll((all) => all.forEach((one) => (one.open = true)));
+  for (const view of VIEWS) {
+    await visit(page, view, "tap");
+    assert.deepEqual(await small(), [], view);
+  }
+  await page.tap("#presets-button");
+  assert.deepEqual(await small(), [], "figures");
+  await page.locator("dialog.presets .card").first().tap();
+  await settled(page);
+  assert.deepEqual(await small(), [], "note");
+  await page.tap("#tour-button");
+  assert.deepEqual(await small(), [], "tour");
+});
 
-test("on a large screen the pictures take the height of the window", () =>
-  within({ width: 2560, height: 1440 }, async (page) => {
-    for (const view of VIEWS) {
-      await visit(page, view);
-      const bottom = await page.evaluate(
-        (name) =>
-          Math.max(
-            ...[...document.querySelectorAll(`#view-${name} canvas`)].map((one) => one.getBoundingClientRect().bottom),
-          ),
-        view,
-      );
-      assert.ok(bottom > 0.8 * 1440 && bottom <= 1440, `${view} ends at ${bottom}`);
-    }
-  }));
+onPage("on a telephone the picture comes first", { width: 360, height: 740, hasTouch: true }, async (page) => {
+  for (const view of VIEWS) {
+    await visit(page, view, "tap");
+    const seen = await page.evaluate((name) => {
+      const boxOf = (element) => element.getBoundingClientRect();
+      const picture = boxOf(document.querySelector(`#view-${name} canvas`));
+      return {
+        top: picture.top + scrollY,
+        right: picture.right,
+        form: boxOf(document.getElementById("parameters")).top + scrollY,
+        open: document.querySelectorAll("aside details[open]").length,
+        tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab)).map(({ right }) => right),
+      };
+    }, view);
+    assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
+    assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
+    assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
+    assert.equal(seen.open, 0);
+  }
+});

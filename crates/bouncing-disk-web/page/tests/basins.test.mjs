@@ -1,10 +1,9 @@
 /** Basins: what is seen is of the map that the form names, and shares say of which starts they are. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { coloursOf, pixelsOf, svgOf, settled, type, whenText, within } from "./browser.mjs";
+import { onPage, pixelsOf, svgOf, type, whenKind, whenText } from "./browser.mjs";
 
-/** What is asked by one of these calls waits until `window.release()`. */
+/** What is asked by one of the calls in `window.holds` waits until `window.release()`, and other calls from then on. */
 function holdable() {
   window.held = [];
   window.holds = [];
@@ -16,8 +15,8 @@ function holdable() {
       } else super.postMessage(message, ...rest);
     }
   };
-  window.release = () => {
-    window.holds = [];
+  window.release = (holds = []) => {
+    window.holds = holds;
     for (const send of window.held.splice(0)) send();
   };
 }
@@ -25,89 +24,80 @@ function holdable() {
 const CATEGORIES = Array.from({ length: 8 }, (_, index) => `--category-${index}`);
 
 /** How many pixels of the picture have the colour of an attractor. */
-const coloured = async (page) =>
-  (await pixelsOf(page, "#view-basins canvas", await coloursOf(page, CATEGORIES))).length;
+const coloured = async (page) => (await pixelsOf(page, "#view-basins canvas", CATEGORIES)).length;
 
-const hold = (page, calls) => page.evaluate((which) => (window.holds = which), calls);
+const hold = (page, ...calls) => page.evaluate((which) => (window.holds = which), calls);
 const caption = (page) => page.textContent("#view-basins .alternative");
 const FORCING = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
+const DOUBLING = `#view=basins&${FORCING(0.486)}`;
 
-test("no cell of another map stands under the legend of this one, and the caption says what goes on", () =>
-  within({ hash: `#view=basins&${FORCING(0.486)}`, script: holdable }, async (page) => {
-    const before = await coloured(page);
-    assert.ok(before > 10_000, `${before}`);
-    assert.match(await caption(page), /^Of the starts/);
-    // As long as the attractors are looked for, both are faint.
-    await hold(page, ["attractors", "basins"]);
-    await type(page, "axial_forcing", "0.5");
-    await page.waitForSelector("#view-basins .stale");
-    await page.waitForTimeout(200);
-    assert.ok((await coloured(page)) < before / 100, "old cells in full colours while attractors are looked for");
-    assert.match(await caption(page), /0\.5 .*being computed/);
-    // As soon as the new ones are known, the old cells are gone.
-    await page.evaluate(() => {
-      window.holds = ["basins"];
-      for (const send of window.held.splice(0)) send();
-    });
-    await page.waitForSelector("#view-basins .stale", { state: "detached" });
-    await page.waitForTimeout(200);
-    assert.equal(await coloured(page), 0, "old cells under a new legend");
-    assert.match(await caption(page), /being computed/);
-    await page.evaluate(() => window.release());
-    await whenText(page, "#view-basins .alternative", /^Of the starts/);
-    assert.ok((await coloured(page)) > 10_000);
-    // While the window of one map moves, its cells are stretched; they are right where they are.
-    await hold(page, ["basins"]);
-    await page.click('#view-basins [aria-label="Zoom in"]');
-    await page.waitForTimeout(300);
-    assert.ok((await coloured(page)) > 10_000);
-    assert.match(await caption(page), /being computed/);
-  })); // prettier-ignore
+onPage("no cell of another map stands under this legend", { hash: DOUBLING, script: holdable }, async (page) => {
+  const before = await coloured(page);
+  assert.ok(before > 10_000, `${before}`);
+  assert.match(await caption(page), /^Of the starts/);
+  // As long as the attractors are looked for, both are faint.
+  await hold(page, "attractors", "basins");
+  await type(page, "axial_forcing", "0.5");
+  await page.waitForSelector("#view-basins .stale");
+  await page.waitForTimeout(200);
+  assert.ok((await coloured(page)) < before / 100, "old cells in full colours while attractors are looked for");
+  assert.match(await caption(page), /0\.5 .*being computed/);
+  // As soon as the new ones are known, the old cells are gone.
+  await page.evaluate(() => window.release(["basins"]));
+  await page.waitForSelector("#view-basins .stale", { state: "detached" });
+  await page.waitForTimeout(200);
+  assert.equal(await coloured(page), 0, "old cells under a new legend");
+  assert.match(await caption(page), /being computed/);
+  await page.evaluate(() => window.release());
+  await whenText(page, "#view-basins .alternative", /^Of the starts/);
+  assert.ok((await coloured(page)) > 10_000);
+  // While the window of one map moves, its cells are stretched; they are right where they are.
+  await hold(page, "basins");
+  await page.click('#view-basins [aria-label="Zoom in"]');
+  await page.waitForTimeout(300);
+  assert.ok((await coloured(page)) > 10_000);
+  assert.match(await caption(page), /being computed/);
+}); // prettier-ignore
 
-test("where no basins can be computed, none are shown", () =>
-  within({ hash: "#view=basins" }, async (page) => {
-    await type(page, "restitution", "0.999999");
-    await page.waitForFunction(() => document.getElementById("status").dataset.kind === "error", undefined, {
-      timeout: 120_000,
-    });
-    await page.waitForTimeout(200);
-    assert.equal(await coloured(page), 0);
-    assert.equal(await page.locator(".attractors li").count(), 0);
-    assert.match(await caption(page), /^There are no basins at/);
-    await type(page, "restitution", "0.5");
-    await whenText(page, "#view-basins .alternative", /^Of the starts/);
-    assert.ok((await page.locator(".attractors li").count()) > 1);
-  })); // prettier-ignore
+onPage("where no basins can be computed, none are shown", "#view=basins", async (page) => {
+  await type(page, "restitution", "0.999999");
+  await whenKind(page, "error", 120_000);
+  await page.waitForTimeout(200);
+  assert.equal(await coloured(page), 0);
+  assert.equal(await page.locator(".attractors li").count(), 0);
+  assert.match(await caption(page), /^There are no basins at/);
+  await type(page, "restitution", "0.5");
+  await whenText(page, "#view-basins .alternative", /^Of the starts/);
+  assert.ok((await page.locator(".attractors li").count()) > 1);
+}); // prettier-ignore
 
-test("the share of the window leads, the sample is described, and an absent attractor has none", () =>
-  within({ hash: `#view=basins&${FORCING(0.486)}` }, async (page) => {
-    const entries = await page.locator(".attractors li").allTextContents();
-    for (const entry of entries) assert.match(entry, /[\d.]+ % of this window; [\d.]+ % .*of the sample\.$/);
-    for (const bold of await page.locator(".attractors b").allTextContents()) {
-      assert.ok((await caption(page)).includes(bold), bold);
-    }
-    assert.match(
-      await page.textContent("#view-basins .panel"),
-      /1,024 starts spread evenly over all phases and all normalised speeds up to the bound/,
-    );
-    // A window within the basin of the orbit of period 1.
-    await page.evaluate(() => {
-      location.hash = location.hash
-        .replace(/basins_phase=[^&]*/, "basins_phase=0.116,0.118")
-        .replace(/basins_speed=[^&]*/, "basins_speed=1.457,1.459");
-    });
-    await whenText(page, ".attractors", /100\.0 % of this window/);
-    const shares = (await page.locator(".attractors b").allTextContents()).map((text) => parseFloat(text));
-    assert.equal(shares.reduce((sum, share) => sum + share), 100, `${shares}`);
-    assert.equal(shares.length, await page.locator(".attractors li").count());
-  })); // prettier-ignore
+onPage("the share of the window leads, and the sample is described", DOUBLING, async (page) => {
+  const entries = await page.locator(".attractors li").allTextContents();
+  for (const entry of entries) assert.match(entry, /[\d.]+ % of this window; [\d.]+ % .*of the sample\.$/);
+  for (const bold of await page.locator(".attractors b").allTextContents()) {
+    assert.ok((await caption(page)).includes(bold), bold);
+  }
+  assert.match(
+    await page.textContent("#view-basins .panel"),
+    /1,024 starts spread evenly over all phases and all normalised speeds up to the bound/,
+  );
+  // A window within the basin of the orbit of period 1.
+  await page.evaluate(() => {
+    location.hash = location.hash
+      .replace(/basins_phase=[^&]*/, "basins_phase=0.116,0.118")
+      .replace(/basins_speed=[^&]*/, "basins_speed=1.457,1.459");
+  });
+  await whenText(page, ".attractors", /100\.0 % of this window/);
+  const shares = (await page.locator(".attractors b").allTextContents()).map((text) => parseFloat(text));
+  assert.equal(shares.reduce((sum, share) => sum + share), 100, `${shares}`);
+  assert.equal(shares.length, await page.locator(".attractors li").count());
+}); // prettier-ignore
 
-test("printed basins have their map and a legend", () =>
-  within({ hash: `#view=basins&${FORCING(0.486)}` }, async (page) => {
-    const svg = (await svgOf(page, "basins")).replaceAll(/<[^>]*>/g, " ").replaceAll(/\s+/g, " ");
-    assert.match(svg, /Γ = 0\.486, ε = 0\.5/);
-    const [words] = /^[^.;:]*/.exec(await page.locator(".attractors li").first().textContent());
-    assert.ok(svg.includes(words.trim().split(" ").slice(0, 3).join(" ")), `${words}: ${svg}`);
-    for (const bold of await page.locator(".attractors b").allTextContents()) assert.ok(svg.includes(`${bold}:`), bold);
-    assert.match(svg, /undecided/);
-  }));
+onPage("printed basins have their map and a legend", DOUBLING, async (page) => {
+  const svg = (await svgOf(page, "basins")).replaceAll(/<[^>]*>/g, " ").replaceAll(/\s+/g, " ");
+  assert.match(svg, /Γ = 0\.486, ε = 0\.5/);
+  const [words] = /^[^.;:]*/.exec(await page.locator(".attractors li").first().textContent());
+  assert.ok(svg.includes(words.trim().split(" ").slice(0, 3).join(" ")), `${words}: ${svg}`);
+  for (const bold of await page.locator(".attractors b").allTextContents()) assert.ok(svg.includes(`${bold}:`), bold);
+  assert.match(svg, /undecided/);
+});

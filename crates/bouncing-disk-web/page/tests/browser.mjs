@@ -1,12 +1,12 @@
 /** The installed Chromium and the built page, for all tests. */
 
 import assert from "node:assert/strict";
-import { after, before } from "node:test";
+import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 import { file } from "./module.mjs";
 
-export const address = pathToFileURL(file).href;
+const address = pathToFileURL(file).href;
 
 export const VIEWS = ["toss", "diagram", "basins", "motor"];
 
@@ -14,30 +14,19 @@ let browser;
 before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: [
-      "--headless",
-      "--no-sandbox",
-      "--disable-gpu",
-      "--disable-quic",
-      "--no-first-run",
-      "--disable-background-networking",
-      "--disable-component-update",
-      "--disable-sync",
-      "--js-flags=--expose-gc",
-      "--enable-precise-memory-info",
-    ],
+    args: ["--disable-gpu", "--js-flags=--expose-gc", "--enable-precise-memory-info"],
   });
 });
 after(() => browser.close());
 
 /**
- * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing that
- * it asks of anybody. `script` runs in the page before its own; other options are those of a browser's context.
+ * Opens a page that is settled, unless `settle` is false, and acts on it; there must be no errors in it, and nothing
+ * that it asks of anybody. `script` runs in the page before its own; other options are those of a browser's context.
+ * A hash alone may stand for the options.
  */
-export async function within(
-  { hash = "", to = address, width = 1280, height = 800, settle = true, script, ...options },
-  act,
-) {
+export async function within(given, act) {
+  const wanted = typeof given === "string" ? { hash: given } : given;
+  const { hash = "", to = address, width = 1280, height = 800, settle = true, script, ...options } = wanted;
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: "light", ...options });
   if (script !== undefined) await context.addInitScript(script);
   const page = await context.newPage();
@@ -60,8 +49,22 @@ export async function within(
   }
 }
 
+/** A test of what happens on such a page. */
+export const onPage = (title, options, act) => test(title, () => within(options, act));
+
 /** The first state has been checked by the module, and a view shows it. */
 export const ready = (page) => page.waitForSelector('[role="tab"][aria-selected="true"]');
+
+export const whenKind = (page, kind, timeout = 30_000) =>
+  page.waitForFunction((wanted) => document.getElementById("status").dataset.kind === wanted, kind, { timeout });
+
+export async function isCalm(page) {
+  assert.equal(await page.isVisible("#problems"), false, await page.textContent("#problems"));
+  assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
+}
+
+/** The place of a view's first picture in the window: its upper layer, which takes the pointer and the keyboard. */
+export const boxOf = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first().boundingBox();
 
 /** Nothing is being computed any more; a motor's curves take longer than a test has to wait for. */
 export async function settled(page) {
@@ -83,7 +86,6 @@ export async function visit(page, view, act = "click") {
   await settled(page);
 }
 
-/** Opens a figure or table of the paper, and one of its panels. */
 export async function preset(page, id, panel = 0) {
   await page.click("#presets-button");
   await page.click(`[data-preset="${id}"]`);
@@ -92,7 +94,6 @@ export async function preset(page, id, panel = 0) {
   await settled(page);
 }
 
-/** The state, as the address has it. */
 export const stateOf = async (page) =>
   Object.fromEntries(
     (await page.evaluate(() => location.hash))
@@ -110,7 +111,6 @@ export async function whenAddress(page, name, value) {
   );
 }
 
-/** An element's text comes to match. */
 export const whenText = (page, selector, pattern, timeout = 30_000) =>
   page.waitForFunction(
     ([wanted, source]) => new RegExp(source).test(document.querySelector(wanted)?.textContent ?? ""),
@@ -118,7 +118,6 @@ export const whenText = (page, selector, pattern, timeout = 30_000) =>
     { timeout },
   );
 
-/** Types a number into a field of the form and confirms it. */
 export async function type(page, name, text) {
   const field = page.locator(`#field-${name}`);
   await field.evaluate((input) => {
@@ -127,6 +126,11 @@ export async function type(page, name, text) {
   await field.fill(text);
   await field.press("Enter");
 }
+
+/** The number of the state, which a field has in its title with all digits, and when it is there. */
+export const valueOf = (page, name) => page.getAttribute(`#field-${name}`, "title");
+export const whenValue = (page, name, text) =>
+  page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
 
 /** What stands beside a name in a view's list of facts. */
 export const fact = (page, view, name) =>
@@ -144,7 +148,7 @@ export const coloursOf = (page, names) =>
   }, names);
 
 /** The pixels of a picture that have one of these colours, within `slack` of each byte: `[x, y]`, in device pixels. */
-export const pixelsOf = (page, selector, colours, slack = 0) =>
+export const pixelsOf = async (page, selector, names, slack = 0) =>
   page.evaluate(
     ([wanted, hexadecimal, most]) => {
       const canvas = document.querySelector(wanted);
@@ -160,10 +164,19 @@ export const pixelsOf = (page, selector, colours, slack = 0) =>
         if (is(at)) found.push([(at / 4) % width, Math.floor(at / 4 / width)]);
       return found;
     },
-    [selector, colours, slack],
+    [selector, await coloursOf(page, names), slack],
   );
 
-/** The bytes of a file that the browser saves. */
+/** The middle of what has the colour of the disk, in the window: there it answers to the pointer. */
+export async function placeOfDisk(page) {
+  await page.waitForTimeout(100);
+  const box = await boxOf(page, "toss");
+  const pixels = await pixelsOf(page, "#view-toss .picture canvas", ["--disk"]);
+  const ratio = await page.evaluate(() => devicePixelRatio);
+  const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
+  return [box.x + middle(0), box.y + middle(1)];
+}
+
 export async function savedBy(page, act) {
   const [download] = await Promise.all([page.waitForEvent("download"), act()]);
   const chunks = [];
@@ -174,7 +187,7 @@ export async function savedBy(page, act) {
 /** The text of the picture that a view offers by this name as SVG. */
 export async function svgOf(page, name) {
   await page.click("#export-button");
-  const item = page.locator(".menu .items button", { hasText: name }).filter({ hasText: "SVG" });
+  const item = page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "SVG" });
   return String((await savedBy(page, () => item.click())).content);
 }
 

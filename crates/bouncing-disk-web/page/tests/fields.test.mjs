@@ -1,10 +1,7 @@
 /** Every field at and beyond its limits: refused where it is typed, or taken; the page goes on in both cases. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { settled, stateOf, type, whenText, within as open } from "./browser.mjs";
-
-const within = (hash, act) => open({ hash }, act);
+import { isCalm, settled, stateOf, type, valueOf, whenText, onPage } from "./browser.mjs";
 
 const NO_NUMBER = /is not a number; write it like 0\.5/;
 const TAKEN = null;
@@ -35,14 +32,10 @@ const FIELDS = {
 for (const expected of Object.values(FIELDS))
   for (const text of ["", "NaN", "inf", "1e400", "1,5", "1 5", "0x1p3"]) expected[text] = NO_NUMBER;
 
-test("the list of fields is that of the page", () =>
-  within("#view=toss", async (page) => {
-    const names = await page.evaluate(() => [...document.querySelectorAll(".field")].map((one) => one.dataset.name));
-    assert.deepEqual(names, Object.keys(FIELDS));
-  }));
-
-/** The number of the state, which a field has in its title with all digits. */
-const valueOf = (page, name) => page.getAttribute(`#field-${name}`, "title");
+onPage("the list of fields is that of the page", "#view=toss", async (page) => {
+  const names = await page.evaluate(() => [...document.querySelectorAll(".field")].map((one) => one.dataset.name));
+  assert.deepEqual(names, Object.keys(FIELDS));
+});
 
 /** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */
 async function outcome(page, name, text) {
@@ -61,79 +54,65 @@ async function outcome(page, name, text) {
 }
 
 for (const [name, expected] of Object.entries(FIELDS))
-  test(`${name}: every limit is kept, and the field goes on after each`, () =>
-    within("#view=toss", async (page) => {
-      const first = await valueOf(page, name);
-      const state = await stateOf(page);
-      for (const [text, wanted] of Object.entries(expected)) {
-        const before = await valueOf(page, name);
-        await type(page, name, text);
-        const refused = await outcome(page, name, text);
-        if (wanted === TAKEN) assert.equal(refused, null, `${name} = ${text}`);
-        else {
-          assert.match(String(refused), wanted, `${name} = ${text}`);
-          assert.equal(await page.getAttribute(`#field-${name}`, "aria-invalid"), "true");
-          assert.equal(await page.inputValue(`#field-${name}`), text, "what was typed stays");
-          assert.equal(await valueOf(page, name), before, "what is refused changes nothing");
-          assert.deepEqual(await stateOf(page), state);
-        }
-        await page.focus(`#field-${name}`);
-        await page.keyboard.press("Escape");
-        assert.equal(await page.isVisible(`#error-${name}`), false);
-        await type(page, name, first);
-        assert.equal(await outcome(page, name, first), null, `${name} after ${text}`);
-        await settled(page);
+  onPage(`${name}: every limit is kept, and the field goes on after each`, "#view=toss", async (page) => {
+    const first = await valueOf(page, name);
+    const state = await stateOf(page);
+    for (const [text, wanted] of Object.entries(expected)) {
+      const before = await valueOf(page, name);
+      await type(page, name, text);
+      const refused = await outcome(page, name, text);
+      if (wanted === TAKEN) assert.equal(refused, null, `${name} = ${text}`);
+      else {
+        assert.match(String(refused), wanted, `${name} = ${text}`);
+        assert.equal(await page.getAttribute(`#field-${name}`, "aria-invalid"), "true");
+        assert.equal(await page.inputValue(`#field-${name}`), text, "what was typed stays");
+        assert.equal(await valueOf(page, name), before, "what is refused changes nothing");
+        assert.deepEqual(await stateOf(page), state);
       }
-    }));
+      await page.focus(`#field-${name}`);
+      await page.keyboard.press("Escape");
+      assert.equal(await page.isVisible(`#error-${name}`), false);
+      await type(page, name, first);
+      assert.equal(await outcome(page, name, first), null, `${name} after ${text}`);
+      await settled(page);
+    }
+  });
 
 for (const view of ["diagram", "basins", "motor"])
-  test(`extreme numbers that are taken leave the view ${view} answering`, () =>
-    within(`#view=${view}`, async (page) => {
-      const extremes = { amplitude: "1e-310", restitution: "0", friction: "0", twist_amplitude: "0", mass: "1e300" };
-      for (const [name, text] of Object.entries(extremes)) {
-        const first = await valueOf(page, name);
-        await type(page, name, text);
-        assert.equal(await outcome(page, name, text), null, `${name} = ${text}`);
-        await settled(page);
-        await type(page, name, first);
-        assert.equal(await outcome(page, name, first), null);
-        await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "error");
-        await settled(page);
-        assert.notEqual(await page.getAttribute("#status", "data-kind"), "error", await page.textContent("#status"));
-      }
-    }));
-
-test("a motor without friction is said not to turn, and keeps no curves of another", () =>
-  within("#view=motor", async (page) => {
-    const charts = page.locator("#view-motor .chart");
-    await charts.first().waitFor();
-    await type(page, "friction", "0");
-    await whenText(page, "#status", /^Without friction/);
-    await charts.first().waitFor({ state: "hidden" });
-    await type(page, "friction", "0.6");
-    await charts.first().waitFor();
-  }));
-
-test("a throw by numbers is refused with its range, too", () =>
-  within("#view=toss", async (page) => {
-    await page.click(".throw summary");
-    const problem = page.locator(".throw .error");
-    const field = (index) => page.locator(".throw input").nth(index);
-    for (const [index, good, bad] of [
-      [0, "100", ["", "1,5", "NaN", "1e400", "-1", "1e9"]],
-      [1, "500", ["", "x", "-1e9", "1e9"]],
-      [2, "5", ["", "1e7", "-1e400"]],
-    ]) {
-      for (const text of bad) {
-        await field(index).fill(text);
-        await page.click(".throw button");
-        assert.match(await problem.textContent(), /is refused, it has to be from .* to .*\d/, text);
-        assert.equal(await field(index).getAttribute("aria-invalid"), "true");
-      }
-      await field(index).fill(good);
+  onPage(`extreme numbers that are taken leave the view ${view} answering`, `#view=${view}`, async (page) => {
+    const extremes = { amplitude: "1e-310", restitution: "0", friction: "0", twist_amplitude: "0", mass: "1e300" };
+    for (const [name, text] of Object.entries(extremes)) {
+      const first = await valueOf(page, name);
+      await type(page, name, text);
+      assert.equal(await outcome(page, name, text), null, `${name} = ${text}`);
+      await settled(page);
+      await type(page, name, first);
+      assert.equal(await outcome(page, name, first), null);
+      await page.waitForFunction(() => document.getElementById("status").dataset.kind !== "error");
+      await settled(page);
+      await isCalm(page);
     }
-    assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
-    await page.click(".throw button");
-    await whenText(page, "#status", /^Thrown 100 mm above/);
-    assert.equal(await problem.isVisible(), false);
-  }));
+  });
+
+onPage("a throw by numbers is refused with its range, too", "#view=toss", async (page) => {
+  await page.click(".throw summary");
+  const problem = page.locator(".throw .error");
+  const field = (index) => page.locator(".throw input").nth(index);
+  for (const [index, good, bad] of [
+    [0, "100", ["", "1,5", "NaN", "1e400", "-1", "1e9"]],
+    [1, "500", ["", "x", "-1e9", "1e9"]],
+    [2, "5", ["", "1e7", "-1e400"]],
+  ]) {
+    for (const text of bad) {
+      await field(index).fill(text);
+      await page.click(".throw button");
+      assert.match(await problem.textContent(), /is refused, it has to be from .* to .*\d/, text);
+      assert.equal(await field(index).getAttribute("aria-invalid"), "true");
+    }
+    await field(index).fill(good);
+  }
+  assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
+  await page.click(".throw button");
+  await whenText(page, "#status", /^Thrown 100 mm above/);
+  assert.equal(await problem.isVisible(), false);
+});

@@ -1,80 +1,68 @@
 /** What is not known is shown and named: undecided cells, cycles that rounding chose, errors of numbers. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { coloursOf, fact, pixelsOf, type, whenText, within as open } from "./browser.mjs";
-
-const within = (hash, act, options = {}) => open({ hash, ...options }, act);
+import { fact, pixelsOf, type, whenText, onPage } from "./browser.mjs";
 
 /** The default system with the amplitude of this forcing. */
 const forcing = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
 
 /** At the fold of period 1 starts crawl past the orbit that is about to be born. */
 const FOLD = `#view=basins&${forcing(1 / 3)}`;
+const ONE_FORCING = "#view=diagram&diagram_forcing=2.72999,2.73001&diagram_branches=off";
 const PICTURE = "#view-basins canvas";
 const ROUNDED = forcing(2.73);
 
 for (const scheme of ["light", "dark"])
-  test(`undecided cells are striped, in the legend, in the words and under the cross: ${scheme}`, () =>
-    within(
-      FOLD,
-      async (page) => {
-        const entry = await page.locator(".attractors li:has(.undecided)").textContent();
-        const [, share] = /([\d.]+) % of this window/.exec(entry);
-        assert.match(entry, /^Undecided: not on any of these/);
-        assert.ok(share > 1 && share < 10, entry);
-        assert.match(await page.textContent("#view-basins .alternative"), new RegExp(`${share} % are undecided\\.$`));
-        const pixels = await Promise.all(
-          (await coloursOf(page, ["--undecided", "--undecided-line"])).map((colour) => pixelsOf(page, PICTURE, [colour])),
-        );
-        // Inside of the axes, whose lines have the colour of the stripes.
-        const [width, height] = await page.$eval(PICTURE, (canvas) => [canvas.width, canvas.height]);
-        const isInside = ([x, y]) => x >= 60 && x < width - 20 && y >= 20 && y < height - 50;
-        const inner = pixels.map((all) => all.filter(isInside));
-        const counts = inner.map(({ length }) => length);
-        // A place amid grey cells is one that a pointer hits.
-        const known = new Set(inner.flat().map(String));
-        const place = inner[0].find(([x, y]) => known.has(`${x - 2},${y}`) && known.has(`${x + 2},${y}`));
-        const all = counts[0] + counts[1];
-        assert.ok(counts[0] > 500 && counts[1] > 0.2 * all && counts[1] < 0.5 * all, `grey and stripes: ${counts}`);
-        const box = await page.locator("#view-basins canvas").last().boundingBox();
-        await page.mouse.move(box.x + place[0], box.y + place[1]);
-        await whenText(page, ".pointed", /: undecided\.$/);
-      },
-      { colorScheme: scheme },
-    )); // prettier-ignore
+  onPage(`undecided cells are striped and said: ${scheme}`, { hash: FOLD, colorScheme: scheme }, async (page) => {
+    const entry = await page.locator(".attractors li:has(.undecided)").textContent();
+    const [, share] = /([\d.]+) % of this window/.exec(entry);
+    assert.match(entry, /^Undecided: not on any of these/);
+    assert.ok(share > 1 && share < 10, entry);
+    assert.match(await page.textContent("#view-basins .alternative"), new RegExp(`${share} % are undecided\\.$`));
+    const names = ["--undecided", "--undecided-line"];
+    const pixels = await Promise.all(names.map((name) => pixelsOf(page, PICTURE, [name])));
+    // Inside of the axes, whose lines have the colour of the stripes.
+    const [width, height] = await page.$eval(PICTURE, (canvas) => [canvas.width, canvas.height]);
+    const isInside = ([x, y]) => x >= 60 && x < width - 20 && y >= 20 && y < height - 50;
+    const inner = pixels.map((all) => all.filter(isInside));
+    const counts = inner.map(({ length }) => length);
+    // A place amid grey cells is one that a pointer hits.
+    const known = new Set(inner.flat().map(String));
+    const place = inner[0].find(([x, y]) => known.has(`${x - 2},${y}`) && known.has(`${x + 2},${y}`));
+    const all = counts[0] + counts[1];
+    assert.ok(counts[0] > 500 && counts[1] > 0.2 * all && counts[1] < 0.5 * all, `grey and stripes: ${counts}`);
+    const box = await page.locator("#view-basins canvas").last().boundingBox();
+    await page.mouse.move(box.x + place[0], box.y + place[1]);
+    await whenText(page, ".pointed", /: undecided\.$/);
+  });
 
-test("where the whole window is decided, the words say so, and shares have their intervals", () =>
-  within("#view=basins", async (page) => {
-    assert.match(await page.textContent("#view-basins .alternative"), /; 0\.0 % are undecided\.$/);
-    assert.match(await page.locator(".attractors li").first().textContent(), /% \(95 %: .* % to .* %\)/);
-  }));
+onPage("a window that is decided says so, and shares have intervals", "#view=basins", async (page) => {
+  assert.match(await page.textContent("#view-basins .alternative"), /; 0\.0 % are undecided\.$/);
+  assert.match(await page.locator(".attractors li").first().textContent(), /% \(95 %: .* % to .* %\)/);
+});
 
-test("a cycle that rounding chose is called so under the cursor of the orbit diagram", () =>
-  within(`#view=diagram&diagram_forcing=2.72999,2.73001&diagram_branches=off`, async (page) => {
-    await page.focus("#view-diagram canvas[tabindex='0']");
-    await page.keyboard.press("Shift+ArrowRight");
-    const panel = page.locator("#view-diagram .panel");
-    await panel.locator(".caution").waitFor({ state: "visible" });
-    assert.match(await panel.locator(".caution").textContent(), /^Rounding-dependent: /);
-    assert.match(await panel.textContent(), /\(chosen by rounding\)/);
-    assert.match(await page.textContent("#announcer"), /rounding-dependent$/);
-  }));
+onPage("a cycle that rounding chose is called so under the cursor", ONE_FORCING, async (page) => {
+  await page.focus("#view-diagram canvas[tabindex='0']");
+  await page.keyboard.press("Shift+ArrowRight");
+  const panel = page.locator("#view-diagram .panel");
+  await panel.locator(".caution").waitFor({ state: "visible" });
+  assert.match(await panel.locator(".caution").textContent(), /^Rounding-dependent: /);
+  assert.match(await panel.textContent(), /\(chosen by rounding\)/);
+  assert.match(await page.textContent("#announcer"), /rounding-dependent$/);
+});
 
 for (const [view, host] of [["basins", ".panel"], ["toss", ".toss-left"]])
-  test(`a cycle that rounding chose is called so in the view ${view}, and others are not`, () =>
-    within(`#view=${view}&${ROUNDED}`, async (page) => {
-      const caution = page.locator(`#view-${view} ${host} .caution`);
-      await caution.waitFor({ state: "visible" });
-      assert.match(await caution.textContent(), /^Rounding-dependent: /);
-      await type(page, "axial_forcing", "0.45");
-      await caution.waitFor({ state: "hidden" });
-    })); // prettier-ignore
+  onPage(`a cycle that rounding chose is called so in ${view}`, `#view=${view}&${ROUNDED}`, async (page) => {
+    const caution = page.locator(`#view-${view} ${host} .caution`);
+    await caution.waitFor({ state: "visible" });
+    assert.match(await caution.textContent(), /^Rounding-dependent: /);
+    await type(page, "axial_forcing", "0.45");
+    await caution.waitFor({ state: "hidden" });
+  }); // prettier-ignore
 
-test("numbers that come of a sample or an average have their errors with them", () =>
-  within("#view=motor", async (page) => {
-    await whenText(page, "#view-motor .facts", /±/);
-    assert.match(await fact(page, "motor", "Steady speed"), /^−?[\d.]+ ± [\d.]+ rad\/s without load$/);
-    await whenText(page, "#view-motor .facts", /±.*N m/);
-    assert.match(await fact(page, "motor", "Stall load"), /^\([\d.]+ ± [\d.]+\) .?N m$/);
-  }));
+onPage("numbers that come of a sample or an average have their errors with them", "#view=motor", async (page) => {
+  await whenText(page, "#view-motor .facts", /±/);
+  assert.match(await fact(page, "motor", "Steady speed"), /^−?[\d.]+ ± [\d.]+ rad\/s without load$/);
+  await whenText(page, "#view-motor .facts", /±.*N m/);
+  assert.match(await fact(page, "motor", "Stall load"), /^\([\d.]+ ± [\d.]+\) .?N m$/);
+});

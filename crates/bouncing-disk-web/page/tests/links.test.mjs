@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { preset, settled, stateOf, stream, within } from "./browser.mjs";
+import { onPage, preset, settled, stateOf, stream, valueOf, whenValue, within } from "./browser.mjs";
 
 /** The pixels of the diagram, with the pointer out of its way. */
 async function pictureOf(page) {
@@ -12,132 +12,112 @@ async function pictureOf(page) {
   return page.locator("#view-diagram").screenshot();
 }
 
-test("states with awkward numbers come back to the bit", () =>
-  within({}, async (page) => {
-    const random = stream(7);
-    for (let round = 0; round < 25; round++) {
-      const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
-      const wanted = {
-      view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
-      amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
-      phase_lag: -3 * random(),
-      contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
-      preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
-      impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
-      throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
-      diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
-      diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
-      basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
-      motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
-      motor_rise_times: String(1 + 5 * random()),
-    }; // prettier-ignore
-      const hash = `#${Object.entries(wanted)
-        .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
-        .join("&")}`;
-      await page.evaluate((next) => {
-        location.hash = next;
-      }, hash);
-      await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
-      await page.waitForFunction(
-        (text) => document.getElementById("field-amplitude").title === text,
-        String(wanted.amplitude),
-      );
-      assert.equal(await page.evaluate(() => location.hash), hash);
-      const typed = await page.evaluate(() =>
-        Object.fromEntries(
-          [...document.querySelectorAll(".field input[type=text]")].map((field) => [field.id.slice(6), field.title]),
-        ),
-      );
-      for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
-        assert.equal(Number(typed[name]), wanted[name], name);
-      }
-      assert.equal(await page.isVisible("#problems"), false);
+onPage("states with awkward numbers come back to the bit", {}, async (page) => {
+  const random = stream(7);
+  for (let round = 0; round < 25; round++) {
+    const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
+    const wanted = {
+    view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
+    amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
+    phase_lag: -3 * random(),
+    contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
+    preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
+    impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
+    throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
+    diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
+    diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
+    basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
+    motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
+    motor_rise_times: String(1 + 5 * random()),
+  }; // prettier-ignore
+    const hash = `#${Object.entries(wanted)
+      .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
+      .join("&")}`;
+    await page.evaluate((next) => (location.hash = next), hash);
+    await page.waitForFunction((view) => document.querySelector(`#tab-${view}[aria-selected="true"]`), wanted.view);
+    await whenValue(page, "amplitude", String(wanted.amplitude));
+    assert.equal(await page.evaluate(() => location.hash), hash);
+    for (const name of ["contact_radius", "gyration_radius", "restitution", "impact_phase", "mass", "phase_lag"]) {
+      assert.equal(Number(await valueOf(page, name)), wanted[name], name);
     }
-  }));
-
-test("the copied link opens the same state in a fresh page", () =>
-  within({}, async (page) => {
-    await preset(page, "fig06");
-    await page.evaluate(() => {
-      document.execCommand = () => {
-        globalThis.copied = document.activeElement.value;
-        return true;
-      };
-      Object.defineProperty(navigator, "clipboard", {
-        value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
-      });
-    });
-    await page.click("#link-button");
-    await page.waitForFunction(() => globalThis.copied);
-    const link = await page.evaluate(() => globalThis.copied);
-    const picture = await pictureOf(page);
-    await within({ hash: link.slice(link.indexOf("#")) }, async (fresh) => {
-      assert.deepEqual(await stateOf(fresh), await stateOf(page));
-      assert.match(await fresh.textContent("#note"), /Fig\. 6/);
-      assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
-    });
-  }));
-
-test("broken parts of a link are refused with a sentence each, and the rest is kept", () => {
-  const hash =
-    "#view=diagram&friction=0.3&restitution=1.5&amplitude=abc&nonsense=1&mass=1&mass=2&basins_speed=5,1" +
-    "&diagram_quantity=%E0%A4%A&gyration_radius=0x1";
-  return within({ hash }, async (page) => {
-    const { view, friction, mass, restitution, basins_speed } = await stateOf(page);
-    assert.deepEqual([view, friction, mass, restitution, basins_speed], ["diagram", "0.3", "1", "0.5", "0,5"]);
-    const text = await page.textContent("#problems");
-    for (const part of ["abc", "nonsense", "twice", "5,1", "diagram_quantity", "0x1"])
-      assert.ok(text.includes(part), `${part}: ${text}`);
-    await page.click("#problems .close");
     assert.equal(await page.isVisible("#problems"), false);
+  }
+});
+
+onPage("the copied link opens the same state in a fresh page", {}, async (page) => {
+  await preset(page, "fig06");
+  await page.evaluate(() => {
+    document.execCommand = () => {
+      globalThis.copied = document.activeElement.value;
+      return true;
+    };
+    Object.defineProperty(navigator, "clipboard", {
+      value: { writeText: (text) => Promise.resolve(void (globalThis.copied = text)) },
+    });
+  });
+  await page.click("#link-button");
+  await page.waitForFunction(() => globalThis.copied);
+  const link = await page.evaluate(() => globalThis.copied);
+  const picture = await pictureOf(page);
+  await within({ hash: link.slice(link.indexOf("#")) }, async (fresh) => {
+    assert.deepEqual(await stateOf(fresh), await stateOf(page));
+    assert.match(await fresh.textContent("#note"), /Fig\. 6/);
+    assert.ok(picture.equals(await pictureOf(fresh)), "the pictures differ");
   });
 });
 
-test("broken throws are refused with a sentence each, and the rest is kept", async () => {
-  const unreadable = "throw has to be none, or";
-  for (const [text, ...said] of [
-    ["1,2", unreadable, "four numbers"],
-    ["1,0.1,0.5,x", unreadable, "four numbers"],
-    ["1,0.1,0.5,2,3", unreadable, "four numbers"],
-    ["1,-0.1,0.5,2", unreadable, "gap from 0 up"],
-    ["1,0.1,1e999,2", unreadable, "four numbers"],
-    ["", unreadable, "four numbers"],
-    // What the library refuses: a start on the platform that goes into it, and a flight that takes too long.
-    ["1,0,-1,2", "not possible"],
-    ["1,0.1,1e300,2", "not possible"],
-    ["1,0.1,0.5,1e300", "not possible"],
-  ])
-    await within({ hash: `#friction=0.3&throw=${text}&normalised_speed=1.1` }, async (page) => {
+const UNREADABLE = ["throw has to be none, or", "four numbers"];
+/** Links, the parts of the state that they lead to, and what is said of them. */
+const LINKS = [
+  [
+    "view=diagram&friction=0.3&restitution=1.5&amplitude=abc&nonsense=1&mass=1&mass=2&basins_speed=5,1" +
+      "&diagram_quantity=%E0%A4%A&gyration_radius=0x1",
+    { view: "diagram", friction: "0.3", mass: "1", restitution: "0.5", basins_speed: "0,5" },
+    ["abc", "nonsense", "twice", "5,1", "diagram_quantity", "0x1"],
+  ],
+  // What the library refuses: a start on the platform that goes into it, and a flight that takes too long.
+  ...[
+    ["1,2", UNREADABLE],
+    ["1,0.1,0.5,x", UNREADABLE],
+    ["1,0.1,0.5,2,3", UNREADABLE],
+    ["1,-0.1,0.5,2", [UNREADABLE[0], "gap from 0 up"]],
+    ["1,0.1,1e999,2", UNREADABLE],
+    ["", UNREADABLE],
+    ["1,0,-1,2", ["not possible"]],
+    ["1,0.1,1e300,2", ["not possible"]],
+    ["1,0.1,0.5,1e300", ["not possible"]],
+  ].map(([text, said]) => [
+    `friction=0.3&throw=${text}&normalised_speed=1.1`,
+    { throw: "none", friction: "0.3", normalised_speed: "1.1" },
+    said,
+  ]),
+  // A throw counts wherever it stands, and a link without one begins with the impact.
+  [
+    "throw=1,0.1,0.5,2&impact_phase=0.3&normalised_speed=1.1",
+    { throw: "1,0.1,0.5,2", normalised_speed: "1.1", impact_phase: "0.3" },
+    [],
+    /^Thrown 100 mm above/,
+  ],
+  ["impact_phase=0.3&normalised_speed=1.1", { throw: "none", impact_phase: "0.3" }, [], /shared impact/],
+  // Nothing legal opens the defaults.
+  ...[
+    ["", []],
+    ["%%%", ["means nothing"]],
+    ["restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1", ["not possible"]],
+    ["<script>alert(1)</script>", ["means nothing"]],
+  ].map(([hash, said]) => [hash, { restitution: "0.5", angular_frequency: "15" }, said]),
+];
+
+test("what is broken in a link is refused with a sentence each, and the rest is kept", async () => {
+  for (const [hash, wanted, said, status = /^/] of LINKS)
+    await within(`#${hash}`, async (page) => {
       const state = await stateOf(page);
-      assert.deepEqual([state.throw, state.friction, state.normalised_speed], ["none", "0.3", "1.1"], text);
+      for (const [name, value] of Object.entries(wanted)) assert.equal(state[name], value, `${name} of ${hash}`);
       const told = await page.textContent("#problems");
-      for (const words of said) assert.ok(told.includes(words), told);
-    });
-});
-
-test("a throw counts wherever it stands in a link, and a link without one begins with the impact", async () => {
-  for (const [hash, thrown, told] of [
-    ["#throw=1,0.1,0.5,2&impact_phase=0.3&normalised_speed=1.1", "1,0.1,0.5,2", /^Thrown 100 mm above/],
-    ["#impact_phase=0.3&normalised_speed=1.1", "none", /shared impact/],
-  ])
-    await within({ hash }, async (page) => {
-      const state = await stateOf(page);
-      assert.deepEqual([state.throw, state.normalised_speed, state.impact_phase], [thrown, "1.1", "0.3"]);
+      for (const words of said) assert.ok(told.includes(words), `${words}: ${told}`);
+      assert.match(await page.textContent("#status"), status);
+      if (said.length > 0) await page.click("#problems .close");
       assert.equal(await page.isVisible("#problems"), false);
-      assert.match(await page.textContent("#status"), told);
-    });
-});
-
-test("a link with nothing legal in it opens the defaults", async () => {
-  for (const hash of [
-    "#",
-    "#%%%",
-    "#restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1",
-    "#<script>alert(1)</script>",
-  ])
-    await within({ hash }, async (page) => {
-      const { restitution, angular_frequency } = await stateOf(page);
-      assert.deepEqual([restitution, angular_frequency], ["0.5", "15"], hash);
     });
 });
 
@@ -157,35 +137,30 @@ const arrives = (page, hash, before, name, text) =>
     [hash, before, `field-${name}`, text],
   );
 
-const whenField = (page, name, text) =>
-  page.waitForFunction(([id, value]) => document.getElementById(id).title === value, [`field-${name}`, text]);
+onPage("what is typed while an address is being checked changes the state of that address", {}, async (page) => {
+  await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
+  await whenValue(page, "restitution", "0.62");
+  assert.equal((await stateOf(page)).friction, "0.31");
+  // What the address has that is refused is refused all the same.
+  await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
+  await whenValue(page, "restitution", "0.63");
+  await settled(page);
+  assert.equal(await page.isVisible("#problems"), true);
+  assert.ok((await stateOf(page)).friction >= 0);
+});
 
-test("what is typed while an address is being checked changes the state of that address", () =>
-  within({}, async (page) => {
-    await arrives(page, "friction=0.31&restitution=0.1", false, "restitution", "0.62");
-    await whenField(page, "restitution", "0.62");
-    assert.equal((await stateOf(page)).friction, "0.31");
-    // What the address has that is refused is refused all the same.
-    await arrives(page, "friction=-1&restitution=0.1", false, "restitution", "0.63");
-    await whenField(page, "restitution", "0.63");
-    await settled(page);
-    assert.equal(await page.isVisible("#problems"), true);
-    assert.ok((await stateOf(page)).friction >= 0);
-  }));
-
-test("an address takes the place of what was typed before it, and the last of several is kept", () =>
-  within({}, async (page) => {
-    await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
-    await whenField(page, "friction", "0.33");
-    await settled(page);
-    assert.equal((await stateOf(page)).restitution, "0.25");
-    await page.evaluate(async () => {
-      for (const friction of ["0.41", "0.42", "0.43", "-1", "0.44"]) {
-        location.hash = `friction=${friction}`;
-        await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
-      }
-    });
-    await whenField(page, "friction", "0.44");
-    await settled(page);
-    assert.equal((await stateOf(page)).friction, "0.44");
-  }));
+onPage("an address takes the place of what was typed before, and the last one is kept", {}, async (page) => {
+  await arrives(page, "friction=0.33&restitution=0.25", true, "restitution", "0.66");
+  await whenValue(page, "friction", "0.33");
+  await settled(page);
+  assert.equal((await stateOf(page)).restitution, "0.25");
+  await page.evaluate(async () => {
+    for (const friction of ["0.41", "0.42", "0.43", "-1", "0.44"]) {
+      location.hash = `friction=${friction}`;
+      await new Promise((done) => window.addEventListener("hashchange", done, { once: true }));
+    }
+  });
+  await whenValue(page, "friction", "0.44");
+  await settled(page);
+  assert.equal((await stateOf(page)).friction, "0.44");
+});

@@ -2,13 +2,14 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, settled, whenText, within as open } from "./browser.mjs";
+import { fact, type, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
 const numbers = await sourceOf("numbers.ts");
 
 const within = (hash, act) => open({ hash, settle: false }, act);
+const onPage = (title, hash, act) => test(title, () => within(hash, act));
 
 /** Fig. 10(c), whose impacts are few: its curves are there in a second or two. */
 const MOTOR =
@@ -18,43 +19,41 @@ const MOTOR =
 const done = (page) => whenText(page, "#status", /^Run-up and \d+ loads are computed/, 60_000);
 const captions = (page) => page.locator("#view-motor .chart figcaption").allTextContents();
 
-test("the curves of a motor are gone as soon as there is another one, on the screen and from the exports", () =>
-  within(MOTOR, async (page) => {
-    await done(page);
-    for (const caption of await captions(page)) assert.match(caption, /\d/);
-    const shown = await page.evaluate(async () => {
-      const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
-      location.hash = location.hash.replace(/&amplitude=[^&]*/, "&amplitude=1e-9");
-      while (Number(document.querySelector("#field-amplitude").value) === 1e-7) await frame();
-      await frame();
-      await frame();
-      const texts = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
-      document.getElementById("export-button").click();
-      await frame();
-      return {
-        captions: texts("#view-motor .chart figcaption"),
-        words: texts("#view-motor .chart-word:not([hidden])"),
-        canvases: document.querySelectorAll("#view-motor .chart canvas").length,
-        facts: texts("#view-motor .facts dd").join(" "),
-        offers: texts(".menu .items button").filter((one) => /motor/i.test(one)),
-      };
-    });
-    assert.deepEqual(shown.captions, ["", "", "", ""]);
-    assert.equal(shown.words.filter((word) => /is being computed\.$/.test(word)).length, 4, `${shown.words}`);
-    assert.equal(shown.canvases, 0);
-    assert.doesNotMatch(shown.facts, /\d/);
-    assert.deepEqual(shown.offers, []);
-  }));
+onPage("the curves of a motor are gone as soon as there is another one", MOTOR, async (page) => {
+  await done(page);
+  for (const caption of await captions(page)) assert.match(caption, /\d/);
+  const shown = await page.evaluate(async () => {
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    location.hash = location.hash.replace(/&amplitude=[^&]*/, "&amplitude=1e-9");
+    while (Number(document.querySelector("#field-amplitude").value) === 1e-7) await frame();
+    await frame();
+    await frame();
+    const texts = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
+    document.getElementById("export-button").click();
+    await frame();
+    return {
+      captions: texts("#view-motor .chart figcaption"),
+      words: texts("#view-motor .chart-word:not([hidden])"),
+      canvases: document.querySelectorAll("#view-motor .chart canvas").length,
+      facts: texts("#view-motor .facts dd").join(" "),
+      offers: texts("dialog.export .card").filter((one) => /motor/i.test(one)),
+    };
+  });
+  assert.deepEqual(shown.captions, ["", "", "", ""]);
+  assert.equal(shown.words.filter((word) => /is being computed\.$/.test(word)).length, 4, `${shown.words}`);
+  assert.equal(shown.canvases, 0);
+  assert.doesNotMatch(shown.facts, /\d/);
+  assert.deepEqual(shown.offers, []);
+});
 
-test("the steady speed of the report is that of the run-up and of the curve without load", () =>
-  within(MOTOR, async (page) => {
-    await done(page);
-    const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "motor", "Steady speed"));
-    const [runUp, curve] = await captions(page);
-    assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
-    assert.ok(curve.startsWith(`From ${speed} rad/s at 0 N m`), curve);
-    assert.doesNotMatch(runUp, /tends to/);
-  }));
+onPage("the steady speed of the report is that of the run-up and of the curve without load", MOTOR, async (page) => {
+  await done(page);
+  const [, speed] = /^(.* ± .*) rad\/s without load$/.exec(await fact(page, "motor", "Steady speed"));
+  const [runUp, curve] = await captions(page);
+  assert.ok(runUp.startsWith(`Steady speed: ${speed} rad/s without load.`), runUp);
+  assert.ok(curve.startsWith(`From ${speed} rad/s at 0 N m`), curve);
+  assert.doesNotMatch(runUp, /tends to/);
+});
 
 /** The load of the system, as an angular deceleration, of so many N m. */
 const loaded = (torque) => `${MOTOR}&load_acceleration=${torque / (0.0329 * 0.0063 ** 2)}`;
@@ -77,12 +76,18 @@ test("a steady speed says under which load it is, and a load that drives the rot
   });
 });
 
-test("a motor that nothing turns is said to be one", () =>
-  within(`${MOTOR}&twist_amplitude=0`.replace("&twist_amplitude=6.820926132509799e-5", ""), async (page) => {
-    await settled(page);
-    await whenText(page, "#status", /^Without a twist/);
-    assert.equal(await page.locator("#view-motor .chart").first().isVisible(), false);
-  }));
+onPage("a motor that nothing turns is said to be one, and keeps no curves of another", "#view=motor", async (page) => {
+  const chart = page.locator("#view-motor .chart").first();
+  await chart.waitFor();
+  const needed = [["friction", "0.6", /^Without friction/], ["twist_amplitude", "0.9", /^Without a twist/]];
+  for (const [name, value, said] of needed) {
+    await type(page, name, "0");
+    await whenText(page, "#status", said);
+    await chart.waitFor({ state: "hidden" });
+    await type(page, name, value);
+    await chart.waitFor();
+  }
+}); // prettier-ignore
 
 const operation = (row) => ({
   load_torque: 0, speed: 20, speed_error: 0.1, mechanical_power: 0, mechanical_power_error: 1e-9, input_power: 1e-3,

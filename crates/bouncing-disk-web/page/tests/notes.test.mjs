@@ -2,12 +2,12 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { moduleOf, sourceOf } from "./module.mjs";
+import { asker, sourceOf } from "./module.mjs";
 
 const { PRESETS, stateOf } = await sourceOf("presets.ts");
 const { MOTION_COLUMNS: MOTION, EVENT_COLUMNS: EVENT } = await sourceOf("protocol.ts");
 const presets = new Map(PRESETS.map((preset) => [preset.id, preset]));
-const { ask } = await moduleOf();
+const ask = asker();
 
 /** The note of a preset, and the states of its panels by the beginnings of their labels. */
 function preset(id) {
@@ -37,7 +37,6 @@ async function motion({ system, start }, periods = 20) {
   return { samples, events, separation: events.find(({ kind }) => /separation/i.test(kind)) };
 }
 
-/** The angular speed with which the disk leaves the platform first. */
 const thrown = async (state) => (await motion(state)).separation.angular_speed;
 
 /** The number of the sample with the largest size of a quantity. */

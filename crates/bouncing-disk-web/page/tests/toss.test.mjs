@@ -1,21 +1,10 @@
 /** Toss and bounce: what it says of the motion, when it plays, what a throw is, and what is drawn. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import {
-  coloursOf,
-  fact,
-  pixelsOf,
-  preset,
-  settled,
-  stateOf,
-  svgOf,
-  whenAddress,
-  whenText,
-  within,
-} from "./browser.mjs";
+  fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, whenAddress, whenText, within,
+} from "./browser.mjs"; // prettier-ignore
 
-/** The time of the animation, in periods. */
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
 
 /** The disk moves on by itself: the time grows three times in a row, however slow the machine is. */
@@ -40,173 +29,156 @@ const seek = (page, periods) =>
     input.dispatchEvent(new Event("input", { bubbles: true }));
   }, periods);
 
-test("Fig. 9: the energy of a contact that does not end is counted, and the slider reaches the stop", () =>
-  within({}, async (page) => {
-    await preset(page, "fig09", 2);
-    await whenText(page, "#view-toss", /of 48 periods/);
-    // All of what it has after the impact at the start: (a_g q)^2/2 with 6.3 mm and 30 rad/s less some.
-    await seek(page, 0);
-    await page.waitForFunction(() => /^0\.00/.test(document.querySelectorAll(".facts dd")[1].textContent));
-    assert.equal(await fact(page, "toss", "Kinetic, rotary"), "17.8 mJ/kg");
-    assert.equal(await fact(page, "toss", "Lost in friction"), "17.8 mJ/kg");
-    assert.equal(await fact(page, "toss", "Stored in the disk"), "−17.8 mJ/kg");
-    const end = Number(await page.getAttribute('[aria-label="Time in periods"]', "max"));
-    assert.ok(end * 0.1 >= 4, `${end} periods of 0.1 s`);
-    await seek(page, 45);
-    await whenText(page, "#view-toss .facts dd", /slid|stick/);
-    assert.equal(await fact(page, "toss", "Angular speed"), "0 rad/s", "what rounding leaves is nothing");
-    assert.match(
-      await page.textContent("#view-toss .alternative"),
-      /the disk (sticks to|slides \w+ on) the platform and turns at 0 rad\/s; the platform at 0 rad\/s\.$/,
-    );
-  }));
+onPage("Fig. 9: the energy of a contact without an end is counted", {}, async (page) => {
+  await preset(page, "fig09", 2);
+  await whenText(page, "#view-toss", /of 48 periods/);
+  // All of what it has after the impact at the start: (a_g q)^2/2 with 6.3 mm and 30 rad/s less some.
+  await seek(page, 0);
+  await page.waitForFunction(() => /^0\.00/.test(document.querySelectorAll(".facts dd")[1].textContent));
+  assert.equal(await fact(page, "toss", "Kinetic, rotary"), "17.8 mJ/kg");
+  assert.equal(await fact(page, "toss", "Lost in friction"), "17.8 mJ/kg");
+  assert.equal(await fact(page, "toss", "Stored in the disk"), "−17.8 mJ/kg");
+  const end = Number(await page.getAttribute('[aria-label="Time in periods"]', "max"));
+  assert.ok(end * 0.1 >= 4, `${end} periods of 0.1 s`);
+  await seek(page, 45);
+  await whenText(page, "#view-toss .facts dd", /slid|stick/);
+  assert.equal(await fact(page, "toss", "Angular speed"), "0 rad/s", "what rounding leaves is nothing");
+  assert.match(
+    await page.textContent("#view-toss .alternative"),
+    /the disk (sticks to|slides \w+ on) the platform and turns at 0 rad\/s; the platform at 0 rad\/s\.$/,
+  );
+});
 
-test("a motion that another view, the tour or a figure opens is seen to move", () =>
-  within({ hash: "#view=basins" }, async (page) => {
-    const box = await page.locator("#view-basins canvas").last().boundingBox();
-    await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-    await whenAddress(page, "view", "toss");
-    await plays(page, "a start of the basins");
-    await page.click("#tab-basins");
-    await settled(page);
-    await page.mouse.click(box.x + box.width / 3, box.y + box.height / 2);
-    await plays(page, "another start of the basins");
-    await page.click("#tab-diagram");
-    for (const id of ["fig09", "fig14"]) {
-      await preset(page, id);
-      await plays(page, id);
-    }
-    await page.click("#tour-button");
-    for (let step = 1; step <= 6; step++) {
-      await whenText(page, ".tour .place", new RegExp(`^Step ${step} of 8$`));
-      if (step === 4 || step === 6) await plays(page, `step ${step} of the tour`);
-      await page.click(".tour .primary");
-    }
-  })); // prettier-ignore
+onPage("a motion that another view, the tour or a figure opens is seen to move", "#view=basins", async (page) => {
+  const box = await page.locator("#view-basins canvas").last().boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await whenAddress(page, "view", "toss");
+  await plays(page, "a start of the basins");
+  await page.click("#tab-basins");
+  await settled(page);
+  await page.mouse.click(box.x + box.width / 3, box.y + box.height / 2);
+  await plays(page, "another start of the basins");
+  await page.click("#tab-diagram");
+  for (const id of ["fig09", "fig14"]) {
+    await preset(page, id);
+    await plays(page, id);
+  }
+  await page.click("#tour-button");
+  for (let step = 1; step <= 6; step++) {
+    await whenText(page, ".tour .place", new RegExp(`^Step ${step} of 8$`));
+    if (step === 4 || step === 6) await plays(page, `step ${step} of the tour`);
+    await page.click(".tour .primary");
+  }
+}); // prettier-ignore
 
-test("a motion goes on where it was left, and stays where somebody has stopped it", () =>
-  within({}, async (page) => {
-    await plays(page, "the first motion");
-    await page.click("#tab-diagram");
-    await whenAddress(page, "view", "diagram");
-    await page.click("#tab-toss");
-    await plays(page, "the same motion");
-    await page.click(".controls .play");
-    // The last step of the clock is painted in the frame after it.
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    const stopped = await now(page);
-    assert.ok(stopped > 0);
-    await page.click("#tab-diagram");
-    await whenAddress(page, "view", "diagram");
-    await page.click("#tab-toss");
-    await settled(page);
-    await page.waitForTimeout(300);
-    assert.equal(await now(page), stopped);
-    assert.equal(await page.textContent(".controls .play"), "Play");
-  }));
+onPage("a motion goes on where it was left, and stays where somebody has stopped it", {}, async (page) => {
+  await plays(page, "the first motion");
+  await page.click("#tab-diagram");
+  await whenAddress(page, "view", "diagram");
+  await page.click("#tab-toss");
+  await plays(page, "the same motion");
+  await page.click(".controls .play");
+  // The last step of the clock is painted in the frame after it.
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  const stopped = await now(page);
+  assert.ok(stopped > 0);
+  await page.click("#tab-diagram");
+  await whenAddress(page, "view", "diagram");
+  await page.click("#tab-toss");
+  await settled(page);
+  await page.waitForTimeout(300);
+  assert.equal(await now(page), stopped);
+  assert.equal(await page.textContent(".controls .play"), "Play");
+});
 
-test("a throw is in the address, and a link of it shows the same motion", () =>
-  within({}, async (page) => {
-    const box = await page.locator("#view-toss .picture-scene canvas").last().boundingBox();
-    await page.click(".controls .play");
-    await seek(page, 0);
-    const [x, y] = await placeOfDisk(page, box);
-    await page.mouse.move(x, y);
-    await page.mouse.down();
-    await page.mouse.move(x + 20, y - 30, { steps: 4 });
-    await page.mouse.up();
-    await page.waitForFunction(() => /throw=-?\d/.test(location.hash));
-    await plays(page, "a throw");
-    const state = await stateOf(page);
-    // How fast the hand was depends on the machine.
-    const [, gap, velocity, speed] = state.throw.split(",").map(Number);
-    assert.ok(gap > 0 && velocity >= 0 && speed >= 0, state.throw);
-    const told = await page.textContent("#status");
-    assert.match(told, /^Thrown /);
-    const hash = await page.evaluate(() => location.hash);
-    await within({ hash }, async (copy) => {
-      assert.deepEqual(await stateOf(copy), state);
-      assert.equal(await copy.textContent("#status"), told);
-      assert.deepEqual(await balanceOf(copy), await balanceOf(page));
-    });
-    // Going back leads to the motion before, and so does the button.
-    await page.getByRole("button", { name: "Start with the shared impact" }).click();
-    await whenAddress(page, "throw", "none");
-    await page.goBack();
-    await whenAddress(page, "throw", state.throw);
-    // The address is there before its state is.
-    await page.getByRole("button", { name: "Start with the shared impact" }).waitFor();
-    // Another start takes the place of a throw.
-    await page.fill("#field-normalised_speed", "1.2");
-    await page.press("#field-normalised_speed", "Enter");
-    await whenAddress(page, "throw", "none");
-  }));
-
-/** The middle of what has the colour of the disk: there it answers to the pointer. */
-async function placeOfDisk(page, box) {
-  await page.waitForTimeout(100);
-  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", await coloursOf(page, ["--disk"]));
-  const ratio = await page.evaluate(() => devicePixelRatio);
-  const middle = (axis) => pixels.reduce((sum, at) => sum + at[axis], 0) / pixels.length / ratio;
-  return [box.x + middle(0), box.y + middle(1)];
-}
+onPage("a throw is in the address, and a link of it shows the same motion", {}, async (page) => {
+  await page.click(".controls .play");
+  await seek(page, 0);
+  const [x, y] = await placeOfDisk(page);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 20, y - 30, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => /throw=-?\d/.test(location.hash));
+  await plays(page, "a throw");
+  const state = await stateOf(page);
+  // How fast the hand was depends on the machine.
+  const [, gap, velocity, speed] = state.throw.split(",").map(Number);
+  assert.ok(gap > 0 && velocity >= 0 && speed >= 0, state.throw);
+  const told = await page.textContent("#status");
+  assert.match(told, /^Thrown /);
+  const hash = await page.evaluate(() => location.hash);
+  await within({ hash }, async (copy) => {
+    assert.deepEqual(await stateOf(copy), state);
+    assert.equal(await copy.textContent("#status"), told);
+    assert.deepEqual(await balanceOf(copy), await balanceOf(page));
+  });
+  // Going back leads to the motion before, and so does the button.
+  await page.getByRole("button", { name: "Start with the shared impact" }).click();
+  await whenAddress(page, "throw", "none");
+  await page.goBack();
+  await whenAddress(page, "throw", state.throw);
+  // The address is there before its state is.
+  await page.getByRole("button", { name: "Start with the shared impact" }).waitFor();
+  // Another start takes the place of a throw.
+  await page.fill("#field-normalised_speed", "1.2");
+  await page.press("#field-normalised_speed", "Enter");
+  await whenAddress(page, "throw", "none");
+});
 
 const balanceOf = async (page) => {
   const names = ["Work of the platform", "Lost in restitution", "Lost in friction", "Stored in the disk"];
   return Promise.all(names.map((name) => fact(page, "toss", name)));
 };
 
-test("Fig. 2: the path of a point of the platform is drawn, and opens with the lag", () =>
-  within({}, async (page) => {
-    await preset(page, "fig02", 0);
-    await page.click(".controls .play");
-    assert.match(await page.textContent("#view-toss .toss-left"), /path of a point of the platform, .* to 1\.31 rad and 177 mm on both sides/);
-    /** The area that the exported path encloses, as a share of its own box. */
-    const area = async () => {
-      const points = /<path d="M([^"]*)Z"[^>]*fill="none"/.exec(await svgOf(page, "path of the platform"));
-      const places = points[1].split("L").map((text) => text.split(" ").map(Number));
-      const sum = places.reduce((total, [x, y], index) => {
-        const [nextX, nextY] = places[(index + 1) % places.length];
-        return total + (x * nextY - nextX * y) / 2;
-      }, 0);
-      const side = (axis) => Math.max(...places.map((at) => at[axis])) - Math.min(...places.map((at) => at[axis]));
-      return Math.abs(sum) / (side(0) * side(1));
-    };
-    // An ellipse with its axes along those of the picture has pi/4 of its box, a line nothing.
-    assert.ok(Math.abs((await area()) - Math.PI / 4) < 0.01);
-    await page.locator(".chip").nth(2).click();
-    await settled(page);
-    assert.ok((await area()) < 0.01);
-    // On the screen it is in the corner.
-    const line = await coloursOf(page, ["--platform-line"]);
-    const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", line, 39);
-    const [width, ratio] = await page.evaluate(() => [
-      document.querySelector("#view-toss .picture-scene canvas").width,
-      devicePixelRatio,
-    ]);
-    const side = 190 * ratio;
-    const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
-    assert.ok(drawn > 60, `${drawn} pixels`);
-  })); // prettier-ignore
+onPage("Fig. 2: the path of a point of the platform is drawn, and opens with the lag", {}, async (page) => {
+  await preset(page, "fig02", 0);
+  await page.click(".controls .play");
+  assert.match(await page.textContent("#view-toss .toss-left"), /path of a point of the platform, .* to 1\.31 rad and 177 mm on both sides/);
+  /** The area that the exported path encloses, as a share of its own box. */
+  const area = async () => {
+    const points = /<path d="M([^"]*)Z"[^>]*fill="none"/.exec(await svgOf(page, "path of the platform"));
+    const places = points[1].split("L").map((text) => text.split(" ").map(Number));
+    const sum = places.reduce((total, [x, y], index) => {
+      const [nextX, nextY] = places[(index + 1) % places.length];
+      return total + (x * nextY - nextX * y) / 2;
+    }, 0);
+    const side = (axis) => Math.max(...places.map((at) => at[axis])) - Math.min(...places.map((at) => at[axis]));
+    return Math.abs(sum) / (side(0) * side(1));
+  };
+  // An ellipse with its axes along those of the picture has pi/4 of its box, a line nothing.
+  assert.ok(Math.abs((await area()) - Math.PI / 4) < 0.01);
+  await page.locator(".chip").nth(2).click();
+  await settled(page);
+  assert.ok((await area()) < 0.01);
+  // On the screen it is in the corner.
+  const pixels = await pixelsOf(page, "#view-toss .picture-scene canvas", ["--platform-line"], 39);
+  const [width, ratio] = await page.evaluate(() => [
+    document.querySelector("#view-toss .picture-scene canvas").width,
+    devicePixelRatio,
+  ]);
+  const side = 190 * ratio;
+  const drawn = pixels.filter(([x, y]) => x >= width - side && y < side).length;
+  assert.ok(drawn > 60, `${drawn} pixels`);
+}); // prettier-ignore
 
-test("printed time traces stand on one axis of time, and ticks stand on the frame", () =>
-  within({}, async (page) => {
-    const frames = (svg) =>
-      [...svg.matchAll(/<rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)"[^>]*fill="none"/g)].map((found) =>
-        found.slice(1).map(Number),
-      );
-    const traces = frames(await svgOf(page, "time traces"));
-    const [[left, , width], [otherLeft, , otherWidth]] = traces.filter((one) => one[2] > 100);
-    assert.deepEqual([left, width], [otherLeft, otherWidth]);
-    const portrait = await svgOf(page, "phase portrait");
-    const [x, y, wide, high] = frames(portrait).find((one) => one[2] > 100);
-    const [, ticks] = [...portrait.matchAll(/<path d="([^"]*)"[^>]*fill="none"/g)].find(([path]) => path.split("M").length > 20);
-    const places = ticks.split(/[ML]/).slice(1).map((text) => text.split(" ").map(Number));
-    const sides = [0, 1].map((axis) => places.map((at) => at[axis]));
-    const ends = [Math.min(...sides[0]), Math.max(...sides[0]), Math.min(...sides[1]), Math.max(...sides[1])];
-    [x, x + wide, y, y + high].forEach((side, index) => assert.ok(Math.abs(side - ends[index]) < 0.02, `${ends}`));
-    // Equal steps of the axis are equal on paper.
-    const steps = [...new Set(sides[0].filter((x, index) => places[index ^ 1][0] === x))].sort((one, other) => one - other);
-    const widths = steps.slice(1).map((at, index) => at - steps[index]);
-    assert.ok(Math.max(...widths) - Math.min(...widths) < 0.03, `${widths}`);
-  })); // prettier-ignore
+onPage("printed time traces stand on one axis of time, and ticks stand on the frame", {}, async (page) => {
+  const frames = (svg) =>
+    [...svg.matchAll(/<rect x="([\d.]+)" y="([\d.]+)" width="([\d.]+)" height="([\d.]+)"[^>]*fill="none"/g)].map((found) =>
+      found.slice(1).map(Number),
+    );
+  const traces = frames(await svgOf(page, "time traces"));
+  const [[left, , width], [otherLeft, , otherWidth]] = traces.filter((one) => one[2] > 100);
+  assert.deepEqual([left, width], [otherLeft, otherWidth]);
+  const portrait = await svgOf(page, "phase portrait");
+  const [x, y, wide, high] = frames(portrait).find((one) => one[2] > 100);
+  const [, ticks] = [...portrait.matchAll(/<path d="([^"]*)"[^>]*fill="none"/g)].find(([path]) => path.split("M").length > 20);
+  const places = ticks.split(/[ML]/).slice(1).map((text) => text.split(" ").map(Number));
+  const sides = [0, 1].map((axis) => places.map((at) => at[axis]));
+  const ends = [Math.min(...sides[0]), Math.max(...sides[0]), Math.min(...sides[1]), Math.max(...sides[1])];
+  [x, x + wide, y, y + high].forEach((side, index) => assert.ok(Math.abs(side - ends[index]) < 0.02, `${ends}`));
+  // Equal steps of the axis are equal on paper.
+  const steps = [...new Set(sides[0].filter((x, index) => places[index ^ 1][0] === x))].sort((one, other) => one - other);
+  const widths = steps.slice(1).map((at, index) => at - steps[index]);
+  assert.ok(Math.max(...widths) - Math.min(...widths) < 0.03, `${widths}`);
+}); // prettier-ignore

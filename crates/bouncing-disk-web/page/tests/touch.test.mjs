@@ -1,19 +1,23 @@
 /** Fingers: the disk is thrown by dragging it, pictures are pinched and panned, and a basin's start is tapped. */
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
-import { settled, stateOf, whenAddress, whenText, within } from "./browser.mjs";
+import { boxOf, onPage, placeOfDisk, settled, stateOf, whenAddress, whenText } from "./browser.mjs";
 
-/** A telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
-const telephone = (view, act) =>
-  within({ hash: `#view=${view}`, width: 390, height: 840, hasTouch: true }, async (page, context) => {
+/** A test on a telephone with a view, and `touch(kind, ...points)` for its fingers, in pixels of the window. */
+function onTelephone(title, view, act) {
+  const options = { hash: `#view=${view}`, width: 390, height: 840, hasTouch: true };
+  onPage(title, options, async (page, context) => {
     const session = await context.newCDPSession(page);
     const touch = (type, ...points) =>
       session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
     await act(page, touch);
   });
+}
 
-const surface = (page, view) => page.locator(`#view-${view} .picture canvas:last-child`).first();
+async function middleOf(page, view) {
+  const box = await boxOf(page, view);
+  return [box.x + box.width / 2, box.y + box.height / 2];
+}
 
 const rangeOf = (text) => text.split(",").map(Number);
 
@@ -30,89 +34,78 @@ async function drag(page, touch, from, to, steps = 8) {
   await touch("touchEnd");
 }
 
-test("a finger on the disk throws it, and the page stays where it is", () =>
-  telephone("toss", async (page, touch) => {
-    await page.tap(".controls .play");
-    await page.focus("#view-toss .picture canvas:last-child");
-    await page.keyboard.press("Home");
-    const box = await surface(page, "toss").boundingBox();
-    // The disk lies in the middle of the picture's width; where it lies in its height, its colour says.
-    const height = await page.evaluate(() => {
-      const canvas = document.querySelector("#view-toss .picture canvas");
-      const ratio = canvas.width / canvas.clientWidth;
-      const { data } = canvas.getContext("2d").getImageData(canvas.width / 2 - 30 * ratio, 0, 1, canvas.height);
-      const rows = [];
-      for (let row = 0; row < canvas.height; row++) {
-        const [red, green, blue] = data.subarray(4 * row, 4 * row + 3);
-        if (red < 20 && green > 90 && blue > 150) rows.push(row / ratio);
-      }
-      return rows[Math.floor(rows.length / 2)];
-    });
-    const from = [box.x + box.width / 2 - 30, box.y + height];
-    await drag(page, touch, from, [from[0] + 50, from[1] - 60]);
-    await whenText(page, "#status", /^Thrown .* above/);
-    const told = await page.textContent("#status");
-    assert.match(told, /m\/s upwards relative to it, turning at \d/);
-    assert.equal(await page.evaluate(() => scrollY), 0);
-    assert.equal(await page.textContent("#announcer"), told);
-  }));
+onTelephone("a finger on the disk throws it, and the page stays where it is", "toss", async (page, touch) => {
+  await page.tap(".controls .play");
+  await page.focus("#view-toss .picture canvas:last-child");
+  await page.keyboard.press("Home");
+  const from = await placeOfDisk(page);
+  await drag(page, touch, from, [from[0] + 50, from[1] - 60]);
+  await whenText(page, "#status", /^Thrown .* above/);
+  const told = await page.textContent("#status");
+  assert.match(told, /m\/s upwards relative to it, turning at \d/);
+  assert.equal(await page.evaluate(() => scrollY), 0);
+  assert.equal(await page.textContent("#announcer"), told);
+});
 
-test("a finger beside the disk scrolls the page", () =>
-  telephone("toss", async (page, touch) => {
-    const box = await surface(page, "toss").boundingBox();
-    await drag(page, touch, [box.x + 20, box.y + box.height - 20], [box.x + 20, box.y - 150], 16);
-    await page.waitForFunction(() => scrollY > 50);
-    assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
-  }));
+onTelephone("a finger beside the disk scrolls the page", "toss", async (page, touch) => {
+  const box = await boxOf(page, "toss");
+  await drag(page, touch, [box.x + 20, box.y + box.height - 20], [box.x + 20, box.y - 150], 16);
+  await page.waitForFunction(() => scrollY > 50);
+  assert.doesNotMatch(await page.textContent("#status"), /Thrown/);
+});
 
-test("two fingers zoom the orbit diagram about the point between them, and not the page", () =>
-  telephone("diagram", async (page, touch) => {
-    const box = await surface(page, "diagram").boundingBox();
-    const before = rangeOf((await stateOf(page)).diagram_forcing);
-    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-    await touch("touchStart", [x - 30, y], [x + 30, y]);
-    for (let step = 1; step <= 6; step++) {
-      await touch("touchMove", [x - 30 - 10 * step, y], [x + 30 + 10 * step, y]);
-      await page.waitForTimeout(20);
-    }
-    await touch("touchEnd");
-    await page.waitForTimeout(600);
-    const after = rangeOf((await stateOf(page)).diagram_forcing);
-    const shrunk = (after[1] - after[0]) / (before[1] - before[0]);
-    assert.ok(Math.abs(shrunk - 1 / 3) < 0.02, `the window is ${shrunk} of what it was`);
-    assert.ok(after[0] > before[0] && after[1] < before[1], String(after));
-    assert.equal(await page.evaluate(() => visualViewport.scale), 1);
-    await settled(page);
-    assert.match(await page.textContent("#status"), /forcings, .* in .* s/);
-  }));
+onTelephone("two fingers zoom the orbit diagram, and not the page", "diagram", async (page, touch) => {
+  const [x, y] = await middleOf(page, "diagram");
+  const before = rangeOf((await stateOf(page)).diagram_forcing);
+  await touch("touchStart", [x - 30, y], [x + 30, y]);
+  for (let step = 1; step <= 6; step++) {
+    await touch("touchMove", [x - 30 - 10 * step, y], [x + 30 + 10 * step, y]);
+    await page.waitForTimeout(20);
+  }
+  await touch("touchEnd");
+  await page.waitForTimeout(600);
+  const after = rangeOf((await stateOf(page)).diagram_forcing);
+  const shrunk = (after[1] - after[0]) / (before[1] - before[0]);
+  assert.ok(Math.abs(shrunk - 1 / 3) < 0.02, `the window is ${shrunk} of what it was`);
+  assert.ok(after[0] > before[0] && after[1] < before[1], String(after));
+  assert.equal(await page.evaluate(() => visualViewport.scale), 1);
+  await settled(page);
+  assert.match(await page.textContent("#status"), /forcings, .* in .* s/);
+});
 
-test("one finger moves the orbit diagram sideways, and a tap chooses a forcing and tells its orbit", () =>
-  telephone("diagram", async (page, touch) => {
-    const box = await surface(page, "diagram").boundingBox();
-    const before = rangeOf((await stateOf(page)).diagram_forcing);
-    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-    await drag(page, touch, [x, y], [x + 80, y]);
-    await page.waitForTimeout(600);
-    const after = rangeOf((await stateOf(page)).diagram_forcing);
-    assert.ok(Math.abs(after[1] - after[0] - (before[1] - before[0])) < 1e-9, "it is moved and not zoomed");
-    assert.ok(after[0] < before[0] - 0.05, `${before} to ${after}`);
-    await settled(page);
-    const { amplitude } = await stateOf(page);
-    await page.touchscreen.tap(x + 60, y);
-    await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);
-    await whenText(page, "#view-diagram .facts", /impact/);
-  }));
+onTelephone("one finger moves the orbit diagram, and a tap chooses a forcing", "diagram", async (page, touch) => {
+  const [x, y] = await middleOf(page, "diagram");
+  const before = rangeOf((await stateOf(page)).diagram_forcing);
+  await drag(page, touch, [x, y], [x + 80, y]);
+  await page.waitForTimeout(600);
+  const after = rangeOf((await stateOf(page)).diagram_forcing);
+  assert.ok(Math.abs(after[1] - after[0] - (before[1] - before[0])) < 1e-9, "it is moved and not zoomed");
+  assert.ok(after[0] < before[0] - 0.05, `${before} to ${after}`);
+  await settled(page);
+  const { amplitude } = await stateOf(page);
+  await page.touchscreen.tap(x + 60, y);
+  await page.waitForFunction((old) => !location.hash.includes(`amplitude=${old}&`), amplitude);
+  await whenText(page, "#view-diagram .facts", /impact/);
+});
 
-test("a tap on a basin runs the orbit of that start in the first view", () =>
-  telephone("basins", async (page) => {
-    const box = await surface(page, "basins").boundingBox();
-    await page.touchscreen.tap(box.x + box.width * 0.5, box.y + box.height * 0.4);
-    await whenAddress(page, "view", "toss");
-    const { impact_phase, normalised_speed } = await stateOf(page);
-    // The axes' margins are not known here; the start is near the middle of the picture.
-    assert.ok(Math.abs(impact_phase / (2 * Math.PI) - 0.43) < 0.1, impact_phase);
-    assert.ok(Math.abs(normalised_speed - 2.8) < 0.4, normalised_speed);
-    await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
-    const shown = Number(await page.inputValue("#field-normalised_speed"));
-    assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
-  }));
+onTelephone("a tap on a basin runs the orbit of that start in the first view", "basins", async (page) => {
+  const box = await boxOf(page, "basins");
+  await page.touchscreen.tap(box.x + box.width * 0.5, box.y + box.height * 0.4);
+  await whenAddress(page, "view", "toss");
+  const { impact_phase, normalised_speed } = await stateOf(page);
+  // The axes' margins are not known here; the start is near the middle of the picture.
+  assert.ok(Math.abs(impact_phase / (2 * Math.PI) - 0.43) < 0.1, impact_phase);
+  assert.ok(Math.abs(normalised_speed - 2.8) < 0.4, normalised_speed);
+  await whenText(page, "#view-toss .facts", /flight|sticking|sliding/);
+  const shown = Number(await page.inputValue("#field-normalised_speed"));
+  assert.ok(Math.abs(shown - normalised_speed) < 1e-3, `${shown} for ${normalised_speed}`);
+});
+
+onTelephone("sliders and tabs answer", "toss", async (page) => {
+  await page.tap("#tab-basins");
+  await whenAddress(page, "view", "basins");
+  await page.tap("details:nth-of-type(2) > summary");
+  const box = await page.locator('[data-name="restitution"] input[type=range]').boundingBox();
+  await page.touchscreen.tap(box.x + box.width * 0.25, box.y + box.height / 2);
+  await page.waitForFunction(() => location.hash.includes("restitution=0.2"));
+});

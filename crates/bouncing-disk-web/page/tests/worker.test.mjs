@@ -5,7 +5,7 @@ import { createServer } from "node:http";
 import { existsSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
-import { settled, type, whenAddress, within } from "./browser.mjs";
+import { onPage, settled, type, whenAddress, within } from "./browser.mjs";
 import { file } from "./module.mjs";
 
 /** With the first of these coefficients of friction the module breaks down, with the second no motion of it ends. */
@@ -24,28 +24,26 @@ function breakable() {
   };
 }
 
-test("a worker that breaks down is replaced, and one sentence says so", () =>
-  within({ script: breakable }, async (page) => {
-    await type(page, "friction", "0.06660666");
-    await page.waitForSelector("#error-friction:not([hidden])");
-    assert.match(await page.textContent("#error-friction"), /broke down/);
-    await type(page, "friction", "0.3");
-    await whenAddress(page, "friction", "0.3");
-    await settled(page);
-    assert.equal(await page.isVisible("#error-friction"), false);
-  }));
+onPage("a worker that breaks down is replaced, and one sentence says so", { script: breakable }, async (page) => {
+  await type(page, "friction", "0.06660666");
+  await page.waitForSelector("#error-friction:not([hidden])");
+  assert.match(await page.textContent("#error-friction"), /broke down/);
+  await type(page, "friction", "0.3");
+  await whenAddress(page, "friction", "0.3");
+  await settled(page);
+  assert.equal(await page.isVisible("#error-friction"), false);
+});
 
-test("a computation without an end is given up as soon as another one is wanted", () =>
-  within({ hash: "#view=diagram", script: breakable }, async (page) => {
-    await type(page, "friction", "0.07770777");
-    await whenAddress(page, "friction", "0.07770777");
-    await page.waitForTimeout(300);
-    const began = Date.now();
-    await type(page, "friction", "0.3");
-    await whenAddress(page, "friction", "0.3");
-    await settled(page);
-    assert.ok(Date.now() - began < 5000, `${Date.now() - began} ms`);
-  }));
+onPage("a computation without an end is given up", { hash: "#view=diagram", script: breakable }, async (page) => {
+  await type(page, "friction", "0.07770777");
+  await whenAddress(page, "friction", "0.07770777");
+  await page.waitForTimeout(300);
+  const began = Date.now();
+  await type(page, "friction", "0.3");
+  await whenAddress(page, "friction", "0.3");
+  await settled(page);
+  assert.ok(Date.now() - began < 5000, `${Date.now() - began} ms`);
+});
 
 const MEDIA = { html: "text/html", js: "text/javascript", css: "text/css", wasm: "application/wasm" };
 

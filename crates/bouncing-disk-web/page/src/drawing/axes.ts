@@ -2,7 +2,7 @@
 
 import { minus } from "../numbers";
 import type { Range } from "../protocol";
-import type { Pen } from "./pen";
+import type { Box, Pen } from "./pen";
 
 export interface Axis {
   /** With its unit: "load (µN m)". */
@@ -25,13 +25,6 @@ export interface Ticks {
 }
 
 export const NO_TICKS: Ticks = { major: [], minor: [] };
-
-export interface Box {
-  readonly left: number;
-  readonly top: number;
-  readonly width: number;
-  readonly height: number;
-}
 
 export interface Plot extends Box, Axes {
   readonly xTicks: Ticks;
@@ -75,11 +68,6 @@ export function valueY({ top, height, y: { range } }: Plot, pixel: number): numb
 
 export function inside(plot: Box, x: number, y: number): boolean {
   return x >= plot.left && x <= plot.left + plot.width && y >= plot.top && y <= plot.top + plot.height;
-}
-
-/** Draws nothing outside of a plot. */
-export function clippedTo({ left, top, width, height }: Box, pen: Pen, draw: () => void): void {
-  pen.clipped(left, top, width, height, draw);
 }
 
 /** Two lines of this half length through a point, upright or at 45 degrees. */
@@ -181,19 +169,15 @@ export function extent(values: ArrayLike<number>, start = 0, stride = 1): Range 
   return low <= high && low > -Infinity ? [low, high] : null;
 }
 
-export function clamp(value: number, low: number, high: number): number {
-  return Math.min(Math.max(value, low), high);
-}
+export const clamp = (value: number, low: number, high: number): number => Math.min(Math.max(value, low), high);
 
 /** At most about `count` labelled ticks. `factor` turns a value into the unit of the label. */
 export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
   const width = (high - low) * factor;
   if (!(width > 0)) return NO_TICKS;
-  const raw = width / Math.max(count, 1);
-  const power = 10 ** Math.floor(Math.log10(raw));
-  const lead = raw / power;
-  const [step, parts] = lead <= 1 ? [1, 5] : lead <= 2 ? [2, 4] : lead <= 5 ? [5, 5] : [10, 5];
-  const size = step * power;
+  const size = roundUp(width / Math.max(count, 1));
+  // A step of two has four parts, others have five.
+  const parts = Math.round(size / 10 ** Math.floor(Math.log10(size) + 1e-9)) === 2 ? 4 : 5;
   const decimals = Math.max(0, -Math.floor(Math.log10(size) + 1e-9));
   const slack = 1e-9;
   const between = (by: number) => {

@@ -1,17 +1,17 @@
-/** A chart of curves: for files by a pen, on the screen by uPlot, which gives cursor, legend with values and speed. */
+/** A chart of curves, in files and, with a cursor that reads its values, on the screen. */
 
-import uPlot from "uplot";
-import { element, setText } from "../elements";
-import { minus, plain, withError } from "../numbers";
+import type { Offer } from "../contract";
+import { element, placeOn, setText } from "../elements";
+import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
 import {
-  clippedTo, crossAt, layOut, NO_TICKS, paintAxes, paintGrid, pixelX, pixelY, type Axis, type Box, type Plot,
+  clamp, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
 } from "./axes"; // prettier-ignore
-import { themeColour } from "./colours";
-import { CanvasPen, plainText, SCREEN_FONT, type Pen } from "./pen";
+import { ONE_COLUMN, pictureOffers, PRINT_SIZE } from "./files";
+import { plainText, type Pen } from "./pen";
+import { Layers } from "./window";
 
 export interface Curve {
-  /** "disk"; the legend adds the value under the cursor. */
   readonly label: string;
   readonly y: ArrayLike<number>;
   /** Standard errors: a band of twice this is drawn. */
@@ -51,19 +51,17 @@ export interface Chart {
   readonly shade?: { readonly range: Range; readonly label: string };
 }
 
-/** Where a chart in a box of `width` by `height` has its axes. */
-export function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
+function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
   // A legend stands above the curves, not on them.
   const [low, high] = y.range;
   const room = curves.length > 1 ? ((1.3 * curves.length + 2) * size) / height : 0;
   return layOut(pen, width, height, { x, y: { ...y, range: [low, high + room * 1.4 * (high - low)] } }, size);
 }
 
-/** The whole chart with its legend, in a box of `width` by `height`. */
-export function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
+function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
   const plot = layOutChart(pen, chart, width, height, size);
   paintGrid(pen, plot);
-  clippedTo(plot, pen, () => {
+  pen.clipped(plot, () => {
     paintExtras(pen, chart, plot);
     for (const curve of chart.curves) paintCurve(pen, chart, curve, plot);
   });
@@ -163,142 +161,112 @@ function paintLegend(pen: Pen, chart: Chart, plot: Plot): void {
   });
 }
 
+/** Charts below each other, each so high, on one axis: all have the place that the longest numbers need. */
+export function chartOffers(name: string, title: string, charts: readonly Chart[], each: number): Offer[] {
+  return pictureOffers({
+    name,
+    title,
+    width: ONE_COLUMN,
+    height: each * charts.length,
+    paint(pen, width) {
+      const plots = charts.map((chart) => layOutChart(pen, chart, width, each, PRINT_SIZE));
+      const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
+      const long = (label: string) => pen.measure(label, PRINT_SIZE);
+      const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
+      charts.forEach((chart, index) => {
+        const aligned = { ...chart, y: { ...chart.y, widest } };
+        pen.moved(0, index * each, () => paintChart(pen, aligned, width, each, PRINT_SIZE));
+      });
+    },
+  });
+}
+
 const SIZE = 12;
 const KEYS = "Left and right read the values one by one, Home and End the first and the last.";
 
-/** A chart of curves on the screen by uPlot, which gives cursor, legend with values and speed. */
+/** A chart on the screen. The pointer and the keys move a cursor, whose values are read below the curves. */
 export class ScreenChart {
   readonly root: HTMLElement;
-  private readonly stage = element("div", { class: "chart-stage", role: "application", tabindex: 0 });
-  /** The values under the cursor, for screen readers. */
-  private readonly reading = element("p", { class: "hidden", "aria-live": "polite" });
+  private readonly layers = new Layers("picture-chart", KEYS);
+  private readonly reading = element("p", { class: "reading", "aria-live": "polite" });
   private readonly caption = element("figcaption", { class: "alternative" });
   /** Stands in the place of a picture that is not there yet, or that there is none of. */
-  private readonly word = element("p", { class: "chart-word", hidden: true });
-  private plot: uPlot | null = null;
-  private made = "";
+  private readonly word = element("p", { class: "chart-word" });
   private chart: Chart | null = null;
+  private plot: Plot | null = null;
+  /** The number of the values under the cursor. */
+  private at: number | null = null;
 
   constructor(private readonly height: () => number) {
-    this.root = element("figure", { class: "chart" }, this.word, this.stage, this.caption, this.reading);
-    this.stage.addEventListener("keydown", (event) => this.key(event));
+    const { surface } = this.layers;
+    this.root = element("figure", { class: "chart" }, this.word, this.reading, this.caption);
+    surface.addEventListener("keydown", (event) => this.key(event));
+    surface.addEventListener("pointermove", (event) => this.point(event));
+    surface.addEventListener("pointerleave", () => this.read(null));
   }
 
-  /** Shows a chart. The same kinds of curves are only filled anew, which is quick. */
-  show(chart: Chart, alternative?: string): void {
+  show(chart: Chart, alternative = ""): void {
+    const { layers } = this;
     this.chart = chart;
-    this.word.hidden = true;
-    this.stage.hidden = false;
-    this.stage.setAttribute("aria-label", `Chart: ${chart.title}. ${alternative ?? ""} ${KEYS}`);
-    if (alternative !== undefined) setText(this.caption, alternative);
-    const width = Math.floor(this.root.clientWidth);
+    this.word.replaceWith(layers.root);
+    layers.root.style.height = `${this.height()}px`;
+    layers.surface.setAttribute("aria-label", `Chart: ${chart.title}. ${alternative} ${KEYS}`);
+    setText(this.caption, alternative);
+    layers.fit();
+    const { width, height } = layers;
     if (width < 50) return;
-    const height = this.height();
-    const key = [
-      chart.title, chart.x.label, chart.y.label, ...chart.curves.map(({ label }) => label),
-      themeColour("--picture-paper"), window.devicePixelRatio,
-    ].join("\n"); // prettier-ignore
-    if (this.plot === null || key !== this.made) {
-      this.plot?.destroy();
-      this.made = key;
-      this.plot = new uPlot(this.options(chart, width, height), columns(chart), this.stage);
-    } else {
-      if (this.plot.width !== width || this.plot.height !== height) this.plot.setSize({ width, height });
-      this.plot.setData(columns(chart), true);
-    }
+    const pen = layers.data();
+    this.plot = layOutChart(pen, chart, width, height, SIZE);
+    paintChart(pen, chart, width, height, SIZE);
+    this.paintCursor();
   }
 
   /** Shows a word in place of a chart, whose values are those of something else by now. */
   showWord(word: string): void {
+    const { layers } = this;
     // The page does not jump while the next chart is computed.
-    this.word.style.minHeight = `${this.stage.offsetHeight || this.word.offsetHeight || this.height()}px`;
-    this.plot?.destroy();
-    this.plot = null;
+    this.word.style.minHeight = `${layers.root.offsetHeight || this.word.offsetHeight || this.height()}px`;
+    layers.root.replaceWith(this.word);
     this.chart = null;
-    this.stage.hidden = true;
-    this.word.hidden = false;
+    this.at = null;
     setText(this.word, word);
     setText(this.caption, "");
     setText(this.reading, "");
   }
 
-  /** The cursor of the keyboard goes from value to value. */
   private key(event: KeyboardEvent): void {
-    const { plot, chart } = this;
-    if (plot === null || chart === null || chart.at.length === 0) return;
-    const last = chart.at.length - 1;
-    const at = plot.cursor.idx ?? null;
-    const targets: Readonly<Record<string, number>> = {
-      ArrowLeft: at === null ? last : Math.max(at - 1, 0),
-      ArrowRight: at === null ? 0 : Math.min(at + 1, last),
-      Home: 0,
-      End: last,
-    };
-    const target = targets[event.key];
-    if (target === undefined) return;
+    if (this.chart === null) return;
+    const last = this.chart.at.length - 1;
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    const from = this.at ?? (by === 1 ? -1 : last + 1);
+    const target = by === undefined ? { Home: 0, End: last }[event.key] : clamp(from + by, 0, last);
+    if (target === undefined || last < 0) return;
     event.preventDefault();
-    plot.setCursor({ left: plot.valToPos(chart.at[target] as number, "x"), top: plot.bbox.height / 2 });
-    setText(this.reading, readingOf(chart, target));
+    this.read(target);
   }
 
-  private options(chart: Chart, width: number, height: number): uPlot.Options {
-    const font = `${SIZE}px ${SCREEN_FONT}`;
-    const frame = { stroke: themeColour("--picture-frame"), width: 1 };
-    const axis = (label: string, size: number): uPlot.Axis => ({
-      label: plainText(label),
-      labelFont: font,
-      font,
-      labelSize: 20,
-      size,
-      stroke: themeColour("--picture-text"),
-      grid: { stroke: themeColour("--picture-grid"), width: 1 },
-      ticks: { ...frame, size: 5 },
-      border: { ...frame, show: true },
-      values: (_, splits) => splits.map((value) => minus(String(Number(value.toPrecision(10))))),
-    });
-    const series = chart.curves.map(({ label, colour, dash, points = false }): uPlot.Series => ({
-      label,
-      stroke: themeColour(colour),
-      width: 1.6,
-      pxAlign: 0,
-      ...(dash === undefined ? {} : { dash: [...dash] }),
-      points: { show: points, size: 5, fill: themeColour(colour) },
-      value: (_, value: number | null) => plain(value),
-    }));
-    return {
-      width,
-      height,
-      // Points between pixels keep curves smooth.
-      pxAlign: 0,
-      series: [{ label: plainText(chart.x.label).replace(/ \(.*/, ""), value: (_, value) => plain(value) }, ...series],
-      scales: {
-        x: { time: false, range: () => (this.chart ?? chart).x.range },
-        y: { range: () => (this.chart ?? chart).y.range },
-      },
-      axes: [axis(chart.x.label, 34), axis(chart.y.label, 56)],
-      cursor: { y: false, drag: { x: false, y: false }, points: { size: 7 } },
-      legend: {
-        // A line like that of the curve, for those who do not tell the colours apart.
-        markers: { width: 2, fill: () => "", dash: (plot, index) => (plot.series[index]?.dash ? "dashed" : "solid") },
-      },
-      padding: [10, 12, 0, 0],
-      hooks: { drawAxes: [(plot) => this.paintBelow(plot)] },
-    };
+  private point(event: PointerEvent): void {
+    const { chart, plot } = this;
+    if (chart === null || plot === null) return;
+    const value = valueX(plot, placeOn(this.layers.surface, event).x);
+    const apart = Array.from(chart.at, (place) => Math.abs(place - value));
+    if (apart.length > 0) this.read(apart.indexOf(Math.min(...apart)));
   }
 
-  /** What uPlot does not have, below its curves. */
-  private paintBelow({ ctx, bbox }: uPlot): void {
-    const { chart } = this;
-    if (chart === null) return;
-    const ratio = uPlot.pxRatio;
-    const [left, top, width, height] = [bbox.left, bbox.top, bbox.width, bbox.height].map((one) => one / ratio);
-    const box = { left, top, width, height } as Box;
-    const plot: Plot = { ...box, x: chart.x, y: chart.y, xTicks: NO_TICKS, yTicks: NO_TICKS, size: SIZE };
-    const pen = new CanvasPen(ctx);
-    ctx.save();
-    ctx.scale(ratio, ratio);
-    clippedTo(plot, pen, () => paintExtras(pen, chart, plot));
-    ctx.restore();
+  private read(at: number | null): void {
+    this.at = at;
+    this.paintCursor();
+  }
+
+  private paintCursor(): void {
+    const { chart, plot, at } = this;
+    const pen = this.layers.cursor();
+    const known = chart !== null && plot !== null && at !== null && at < chart.at.length;
+    setText(this.reading, known ? readingOf(chart, at) : "");
+    if (!known) return;
+    const x = pixelX(plot, chart.at[at] as number);
+    pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-cursor", width: 1 });
+    for (const { y, colour } of chart.curves) pen.circle(x, pixelY(plot, y[at] ?? NaN), 3.5, { fill: colour });
   }
 }
 
@@ -306,10 +274,4 @@ export class ScreenChart {
 function readingOf({ x, at, curves }: Chart, index: number): string {
   const values = curves.map(({ label, y, error }) => `${label} ${withError(y[index] ?? null, error?.[index] ?? null)}`);
   return `${plainText(x.label)} ${plain(at[index])}: ${values.join(", ")}`;
-}
-
-/** uPlot knows a gap as null. */
-function columns({ at, curves }: Chart): uPlot.AlignedData {
-  const gaps = ({ y }: Curve) => Array.from(y, (value) => (Number.isFinite(value) ? value : null));
-  return [Array.from(at), ...curves.map(gaps)] as uPlot.AlignedData;
 }

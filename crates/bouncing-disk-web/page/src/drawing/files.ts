@@ -2,8 +2,8 @@
 
 import type { Offer } from "../contract";
 import { element } from "../elements";
-import { clippedTo, layOut, paintAxes, type Axes, type Plot } from "./axes";
-import { CanvasPen, contextOf, SvgPen, type Pen } from "./pen";
+import { layOut, paintAxes, type Axes, type Plot } from "./axes";
+import { contextOf, SvgPen, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;
@@ -22,14 +22,14 @@ interface Picture {
 
 export function pictureOffers(picture: Picture): Offer[] {
   const { name, title, width, height } = picture;
-  const svg = async () => {
+  const svg = () => {
     const pen = new SvgPen(width, height);
     picture.paint(pen, width, height);
-    return new Blob([pen.finish(title)], { type: "image/svg+xml" });
+    return pen.finish(title);
   };
   return [
-    { name, kind: "svg", make: svg },
-    { name, kind: "png", make: () => pngOf(picture) },
+    { name, kind: "svg", make: async () => new Blob([svg()], { type: "image/svg+xml" }) },
+    { name, kind: "png", make: () => pngOf(svg(), width, height) },
   ];
 }
 
@@ -41,21 +41,20 @@ export function plotOffers(
     ...picture,
     paint(pen, width, height) {
       const plot = layOut(pen, width, height, axes, PRINT_SIZE);
-      clippedTo(plot, pen, () => paint(pen, plot));
+      pen.clipped(plot, () => paint(pen, plot));
       paintAxes(pen, plot);
     },
   });
 } // prettier-ignore
 
-async function pngOf(picture: Picture): Promise<Blob> {
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.round(picture.width * PRINT_DOTS_PER_POINT);
-  canvas.height = Math.round(picture.height * PRINT_DOTS_PER_POINT);
-  const context = contextOf(canvas);
-  const pen = new CanvasPen(context, true);
-  pen.rect(0, 0, canvas.width, canvas.height, { fill: "--picture-paper" });
-  context.scale(PRINT_DOTS_PER_POINT, PRINT_DOTS_PER_POINT);
-  picture.paint(pen, picture.width, picture.height);
+/** The browser draws the SVG. A page on the disk may read back what an address has all of in itself. */
+async function pngOf(svg: string, ...points: [width: number, height: number]): Promise<Blob> {
+  const image = new Image();
+  image.src = `data:image/svg+xml,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const [width, height] = points.map((length) => Math.round(length * PRINT_DOTS_PER_POINT)) as [number, number];
+  const canvas = element("canvas", { width, height });
+  contextOf(canvas).drawImage(image, 0, 0, width, height);
   return new Promise((resolve, reject) => {
     canvas.toBlob(
       (blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)),
@@ -110,7 +109,6 @@ async function written(
   return new Blob([...parts, end], { type });
 } // prettier-ignore
 
-/** The rows of a flat array. */
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);
 }
@@ -120,7 +118,6 @@ export const fileName = ({ name, kind }: Offer): string => `${name.trim().replac
 /** How long (ms) a browser may take to begin with saving. */
 const PATIENCE = 60_000;
 
-/** Has the browser save a file. */
 export function save(blob: Blob, download: string): void {
   const href = URL.createObjectURL(blob);
   element("a", { href, download }).click();

@@ -1,4 +1,4 @@
-/** What draws lines, areas and words: on a canvas, or into SVG. Lengths are in CSS pixels or, printed, in points. */
+/** What draws lines, areas and words: on the screen in CSS pixels, or for print into SVG in points. */
 
 import { printedColour, themeColour, type Colours } from "./colours";
 
@@ -23,6 +23,13 @@ export interface TextStyle {
   halo?: string;
 }
 
+export interface Box {
+  readonly left: number;
+  readonly top: number;
+  readonly width: number;
+  readonly height: number;
+}
+
 export interface Pen {
   /** On paper lines stand where they belong, on a screen in the middle of pixels. */
   readonly printed: boolean;
@@ -35,7 +42,8 @@ export interface Pen {
   text(text: string, x: number, y: number, style: TextStyle): void;
   measure(text: string, size: number): number;
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void;
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void;
+  /** Draws nothing outside of a box. */
+  clipped(to: Box, draw: () => void): void;
   /** Draws on the sheet moved by so much: for pictures below each other, or in a corner. */
   moved(right: number, down: number, draw: () => void): void;
 }
@@ -51,7 +59,7 @@ const baselineOf = ({ baseline, size }: TextStyle): number => (baseline === unde
 /** Lines of print are finer than those of screens. */
 const PRINT_WEIGHT = 0.6;
 
-export const SCREEN_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
+const SCREEN_FONT = 'system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", "DejaVu Sans", sans-serif';
 export const PRINT_FONT = '"STIX Two Text", "Times New Roman", Tinos, "Liberation Serif", "DejaVu Serif", serif';
 
 interface Run {
@@ -112,21 +120,12 @@ function trace(points: ArrayLike<number>, to: (x: number, y: number, down: boole
   }
 }
 
-/** Draws on a canvas whose transform is set to CSS pixels, or to points, already. */
+/** Draws on a canvas of the screen whose transform is set to CSS pixels already. */
 export class CanvasPen implements Pen {
-  readonly colour: Colours;
-  private readonly family: string;
-  /** All widths of lines, and their dashes, times this. */
-  private readonly weight: number;
+  readonly printed = false;
+  readonly colour = themeColour;
 
-  constructor(
-    private readonly context: CanvasRenderingContext2D,
-    readonly printed = false,
-  ) {
-    this.colour = printed ? printedColour : themeColour;
-    this.family = printed ? PRINT_FONT : SCREEN_FONT;
-    this.weight = printed ? PRINT_WEIGHT : 1;
-  }
+  constructor(private readonly context: CanvasRenderingContext2D) {}
 
   path(points: ArrayLike<number>, style: PathStyle): void {
     const { context } = this;
@@ -158,7 +157,7 @@ export class CanvasPen implements Pen {
     context.textBaseline = "alphabetic";
     let left = style.anchor === "middle" ? -width / 2 : style.anchor === "end" ? -width : 0;
     for (const run of runsOf(text)) {
-      context.font = fontOf(run, style.size, this.family);
+      context.font = fontOf(run, style.size, SCREEN_FONT);
       const top = baselineOf(style) + (run.subscript ? SUBSCRIPT_DROP * style.size : 0);
       if (style.halo !== undefined) {
         context.lineJoin = "round";
@@ -174,7 +173,7 @@ export class CanvasPen implements Pen {
   }
 
   measure(text: string, size: number): number {
-    return measureRuns(text, size, this.family);
+    return measureRuns(text, size, SCREEN_FONT);
   }
 
   image(source: HTMLCanvasElement, x: number, y: number, width: number, height: number): void {
@@ -182,10 +181,10 @@ export class CanvasPen implements Pen {
     this.context.drawImage(source, x, y, width, height);
   }
 
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+  clipped({ left, top, width, height }: Box, draw: () => void): void {
     this.context.save();
     this.context.beginPath();
-    this.context.rect(x, y, width, height);
+    this.context.rect(left, top, width, height);
     this.context.clip();
     draw();
     this.context.restore();
@@ -199,7 +198,7 @@ export class CanvasPen implements Pen {
   }
 
   private finish({ fill, stroke, width = 1, dash = [], opacity = 1 }: PathStyle): void {
-    const { context, weight } = this;
+    const { context } = this;
     context.globalAlpha = opacity;
     if (fill !== undefined) {
       context.fillStyle = this.colour(fill);
@@ -207,9 +206,9 @@ export class CanvasPen implements Pen {
     }
     if (stroke !== undefined) {
       context.strokeStyle = this.colour(stroke);
-      context.lineWidth = width * weight;
+      context.lineWidth = width;
       context.lineJoin = "round";
-      context.setLineDash(dash.map((length) => length * weight));
+      context.setLineDash([...dash]);
       context.stroke();
     }
     context.globalAlpha = 1;
@@ -272,16 +271,19 @@ export class SvgPen implements Pen {
     this.parts.push(`<image ${box(x, y, width, height)} ${form} href="${source.toDataURL("image/png")}"/>`);
   }
 
-  clipped(x: number, y: number, width: number, height: number, draw: () => void): void {
+  clipped({ left, top, width, height }: Box, draw: () => void): void {
     this.clips += 1;
     const id = `clip-${this.clips}`;
-    this.parts.push(`<clipPath id="${id}"><rect ${box(x, y, width, height)}/></clipPath><g clip-path="url(#${id})">`);
-    draw();
-    this.parts.push("</g>");
+    this.parts.push(`<clipPath id="${id}"><rect ${box(left, top, width, height)}/></clipPath>`);
+    this.group(`clip-path="url(#${id})"`, draw);
   }
 
   moved(right: number, down: number, draw: () => void): void {
-    this.parts.push(`<g transform="translate(${short(right)} ${short(down)})">`);
+    this.group(`transform="translate(${short(right)} ${short(down)})"`, draw);
+  }
+
+  private group(attribute: string, draw: () => void): void {
+    this.parts.push(`<g ${attribute}>`);
     draw();
     this.parts.push("</g>");
   }

@@ -1,11 +1,11 @@
 /** A picture with a window that one can zoom and point into by wheel, pinch, rectangle and keyboard. */
 
-import { button, element, oncePerFrame } from "../elements";
+import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
 import {
-  clamp, clippedTo, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Box, type Plot,
+  clamp, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Plot,
 } from "./axes"; // prettier-ignore
-import { CanvasPen, contextOf, type Pen } from "./pen";
+import { CanvasPen, contextOf, type Box, type Pen } from "./pen";
 
 export interface Window2 {
   readonly x: Range;
@@ -14,36 +14,28 @@ export interface Window2 {
 
 export type Point = readonly [number, number];
 
-interface Place {
-  readonly x: number;
-  readonly y: number;
-}
+type Place = ReturnType<typeof placeOn>;
 
-/** What gestures ask of a picture; they do nothing where they are not heard. */
-interface GestureHost {
-  plot(): Plot | null;
-  window(): Window2;
-  /** Asks for another window; `settled` is false while the gesture goes on. */
-  move?(window: Window2, settled: boolean): void;
-  reset?(): void;
-  /** The pointer or the keyboard's cross is at this value; null: it left. */
-  point(at: Point | null): void;
-  pick(at: Point): void;
-  /** The rectangle that is being drawn. */
-  rectangle?(box: Box | null): void;
-}
-
-interface WindowPictureHost extends Omit<GestureHost, "plot" | "rectangle"> {
+export interface PictureHost {
   readonly className: string;
-  /** What a screen reader says of the picture, with its keys. */
+  /** What a screen reader says of the picture, before its keys. */
   readonly label: string;
   axes(): Axes;
   /** Draws the data into the plot, clipped to it. */
   paint(pen: Pen, plot: Plot): void;
+  /** Draws what moves more often than the data, above them. */
+  paintMarks?(pen: Pen, plot: Plot): void;
+  window(): Window2;
+  /** Asks for another window; `settled` is false while the gesture goes on. Without it there is no zoom. */
+  move?(window: Window2, settled: boolean): void;
+  reset?(): void;
+  /** The pointer or the keyboard's cross is at this value; null: it left. */
+  point?(at: Point | null): void;
+  pick(at: Point): void;
 }
 
-const KEYS =
-  "Plus and minus zoom, arrows move, 0 shows all; Shift with an arrow moves the cross, Enter chooses what is under it.";
+const ZOOM_KEYS = "Plus and minus zoom, arrows move, 0 shows all; ";
+const KEYS = "Shift with an arrow moves the cross, Enter chooses what is under it.";
 
 const LETTERS = 13;
 const SMALL_LETTERS = 12;
@@ -52,27 +44,16 @@ export class WindowPicture {
   readonly layers: Layers;
   readonly tools: HTMLElement;
   /** Where the axes are; null as long as the picture has no size. */
-  private plot: Plot | null = null;
+  plot: Plot | null = null;
   private cross: Point | null = null;
   private box: Box | null = null;
   readonly redraw = oncePerFrame(() => this.paintData());
   private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
 
-  constructor(private readonly host: WindowPictureHost) {
-    this.layers = new Layers(host.className, `${host.label} ${KEYS}`);
-    const gestures = new Gestures(this.layers.surface, {
-      ...host,
-      plot: () => this.plot,
-      point: (at) => {
-        this.cross = at;
-        this.redrawCursor();
-        host.point(at);
-      },
-      rectangle: (box) => {
-        this.box = box;
-        this.redrawCursor();
-      },
-    });
+  constructor(readonly host: PictureHost) {
+    const keys = host.move === undefined ? KEYS : ZOOM_KEYS + KEYS;
+    this.layers = new Layers(host.className, `${host.label} ${keys}`);
+    const gestures = new Gestures(this);
     this.tools = element(
       "div",
       { class: "picture-tools", role: "group", "aria-label": "Zoom" },
@@ -80,6 +61,17 @@ export class WindowPicture {
       button("\u2212", () => gestures.zoom(2), { "aria-label": "Zoom out", title: "Zoom out (-)" }),
       button("All", () => host.reset?.(), { "aria-label": "Show all", title: "Show all (0)" }),
     );
+  }
+
+  point(at: Point | null): void {
+    this.cross = at;
+    this.redrawCursor();
+    this.host.point?.(at);
+  }
+
+  rectangle(box: Box | null): void {
+    this.box = box;
+    this.redrawCursor();
   }
 
   /** Lays the axes out for the present size and window; the number of device pixels of the plot, or null. */
@@ -93,22 +85,23 @@ export class WindowPicture {
     return { plot, columns: Math.round(plot.width * ratio), rows: Math.round(plot.height * ratio) };
   }
 
-  private paintData(): void {
+  paintData(): void {
     const plot = this.layOut()?.plot;
     if (plot === undefined) return;
     const pen = this.layers.data();
-    clippedTo(plot, pen, () => this.host.paint(pen, plot));
+    pen.clipped(plot, () => this.host.paint(pen, plot));
     paintAxes(pen, plot);
     this.paintCursor();
   }
 
-  private paintCursor(): void {
+  paintCursor(): void {
     const pen = this.layers.cursor();
     const { plot, box, cross } = this;
     if (plot === null) return;
+    this.host.paintMarks?.(pen, plot);
     if (cross !== null) {
       const lines = hairsAt(plot, cross);
-      clippedTo(plot, pen, () => {
+      pen.clipped(plot, () => {
         pen.path(lines, { stroke: "--picture-paper", width: 3, opacity: 0.6 });
         // In no colour of data, and fine: a cross is not taken for a line of the picture.
         pen.path(lines, { stroke: "--picture-text", width: 1, dash: [1, 2] });
@@ -133,25 +126,28 @@ const SETTLE = 350;
 const SMALLEST_DRAG = 6;
 
 /** Zooming and pointing: wheel, pinch, rectangle and keyboard, for every picture that has a window. */
-export class Gestures {
+class Gestures {
   private readonly pointers = new Map<number, Place>();
   private begun: (Place & { window: Window2; touch: boolean }) | null = null;
   private pinch: { window: Window2; distance: number; at: Point } | null = null;
   private moved = false;
   private cross: [number, number] | null = null;
-  private settleTimer: ReturnType<typeof setTimeout> | undefined;
+  private readonly settle = debounced(SETTLE, () => this.host.move?.(this.host.window(), true));
 
-  constructor(
-    private readonly surface: HTMLElement,
-    private readonly host: GestureHost,
-  ) {
+  private readonly surface: HTMLElement;
+  private readonly host: PictureHost;
+
+  constructor(private readonly picture: WindowPicture) {
+    const { surface } = picture.layers;
+    this.surface = surface;
+    this.host = picture.host;
     surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     surface.addEventListener("pointerdown", (event) => this.down(event));
     surface.addEventListener("pointermove", (event) => this.follow(event));
     surface.addEventListener("pointerup", (event) => this.up(event));
     surface.addEventListener("pointercancel", (event) => this.abandon(event));
     surface.addEventListener("pointerleave", (event) => {
-      if (event.pointerType === "mouse" && this.begun === null) host.point(null);
+      if (event.pointerType === "mouse" && this.begun === null) picture.point(null);
     });
     surface.addEventListener("keydown", (event) => this.key(event));
     // Two fingers zoom the picture and not the page; one finger still scrolls the page.
@@ -163,22 +159,16 @@ export class Gestures {
     surface.style.touchAction = "pan-y";
   }
 
-  /** Zooms about the middle: for buttons. */
   zoom(factor: number): void {
     const { x, y } = this.host.window();
     this.host.move?.({ x: scaled(x, (x[0] + x[1]) / 2, factor), y: scaled(y, (y[0] + y[1]) / 2, factor) }, true);
   }
 
-  private place(event: MouseEvent): Place {
-    const box = this.surface.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top };
-  }
-
   private wheel(event: WheelEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null) return;
     event.preventDefault();
-    const { x, y } = this.place(event);
+    const { x, y } = placeOn(this.surface, event);
     const lines = event.deltaMode === 1 ? 16 : 1;
     const factor = Math.exp(clamp(event.deltaY * lines, -200, 200) * 0.002);
     const window = this.host.window();
@@ -194,40 +184,41 @@ export class Gestures {
   /** Moves now, and says that it is settled when nothing has come for a while. */
   private move(window: Window2): void {
     this.host.move?.(window, false);
-    clearTimeout(this.settleTimer);
-    this.settleTimer = setTimeout(() => this.host.move?.(this.host.window(), true), SETTLE);
+    this.settle();
   }
 
   private down(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null || event.button > 0) return;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     this.pointers.set(event.pointerId, at);
     this.surface.setPointerCapture(event.pointerId);
     if (this.pointers.size === 2) {
       const [one, two] = [...this.pointers.values()] as [Place, Place];
+      const at: Point = [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)];
       this.begun = null;
-      this.host.rectangle?.(null);
-      this.pinch = {
-        window: this.host.window(),
-        distance: Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10),
-        at: [valueX(plot, (one.x + two.x) / 2), valueY(plot, (one.y + two.y) / 2)],
-      };
+      this.picture.rectangle(null);
+      this.pinch = { window: this.host.window(), distance: this.distance(), at };
     } else if (this.pointers.size === 1 && inside(plot, at.x, at.y)) {
       this.begun = { ...at, window: this.host.window(), touch: event.pointerType === "touch" };
       this.moved = false;
     }
   }
 
+  /** Between the first two fingers. */
+  private distance(): number {
+    const [one, two] = [...this.pointers.values()] as [Place, Place];
+    return Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
+  }
+
   private follow(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     if (plot === null) return;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     if (this.pointers.has(event.pointerId)) this.pointers.set(event.pointerId, at);
     if (this.pinch !== null && this.pointers.size >= 2) {
-      const [one, two] = [...this.pointers.values()] as [Place, Place];
-      const factor = this.pinch.distance / Math.max(Math.hypot(one.x - two.x, one.y - two.y), 10);
-      const { window, at: centre } = this.pinch;
+      const { window, at: centre, distance } = this.pinch;
+      const factor = distance / this.distance();
       this.moved = true;
       this.move({ x: scaled(window.x, centre[0], factor), y: scaled(window.y, centre[1], factor) });
     } else if (this.begun !== null) {
@@ -238,29 +229,29 @@ export class Gestures {
         const shift = ((begun.x - at.x) / plot.width) * (begun.window.x[1] - begun.window.x[0]);
         this.move({ x: [begun.window.x[0] + shift, begun.window.x[1] + shift], y: begun.window.y });
       } else {
-        this.host.rectangle?.(boxOf(plot, begun, at));
+        this.picture.rectangle(boxOf(plot, begun, at));
       }
     } else {
-      this.host.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
+      this.picture.point(inside(plot, at.x, at.y) ? [valueX(plot, at.x), valueY(plot, at.y)] : null);
     }
   }
 
   private up(event: PointerEvent): void {
-    const plot = this.host.plot();
+    const { plot } = this.picture;
     const { begun } = this;
-    const at = this.place(event);
+    const at = placeOn(this.surface, event);
     this.release(event);
     if (plot === null || begun === null) return;
     if (!this.moved) {
       const value: [number, number] = [valueX(plot, at.x), valueY(plot, at.y)];
-      this.host.point(value);
+      this.picture.point(value);
       this.host.pick(value);
     } else if (!begun.touch) {
       const box = boxOf(plot, begun, at);
       // A flat rectangle chooses a range of one axis.
       const wide = box.width >= SMALLEST_DRAG;
       const high = box.height >= SMALLEST_DRAG;
-      this.host.rectangle?.(null);
+      this.picture.rectangle(null);
       this.host.move?.(
         {
           x: wide ? [valueX(plot, box.left), valueX(plot, box.left + box.width)] : begun.window.x,
@@ -273,7 +264,7 @@ export class Gestures {
 
   private abandon(event: PointerEvent): void {
     this.release(event);
-    this.host.rectangle?.(null);
+    this.picture.rectangle(null);
   }
 
   private release(event: PointerEvent): void {
@@ -296,8 +287,8 @@ export class Gestures {
     else if (event.key === "Enter" && this.cross !== null) this.host.pick(this.cross);
     else if (event.key === "Escape") {
       this.begun = null;
-      this.host.rectangle?.(null);
-      this.host.point(null);
+      this.picture.rectangle(null);
+      this.picture.point(null);
     } else return;
     event.preventDefault();
   }
@@ -309,7 +300,7 @@ export class Gestures {
       clamp(from[0] + (right * (x[1] - x[0])) / 50, x[0], x[1]),
       clamp(from[1] + (up * (y[1] - y[0])) / 50, y[0], y[1]),
     ];
-    this.host.point(this.cross);
+    this.picture.point(this.cross);
   }
 }
 

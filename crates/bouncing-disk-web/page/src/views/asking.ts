@@ -11,6 +11,8 @@ export const mapOf = ({ system }: State) => ({
   restitution: system.restitution,
 });
 
+export type MapParameters = ReturnType<typeof mapOf>;
+
 /** The impact with which the orbits of a state begin. */
 export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): ImpactStart => ({
   impact_phase,
@@ -20,7 +22,7 @@ export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): 
 export async function verdictOf(
   context: Context,
   slot: string,
-  map: ReturnType<typeof mapOf>,
+  map: MapParameters,
   start: ImpactStart,
 ): Promise<VerdictJson> {
   return (await context.client.ask<VerdictJson>(slot, { call: "orbit", ...map, start })).json;
@@ -34,10 +36,32 @@ export function tellFailure(context: Context, error: unknown): void {
 /** A disk at rest on the platform at its lowest point: the cycle after a rest does not depend on what was before. */
 const REST = { impact_phase: 1.5 * Math.PI, normalised_speed: 0 };
 
+/** An answer that is asked for once, and again only where something else is wanted or it did not come. */
+export class Asked<Value> {
+  private key = "";
+  private coming: Promise<Value> | null = null;
+
+  forget(): void {
+    this.coming = null;
+  }
+
+  get(wanted: unknown, ask: () => Promise<Value>): Promise<Value> {
+    const key = JSON.stringify(wanted);
+    if (this.coming !== null && key === this.key) return this.coming;
+    this.key = key;
+    const coming = ask();
+    this.coming = coming;
+    coming.catch(() => {
+      if (this.coming === coming) this.coming = null;
+    });
+    return coming;
+  }
+}
+
 /** Says so where rounding, and not the model, decides what a disk does after a rest. */
 export class RoundingCaution {
   readonly root: HTMLElement;
-  private asked = "";
+  private readonly verdict = new Asked<void>();
 
   constructor(
     private readonly slot: string,
@@ -46,18 +70,13 @@ export class RoundingCaution {
     this.root = element("p", { class: "caution", hidden: true }, `Rounding-dependent: ${text}`);
   }
 
-  /** Asks once for each map. A map of which no verdict comes has no caution, and its own view says why. */
-  async show(context: Context, state: State): Promise<void> {
+  /** A map of which no verdict comes has no caution, and its own view says why. */
+  show(context: Context, state: State): void {
     const map = mapOf(state);
-    const key = JSON.stringify(map);
-    if (key === this.asked) return;
-    this.asked = key;
-    this.root.hidden = true;
-    try {
-      const verdict = await verdictOf(context, this.slot, map, REST);
-      if (this.asked === key) this.root.hidden = !verdict.rounding_dependent;
-    } catch (error) {
-      if (error instanceof Cancelled && this.asked === key) this.asked = "";
-    }
+    const ask = async () => {
+      this.root.hidden = true;
+      this.root.hidden = !(await verdictOf(context, this.slot, map, REST)).rounding_dependent;
+    };
+    this.verdict.get(map, ask).catch(() => {});
   }
 }

@@ -1,15 +1,15 @@
 /** Basins of attraction: where the orbit of every start ends. */
 
 import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
-import { clippedTo, crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
+import { crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { themeColour } from "../drawing/colours";
 import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
-import { debounced, element, setText } from "../elements";
+import { debounced, div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
-import { mapOf, RoundingCaution, tellFailure } from "./asking";
+import { mapOf, RoundingCaution, tellFailure, type MapParameters } from "./asking";
 import { Cells, computeCells, gridsOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
 
@@ -33,7 +33,8 @@ class BasinsView implements View {
   private layers: Cells[] = [];
   private previous: Cells | null = null;
   private asked = "";
-  private mapAsked = "";
+  /** The map of the attractors that are known. */
+  private mapFound = "";
   private complete = false;
   /** The attractors of another map are being looked for: what is seen is of the one before. */
   private stale = false;
@@ -56,18 +57,13 @@ class BasinsView implements View {
     });
     const hint = "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
-      element("div", { class: "bar" }, element("span", { class: "remark" }, hint), this.picture.tools),
-      element(
-        "div",
-        { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.alternative),
-        this.legend.root,
-      ),
+      div("bar", element("span", { class: "remark" }, hint), this.picture.tools),
+      div("beside", div("main-part", this.picture.layers.root, this.alternative), this.legend.root),
     );
   }
 
   show(state: State): void {
-    void this.rounding.show(this.context, state);
+    this.rounding.show(this.context, state);
     this.picture.redraw();
     this.compute();
   }
@@ -75,9 +71,6 @@ class BasinsView implements View {
   hide(): void {
     this.compute.stop();
     this.context.client.cancel("basins");
-    this.context.client.cancel("basins-attractors");
-    if (!this.complete) this.asked = "";
-    if (this.found === null || this.stale) this.mapAsked = "";
   }
 
   redraw(): void {
@@ -112,7 +105,7 @@ class BasinsView implements View {
           const laid = layOut(pen, width, height - legend.height - TITLE_HEIGHT, this.axes(), PRINT_SIZE);
           const plot = { ...laid, top: laid.top + TITLE_HEIGHT };
           cells.repaint(pen.colour);
-          clippedTo(plot, pen, () => {
+          pen.clipped(plot, () => {
             paintStretched(pen, plot, cells.canvas, cells.window);
             this.paintAttractors(pen, plot);
           });
@@ -157,24 +150,7 @@ class BasinsView implements View {
     setText(this.alternative, `The basins at ${at} are being computed.`);
     const began = performance.now();
     try {
-      const map = JSON.stringify(wanted);
-      if (map !== this.mapAsked || this.found === null || this.stale) {
-        this.mapAsked = map;
-        this.stale = true;
-        this.legend.dim(true);
-        this.picture.redraw();
-        const request = { call: "attractors", ...wanted } as const;
-        const { json } = await this.context.client.series<AttractorsJson>("basins-attractors", [request]);
-        if (this.mapAsked !== map) return;
-        // No cell of another map stands under this legend.
-        this.clear();
-        this.found = json;
-        this.legend.show(json, null);
-        this.picture.redraw();
-      }
-      if (this.asked !== key) return;
-      await this.fill(this.found, wanted, grids, laid.columns, key);
-      if (this.asked !== key) return;
+      await this.fill(await this.attractorsOf(wanted), wanted, grids, laid.columns);
       this.complete = true;
       this.previous = null;
       const seconds = ((performance.now() - began) / 1000).toFixed(2);
@@ -186,12 +162,28 @@ class BasinsView implements View {
       // Nor does a picture of another map stand where there is none of this one.
       if (!(error instanceof Cancelled)) {
         this.clear();
-        this.mapAsked = "";
         setText(this.alternative, `There are no basins at ${at}.`);
         this.picture.redraw();
       }
       tellFailure(this.context, error);
     }
+  }
+
+  private async attractorsOf(map: MapParameters): Promise<AttractorsJson> {
+    const name = JSON.stringify(map);
+    this.stale = this.found === null || name !== this.mapFound;
+    this.legend.dim(this.stale);
+    this.picture.redraw();
+    if (this.found !== null && !this.stale) return this.found;
+    const request = { call: "attractors", ...map } as const;
+    const { json } = await this.context.client.series<AttractorsJson>("basins", [request]);
+    // No cell of another map stands under this legend.
+    this.clear();
+    this.found = json;
+    this.mapFound = name;
+    this.legend.show(json, null);
+    this.picture.redraw();
+    return json;
   }
 
   private clear(): void {
@@ -202,18 +194,11 @@ class BasinsView implements View {
     this.legend.clear();
   }
 
-  private async fill(
-    found: AttractorsJson,
-    map: ReturnType<typeof mapOf>,
-    grids: [Grid, Grid],
-    columns: number,
-    key: string,
-  ): Promise<void> {
+  private async fill(found: AttractorsJson, map: MapParameters, grids: [Grid, Grid], columns: number): Promise<void> {
     const known = labelsOf(found);
     const scale = ({ phases }: Grid) => Math.max(1, Math.min(4, Math.round(columns / phases)));
     const layers = grids.map((grid) => new Cells(grid, scale(grid), known));
     await computeCells(this.context, map, grids, (labels, index, from) => {
-      if (this.asked !== key) return;
       if (this.layers !== layers) {
         this.previous = this.layers[1] ?? null;
         this.layers = layers;
@@ -222,7 +207,7 @@ class BasinsView implements View {
       if (index === 1) this.context.status(`Computing basins: ${percent(from / grids[1].speeds, 0)}`, "busy");
       this.picture.redraw();
     });
-    if (this.asked === key && this.found !== null) this.legend.show(this.found, layers[1]?.shares() ?? null);
+    this.legend.show(found, layers[1]?.shares() ?? null);
   }
 
   private paint(pen: Pen, plot: Plot): void {

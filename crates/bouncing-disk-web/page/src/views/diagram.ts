@@ -5,15 +5,15 @@ import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { debounced, element, setText } from "../elements";
+import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
-import { DIAGRAM_COLUMNS, type Range } from "../protocol";
+import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
-import { impactOf, tellFailure } from "./asking";
-import { BranchLines } from "./diagram/branches";
-import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Told, type Wanted } from "./diagram/columns";
+import { Asked, impactOf, tellFailure } from "./asking";
+import { areDrawn, BRANCHES, branchesOf, describeBifurcations, paintBranches, type Branches } from "./diagram/branches";
+import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
-import { Description, Verdict } from "./diagram/words";
+import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
 
 /** More columns than this no eye tells apart, and a telephone has to compute them. */
 const MOST_COLUMNS = 2048;
@@ -22,18 +22,21 @@ const FORCING_BOUNDS: Range = [1e-3, 1e3];
 class DiagramView implements View {
   private readonly picture: WindowPicture;
   private readonly verdict: Verdict;
-  private readonly branches: BranchLines;
-  private readonly spoken: Description;
   private readonly quantity: HTMLSelectElement;
   private readonly branchesBox: HTMLInputElement;
   private readonly alternative = element("p", { class: "alternative" });
   private readonly note = element("p", { class: "remark", hidden: true });
   private readonly dots = new Dots();
-  private asked = "";
-  private done = "";
+  private readonly columns = new Asked<void>();
+  private readonly branches = new Asked<void>();
+  private readonly verdicts = new Asked<VerdictJson[]>();
+  /** The branches that came last, with the coefficient of restitution of their map. */
+  private lines: (Branches & { readonly restitution: number }) | null = null;
+  /** How often there has been something to ask for: only the last time counts. */
+  private turn = 0;
   /** What was computed, when all is there. */
   private sentence = "";
-  private orbits: Told = { resting: 0, unsettled: 0, left_out: TRANSIENT };
+  private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   private told = false;
   private readonly compute = debounced(60, () => void this.fetch());
 
@@ -42,8 +45,6 @@ class DiagramView implements View {
     private readonly context: Context,
   ) {
     this.verdict = new Verdict(context);
-    this.branches = new BranchLines(context);
-    this.spoken = new Description(context);
     this.picture = new WindowPicture({
       className: "picture-wide",
       label: "Orbit diagram.",
@@ -67,21 +68,14 @@ class DiagramView implements View {
       '<span class="line full"></span> stable, <span class="line dashed"></span> unstable branch; ' +
       "○ doubling, □ fold, × graze or vanishing impact. Darker dots (lighter on a dark page): more impacts. " +
       "A click gives the shared system that forcing.";
+    const choices = [
+      ["Quantity ", this.quantity],
+      [this.branchesBox, " Branches"],
+    ] as const;
+    const picture = div("main-part", this.picture.layers.root, this.note);
     host.append(
-      element(
-        "div",
-        { class: "bar" },
-        element("label", {}, "Quantity ", this.quantity),
-        element("label", {}, this.branchesBox, " Branches"),
-        this.picture.tools,
-      ),
-      element(
-        "div",
-        { class: "beside" },
-        element("div", { class: "main-part" }, this.picture.layers.root, this.note),
-        this.verdict.root,
-        element("div", {}, legend, this.alternative),
-      ),
+      div("bar", ...choices.map((parts) => element("label", {}, ...parts)), this.picture.tools),
+      div("beside", picture, this.verdict.root, element("div", {}, legend, this.alternative)),
     );
   }
 
@@ -101,10 +95,8 @@ class DiagramView implements View {
     this.compute.stop();
     this.verdict.stop();
     this.context.client.cancel("diagram");
-    this.branches.cancel();
-    this.spoken.cancel();
-    // What did not come is asked for when the view is shown again.
-    if (this.asked !== this.done) this.asked = "";
+    this.context.client.cancel(BRANCHES);
+    cancelVerdicts(this.context);
     // The place for it is another view's now.
     this.told = false;
   }
@@ -165,10 +157,11 @@ class DiagramView implements View {
     this.context.change({ diagram: { axial_forcing, range: same ? diagram.range : range } }, { settled });
   }
 
-  /** Asks for the columns and branches of the present window, unless they are there or on their way. */
+  /** Asks for the columns, branches and verdicts of the present window, unless they are there or on their way. */
   private async fetch(): Promise<void> {
     const laid = this.picture.layOut();
     if (laid === null) return;
+    const turn = (this.turn += 1);
     const state = this.context.state();
     const { system, diagram } = state;
     const wanted = {
@@ -178,58 +171,62 @@ class DiagramView implements View {
       count: clamp(laid.columns, 2, MOST_COLUMNS),
       rotation: diagram.quantity === "angular_speed",
     };
-    const key = keyOf(wanted);
-    if (key !== this.asked) await this.fetchDots(key, wanted, laid.rows);
-    else if (this.dots.arrange(diagram, laid.rows)) this.picture.redraw();
-    // Whoever asked for the columns goes on when they are there.
-    if (key !== this.done || key !== this.asked) return;
-    // The verdicts come from the other worker, at the same time.
-    const verdicts = this.spoken.fetch(this.context.state());
-    // That they did not come is told where they are waited for.
-    verdicts.catch(() => {});
-    const lines = await this.branches.fetch(this.context.state());
-    if (lines === "missing") return;
-    if (lines === "came") this.picture.redraw();
     try {
-      await verdicts;
+      const name = keyOf(wanted);
+      const columns = this.columns.get(name, () => this.fetchDots(name, wanted, laid.rows));
+      if (this.dots.arrange(diagram, laid.rows)) this.picture.redraw();
+      await columns;
+      if (turn !== this.turn) return;
+      const { restitution } = system;
+      const window = diagram.axial_forcing;
+      // The verdicts come from the other worker, at the same time.
+      const [verdicts] = await Promise.all([
+        this.verdicts.get([window, restitution, wanted.start], () => verdictsOf(this.context, state)),
+        areDrawn(state) && this.branches.get([window, restitution], () => this.fetchBranches(state)),
+      ]);
+      if (turn !== this.turn) return;
+      const seen = describeDiagram(state, verdicts, this.dots.count, this.orbits);
+      const lines = this.linesOf(state);
+      setText(this.alternative, lines === null ? seen : `${seen} ${describeBifurcations(lines, window)}`);
+      if (!this.told) this.context.status(this.sentence);
+      this.told = true;
     } catch (error) {
-      tellFailure(this.context, error);
-      return;
+      if (turn === this.turn) tellFailure(this.context, error);
     }
-    if (key !== this.done || key !== this.asked) return;
-    const seen = this.spoken.words(this.context.state(), this.dots.count, this.orbits);
-    setText(this.alternative, seen + this.branches.describe(this.context.state()));
-    if (lines === "came" || !this.told) this.context.status(this.sentence);
-    this.told = true;
   }
 
-  private async fetchDots(key: string, wanted: Wanted, rows: number): Promise<void> {
-    this.asked = key;
-    this.done = "";
+  private async fetchDots(name: string, wanted: Wanted, rows: number): Promise<void> {
     this.told = false;
-    this.branches.cancel();
-    this.dots.begin(key, wanted.count);
+    // Those of the last window do not keep the columns waiting.
+    this.context.client.cancel(BRANCHES);
+    this.dots.begin(name, wanted.count);
     const began = performance.now();
     this.context.status("Computing the orbit diagram", "busy");
-    try {
-      this.orbits = await computeColumns(this.context, wanted, (columns) => {
-        this.dots.take(columns, this.diagram, rows);
-        this.picture.redraw();
-      });
-      if (this.asked !== key) return;
-      this.done = key;
-      this.dots.end(this.diagram, rows);
+    this.orbits = await computeColumns(this.context, wanted, (columns) => {
+      this.dots.take(columns, this.diagram, rows);
       this.picture.redraw();
-      const seconds = ((performance.now() - began) / 1000).toFixed(2);
-      const { resting, left_out } = this.orbits;
-      const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-      const longer = left_out > TRANSIENT ? `\u2013${left_out}` : "";
-      const impacts = `${RECORDED} impacts of each after ${TRANSIENT}${longer}`;
-      this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
-    } catch (error) {
-      if (this.asked === key) this.asked = "";
-      tellFailure(this.context, error);
-    }
+    });
+    this.dots.end(this.diagram, rows);
+    this.picture.redraw();
+    const seconds = ((performance.now() - began) / 1000).toFixed(2);
+    const { resting, left_out } = this.orbits;
+    const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
+    const longer = left_out > TRANSIENT ? `\u2013${left_out}` : "";
+    const impacts = `${RECORDED} impacts of each after ${TRANSIENT}${longer}`;
+    this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
+  }
+
+  private async fetchBranches(state: State): Promise<void> {
+    this.told = false;
+    this.context.status("Continuing the branches", "busy");
+    const branches = await branchesOf(this.context, state);
+    this.lines = { ...branches, restitution: state.system.restitution };
+    this.picture.redraw();
+  }
+
+  /** Those of another window are the same lines; those of another coefficient of restitution are others. */
+  private linesOf(state: State): Branches | null {
+    return areDrawn(state) && this.lines?.restitution === state.system.restitution ? this.lines : null;
   }
 
   private paint(pen: Pen, plot: Plot): void {
@@ -241,7 +238,8 @@ class DiagramView implements View {
     const state = this.context.state();
     const x = pixelX(plot, axialForcing(state.system));
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-muted", width: 1, dash: [2, 3] });
-    this.branches.paint(pen, plot, state);
+    const lines = this.linesOf(state);
+    if (lines !== null) paintBranches(pen, plot, lines, state.diagram.quantity);
   }
 
   /** Gives the shared system the amplitude of this forcing, if the library takes it. */

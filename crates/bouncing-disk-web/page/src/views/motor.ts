@@ -3,12 +3,12 @@
 import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
-import { debounced, element, oncePerFrame, setText } from "../elements";
+import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
 import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../protocol";
-import { tellFailure } from "./asking";
+import { Asked, tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
-  MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, type Operation, type Transient,
+  MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
 } from "./motor/sheet"; // prettier-ignore
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
@@ -17,13 +17,11 @@ const REMARK =
   "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
   "A cross is a load that drives the rotor.";
 
-const SLOTS = ["motor-report", "motor-transient", "motor-loads", "motor-stall"] as const;
 const CURVES = ["The speed against the load", "The power", "The efficiency"] as const;
 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
 const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
 
-/** What is known of one motor. */
 class Known {
   sheet: MotorSheet | null = null;
   text = "";
@@ -46,10 +44,9 @@ class MotorView implements View {
   private readonly remark = element("p", { class: "remark" }, REMARK);
   private known = new Known();
   private imported: SheetJson | null = null;
-  /** The state that is shown, and the one that is computed or was: "" if none is. */
+  /** What the motor that is shown depends on. */
   private shown = "";
-  private asked = "";
-  private complete = false;
+  private readonly all = new Asked<void>();
   private readonly compute = debounced(150, () => void this.fetch());
   private readonly draw = oncePerFrame(() => this.paint());
 
@@ -62,16 +59,12 @@ class MotorView implements View {
       context.change({ system: imported.system, mass: imported.mass });
     });
     const [runUp, speed, power, efficiency] = [this.runUpChart, ...this.curveCharts].map(({ root }) => root);
-    host.append(
-      element(
-        "div",
-        { class: "motor" },
-        this.reportPanel.trap,
-        element("section", { "aria-label": "Run-up and speed" }, runUp ?? null, speed ?? null),
-        element("section", { "aria-label": "Power and efficiency" }, power ?? null, efficiency ?? null, this.remark),
-        element("div", { class: "motor-words" }, this.reportPanel.root, this.sheetPanel.root),
-      ),
-    );
+    const charts = [
+      section("Run-up and speed", null, runUp ?? null, speed ?? null),
+      section("Power and efficiency", null, power ?? null, efficiency ?? null, this.remark),
+    ];
+    const words = div("motor-words", this.reportPanel.root, this.sheetPanel.root);
+    host.append(div("motor", this.reportPanel.trap, ...charts, words));
   }
 
   show(state: State): void {
@@ -87,8 +80,7 @@ class MotorView implements View {
 
   hide(): void {
     this.compute.stop();
-    for (const slot of SLOTS) this.context.client.cancel(slot);
-    if (!this.complete) this.asked = "";
+    this.context.client.cancel(SLOT);
   }
 
   redraw(): void {
@@ -108,9 +100,8 @@ class MotorView implements View {
   } // prettier-ignore
 
   private forget(): void {
-    for (const slot of SLOTS) this.context.client.cancel(slot);
-    this.asked = "";
-    this.complete = false;
+    this.context.client.cancel(SLOT);
+    this.all.forget();
     this.known = new Known();
     this.sheetPanel.show("");
     this.reportPanel.clear();
@@ -118,38 +109,28 @@ class MotorView implements View {
 
   private async fetch(): Promise<void> {
     const state = this.context.state();
-    const key = keyOf(state);
-    if (key === this.asked) return;
-    this.forget();
-    this.draw();
-    this.asked = key;
     try {
-      await this.computeAll(state, this.known);
+      await this.all.get(keyOf(state), () => this.computeAll(state, (this.known = new Known())));
     } catch (error) {
-      if (this.asked === key && error instanceof Cancelled) this.asked = "";
       tellFailure(this.context, error);
     }
   }
 
-  /** Fills in what is known of a motor, as long as it is the one that is shown. */
+  /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
   private async computeAll(state: State, known: Known): Promise<void> {
     const { context, reportPanel } = this;
-    const gone = () => this.known !== known || this.asked === "";
     context.status("Reading the data sheet", "busy");
     const sheet = this.sheetKnown(state) ?? (await sheetOf(context, state));
-    const { json } = await context.client.ask<{ text: string }>("motor-write", { call: "sheet_write", sheet });
-    if (gone()) return;
+    const { json } = await context.client.ask<{ text: string }>(SLOT, { call: "sheet_write", sheet });
     known.sheet = sheet;
     known.text = json.text;
     this.sheetPanel.show(known.text);
     const report = await reportOf(context, sheet);
-    if (gone()) return;
     known.report = report;
     reportPanel.report(report);
     this.draw();
     const still = whyNothingTurns(report);
     if (still !== null) {
-      this.complete = true;
       reportPanel.still();
       context.status(still);
       return;
@@ -161,24 +142,18 @@ class MotorView implements View {
       if (error instanceof Cancelled) throw error;
       known.problems.runUp = messageOf(error);
     }
-    if (gone()) return;
     reportPanel.runUp(known.transient, known.own, known.problems.runUp);
     this.draw();
     try {
-      for (const pass of PASSES) {
-        await this.sweep(sheet, report, state, pass, known);
-        if (gone()) return;
-      }
+      for (const pass of PASSES) await this.sweep(sheet, report, state, pass, known);
       // It takes longest where nothing bounces, and is the last to be missed.
       await this.findStall(sheet, known);
     } catch (error) {
-      if (error instanceof Cancelled || gone()) throw error;
+      if (error instanceof Cancelled) throw error;
       known.problems.curve = messageOf(error);
       this.draw();
       throw error;
     }
-    if (gone()) return;
-    this.complete = true;
     if (known.problems.runUp !== undefined) context.status(known.problems.runUp, "error");
     else context.status(summaryOf(known.operations));
   }
@@ -198,7 +173,6 @@ class MotorView implements View {
     const error = `${100 * pass.relative_error} %`;
     this.context.status(`Computing the operation under ${asked.length} loads with an error of ${error}`, "busy");
     const found = await operate(this.context, sheet, asked, pass);
-    if (this.known !== known) return;
     known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
     known.own = found[asked.indexOf(load_torque)] ?? null;
@@ -217,7 +191,6 @@ class MotorView implements View {
       if (error instanceof Cancelled) throw error;
       problem = messageOf(error);
     }
-    if (this.known !== known) return;
     this.reportPanel.stall(known.stall, problem);
     this.draw();
   }

@@ -1,10 +1,10 @@
 /** Toss and bounce: the motion itself, from the engine's own trajectory. */
 
 import type { Context, Offer, State, View, ViewKind } from "../contract";
-import { ScreenChart, layOutChart, paintChart } from "../drawing/chart";
-import { ONE_COLUMN, pictureOffers, plotOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
+import { chartOffers, ScreenChart } from "../drawing/chart";
+import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
-import { button, element, oncePerFrame, prefersLessMotion, setText } from "../elements";
+import { button, div, element, oncePerFrame, section, setText } from "../elements";
 import { plain } from "../numbers";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { RoundingCaution, tellFailure } from "./asking";
@@ -91,31 +91,17 @@ class TossView implements View {
     const key =
       "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there.";
     const portrait = [
-      element("h3", {}, "Impacts"), this.portrait.layers.root, element("p", { class: "remark" }, key),
-    ]; // prettier-ignore
-    host.append(
-      this.controls.root,
-      element(
-        "div",
-        { class: "toss" },
-        element(
-          "div",
-          { class: "toss-left" },
-          element("div", {}, ...scene),
-          element("section", { "aria-label": "Time traces" }, ...charts),
-        ),
-        element(
-          "div",
-          { class: "toss-right" },
-          element("section", { class: "panel", "aria-label": "Readings" }, ...readings),
-          element("section", { "aria-label": "Phase portrait" }, ...portrait),
-        ),
-      ),
-    );
+      element("h3", {}, "Impacts"),
+      this.portrait.picture.layers.root,
+      element("p", { class: "remark" }, key),
+    ];
+    const left = div("toss-left", element("div", {}, ...scene), section("Time traces", null, ...charts));
+    const right = [section("Readings", "panel", ...readings), section("Phase portrait", null, ...portrait)];
+    host.append(this.controls.root, div("toss", left, div("toss-right", ...right)));
   }
 
   show(state: State): void {
-    void this.rounding.show(this.context, state);
+    this.rounding.show(this.context, state);
     this.tellThrow(state.thrown);
     // The same motion goes on where it was left, unless somebody had stopped it; another one begins anew.
     if (this.resumes && this.asked.startsWith(this.motion())) this.player.play();
@@ -140,7 +126,7 @@ class TossView implements View {
   offers(): Offer[] {
     const { recording } = this;
     if (recording === null) return [];
-    const { now } = this.player;
+    const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
     const parameters = { system: this.context.state().system, start: this.start(), periods: recording.periods };
     return [
       ...tableOffers({ name: "motion", parameters, columns: COLUMNS, rows: () => recording.table() }),
@@ -150,24 +136,7 @@ class TossView implements View {
         columns: ["time_s", "impact_phase_rad", "normalised_speed"],
         rows: () => recording.impacts.map(({ time, phase, normalised_speed }) => [time, phase, normalised_speed]),
       }),
-      ...pictureOffers({
-        name: "time traces",
-        title: "Heights and angular speeds of disk and platform",
-        width: ONE_COLUMN,
-        height: ONE_COLUMN * 1.2,
-        paint(pen, width, height) {
-          const charts = traces(recording, Math.max(now, Math.min(recording.periods, 8)));
-          // One axis of time: both have the place that the longer numbers need.
-          const plots = charts.map((chart) => layOutChart(pen, chart, width, height / 2, PRINT_SIZE));
-          const numbers = plots.flatMap(({ yTicks }) => yTicks.major.map(({ label }) => label));
-          const long = (label: string) => pen.measure(label, PRINT_SIZE);
-          const widest = numbers.reduce((one, other) => (long(other) > long(one) ? other : one), "");
-          charts.forEach((chart, index) => {
-            const aligned = { ...chart, y: { ...chart.y, widest } };
-            pen.moved(0, (index * height) / 2, () => paintChart(pen, aligned, width, height / 2, PRINT_SIZE));
-          });
-        },
-      }),
+      ...chartOffers("time traces", "Heights and angular speeds of disk and platform", charts, ONE_COLUMN * 0.6),
       ...plotOffers({
         name: "path of the platform",
         title: "Path of a point of the platform: height over angle",
@@ -220,7 +189,7 @@ class TossView implements View {
     try {
       const request = { system, start: this.start(), periods, samples_per_period: SAMPLES_PER_PERIOD };
       const response = await this.context.client.ask<MotionJson>("toss-motion", { call: "motion", ...request });
-      if (this.asked === key) this.take(new Recording(response, periods, system), same);
+      this.take(new Recording(response, periods, system), same);
     } catch (error) {
       if (this.asked === key) this.asked = "";
       tellFailure(this.context, error);
@@ -237,7 +206,7 @@ class TossView implements View {
       const { thrown } = this.context.state();
       this.context.status(thrown === null ? "The motion begins with the shared impact." : describeThrow(thrown));
       // A motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
-      if (!prefersLessMotion()) this.player.play();
+      if (!window.matchMedia("(prefers-reduced-motion: reduce)").matches) this.player.play();
       else if (!this.player.playing) this.player.now = Math.min(7, recording.periods);
     }
     this.readings.balance(recording);
@@ -313,9 +282,7 @@ class TossView implements View {
     this.thrown.hidden = thrown === null;
     if (thrown === null || thrown === this.throwTold) return;
     this.throwTold = thrown;
-    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }), {
-      class: "quiet",
-    });
+    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }));
     this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 

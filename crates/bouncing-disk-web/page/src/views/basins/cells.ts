@@ -6,6 +6,7 @@ import { contextOf } from "../../drawing/pen";
 import type { Window2 } from "../../drawing/window";
 import { element } from "../../elements";
 import type { Range } from "../../protocol";
+import type { MapParameters } from "../asking";
 
 /** The label of a cell of which no row has come. */
 const UNKNOWN = 255;
@@ -140,7 +141,7 @@ export function gridsOf(
 /** Gives the labels of rows of the grids, one grid after the other, to `take`. */
 export async function computeCells(
   context: Context,
-  map: { readonly axial_forcing: number; readonly restitution: number },
+  map: MapParameters,
   grids: readonly Grid[],
   take: (labels: Uint8Array, grid: number, from: number) => void,
 ): Promise<void> {

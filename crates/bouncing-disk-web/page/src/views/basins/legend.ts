@@ -2,7 +2,7 @@
 
 import { ONE_COLUMN, PRINT_SIZE } from "../../drawing/files";
 import { measureRuns, PRINT_FONT, type Pen } from "../../drawing/pen";
-import { element, setText } from "../../elements";
+import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
 import { categoryColour } from "./cells";
@@ -20,7 +20,7 @@ export class Legend {
   /** `caution` stands below the list. */
   constructor(caution: HTMLElement) {
     const parts = [element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note];
-    this.root = element("section", { class: "panel", "aria-label": "Attractors" }, ...parts);
+    this.root = section("Attractors", "panel", ...parts);
   }
 
   /** Nothing, where no attractors are known. */
@@ -43,23 +43,26 @@ export class Legend {
     this.note.textContent = describeSample(found);
     const items = found.attractors.map((attractor, index) => {
       const style = `background:var(${categoryColour(index)})`;
-      const words = sharesOf(windowShare(attractor, shares), sampleShare(attractor));
-      return item(element("span", { class: "swatch", style, "aria-hidden": "true" }), describe(attractor, found), words);
+      const [low, high] = attractor.interval;
+      const sample = `${percent(attractor.share)} (95 %: ${percent(low)} to ${percent(high)})`;
+      return item({ class: "swatch", style }, describe(attractor, found), windowShare(attractor, shares), sample);
     });
     const undecided = "Undecided: not on any of these after the allowed number of impacts.";
-    const swatch = element("span", { class: "swatch undecided", "aria-hidden": "true" });
-    items.push(item(swatch, undecided, sharesOf(undecidedShare(found, shares), percent(found.undecided))));
+    const share = undecidedShare(found, shares);
+    items.push(item({ class: "swatch undecided" }, undecided, share, percent(found.undecided)));
     this.list.replaceChildren(...items);
-  } // prettier-ignore
+  }
 
-  /** What is under the pointer. */
   point(text: string): void {
     setText(this.pointed, text);
   }
 }
 
-function item(swatch: HTMLElement, words: string, shares: (HTMLElement | string)[]): HTMLElement {
-  return element("li", {}, swatch, element("span", {}, words, " ", ...shares));
+/** First the share of what is seen, if it is known, then that of the sample of the library. */
+function item(swatch: Record<string, string>, words: string, share: number | null, sample: string): HTMLElement {
+  const own = share === null ? [] : [element("b", {}, percent(share)), " of this window; "];
+  const text = element("span", {}, words, " ", ...own, `${sample} of the sample.`);
+  return element("li", {}, element("span", { ...swatch, "aria-hidden": "true" }), text);
 }
 
 /** The labels of cells that are decided. */
@@ -84,16 +87,6 @@ export function undecidedShare(found: AttractorsJson, shares: Shares | null): nu
   if (shares === null) return null;
   const known = labelsOf(found);
   return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);
-}
-
-function sampleShare({ share, interval: [low, high] }: AttractorJson): string {
-  return `${percent(share)} (95 %: ${percent(low)} to ${percent(high)})`;
-}
-
-/** First the share of what is seen, then that of the sample of the library. */
-function sharesOf(inWindow: number | null, inSample: string): (HTMLElement | string)[] {
-  const own = inWindow === null ? [] : [element("b", {}, percent(inWindow)), " of this window; "];
-  return [...own, `${inSample} of the sample.`];
 }
 
 /** Of which starts the shares are. */

@@ -5,65 +5,21 @@ import { crossAt, pixelX, pixelY, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { minus } from "../../numbers";
 import { BRANCH_COLUMNS, type BranchesJson, type Range } from "../../protocol";
-import { tellFailure } from "../asking";
 import { axisValue, columnOf } from "./columns";
 
-const SLOT = "diagram-branches";
+export const BRANCHES = "diagram-branches";
 
-/** The branches of the present window: asked for, kept, drawn and told. */
-export class BranchLines {
-  private found: (Branches & { readonly restitution: number }) | null = null;
-  private asked = "";
-  private done = "";
-
-  constructor(private readonly context: Context) {}
-
-  /** Asks for those of a state, unless they are there (or none is wanted: ready) or on their way (missing). */
-  async fetch(state: State): Promise<"ready" | "came" | "missing"> {
-    const { restitution } = state.system;
-    const { axial_forcing } = state.diagram;
-    const key = JSON.stringify([restitution, axial_forcing]);
-    if (!isDrawn(state)) return "ready";
-    if (key === this.asked) return key === this.done ? "ready" : "missing";
-    this.asked = key;
-    this.context.status("Continuing the branches", "busy");
-    try {
-      const request = { call: "branches", restitution, axial_forcing } as const;
-      const { json, numbers } = await this.context.client.series<BranchesJson>(SLOT, [request]);
-      this.found = { json, numbers, restitution };
-      this.done = key;
-      return this.asked === key ? "came" : "missing";
-    } catch (error) {
-      if (this.asked === key) this.asked = this.done = "";
-      tellFailure(this.context, error);
-      return "missing";
-    }
-  }
-
-  /** What does not come is asked for when it is wanted again. */
-  cancel(): void {
-    this.context.client.cancel(SLOT);
-    this.asked = this.done;
-  }
-
-  paint(pen: Pen, plot: Plot, state: State): void {
-    const lines = this.of(state);
-    if (lines !== null) paintBranches(pen, plot, lines, state.diagram.quantity);
-  }
-
-  describe(state: State): string {
-    const lines = this.of(state);
-    return lines === null ? "" : ` ${describeBifurcations(lines, state.diagram.axial_forcing)}`;
-  }
-
-  /** Those of another window are the same lines; those of another coefficient of restitution are others. */
-  private of(state: State): Branches | null {
-    return isDrawn(state) && this.found?.restitution === state.system.restitution ? this.found : null;
-  }
+export interface Branches {
+  readonly json: BranchesJson;
+  readonly numbers: Float64Array;
 }
 
-function isDrawn({ diagram }: State): boolean {
-  return diagram.branches && diagram.quantity !== "angular_speed";
+/** Where branches are drawn: they have no angular speed. */
+export const areDrawn = ({ diagram }: State): boolean => diagram.branches && diagram.quantity !== "angular_speed";
+
+export function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
+  const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;
+  return client.series<BranchesJson>(BRANCHES, [request]);
 }
 
 const WIDTH = BRANCH_COLUMNS.length;
@@ -72,13 +28,7 @@ const LINE = 5;
 /** Length of a dash and of a gap. */
 const DASH = 4;
 
-interface Branches {
-  readonly json: BranchesJson;
-  readonly numbers: Float64Array;
-}
-
-function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity: Quantity): void {
-  if (quantity === "angular_speed") return;
+export function paintBranches(pen: Pen, plot: Plot, branches: Branches, quantity: Quantity): void {
   const full: number[] = [];
   const dashed: number[] = [];
   const { numbers } = branches;
@@ -149,7 +99,7 @@ function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Q
 }
 
 /** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
-function describeBifurcations({ json }: Branches, window: Range): string {
+export function describeBifurcations({ json }: Branches, window: Range): string {
   const words = json.bifurcations.map(({ kind, axial_forcing }) => `${kind} at ${forcingText(axial_forcing, window)}`);
   const distinct = [...new Set(words)];
   if (json.branches === 0) return "No branch that can be continued lies in this window.";
@@ -165,6 +115,4 @@ export function forcingText(value: number, [low, high]: Range): string {
 }
 
 /** The end of a window, without zeros that say nothing. */
-export function endText(value: number, window: Range): string {
-  return forcingText(value, window).replace(/\.?0+$/, "");
-}
+export const endText = (value: number, window: Range): string => forcingText(value, window).replace(/\.?0+$/, "");

@@ -74,15 +74,12 @@ export const COARSE = 8;
  * workers takes longer than 32 columns of the vertical motion. */
 const CHUNK = { vertical: 256, rotation: 64 };
 
-/** What is known of all orbits of the diagram. */
-export type Told = DiagramJson;
-
 /** Gives each answer to `take`; what there is to tell of the orbits when all are there. */
 export async function computeColumns(
   context: Context,
   wanted: Wanted,
   take: (columns: Columns) => void,
-): Promise<Told> {
+): Promise<DiagramJson> {
   const places: Omit<Columns, "numbers">[] = [];
   const chunk = wanted.rotation ? CHUNK.rotation : CHUNK.vertical;
   const coarseCount = Math.ceil(wanted.count / COARSE);
@@ -101,7 +98,7 @@ export async function computeColumns(
     recorded: RECORDED,
     patience: coarse ? TRANSIENT : PATIENCE,
   }));
-  let told: Told = { resting: 0, unsettled: 0, left_out: TRANSIENT };
+  let told: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
   await context.client.series<DiagramJson>("diagram", requests, ({ json, numbers }, index) => {
     const place = places[index] as (typeof places)[number];
     if (!place.coarse) {

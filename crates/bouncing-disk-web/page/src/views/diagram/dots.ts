@@ -18,7 +18,6 @@ const NARROWEST = 1e-9;
 export class Dots {
   /** All answers for the present columns, coarse and fine. */
   columns: Columns[] = [];
-  /** How many columns there will be. */
   count = 0;
   private complete = false;
   private name = "";
@@ -185,7 +184,8 @@ class Density {
 
   /** Colours the columns `[from, to)`. */
   paint(from: number, to: number, colour: Colours): void {
-    const shades = densityShades(colour);
+    const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
+    const shades = colourScale(stops, SHADES);
     const paper = pixelWord(colour("--picture-paper"));
     const { width, height, counts, words, filled } = this;
     // All of an orbit in one pixel has the last colour.
@@ -200,18 +200,4 @@ class Density {
     }
     contextOf(this.canvas).putImageData(this.image, 0, 0, from, 0, to - from, height);
   }
-}
-
-let shadesKey = "";
-let shadesNow: Uint32Array = new Uint32Array(SHADES);
-
-/** The words of the shades, made anew only when the theme changes. */
-function densityShades(colour: Colours): Uint32Array {
-  const stops = [0, 1, 2, 3, 4].map((index) => colour(`--density-${index}`));
-  const key = stops.join();
-  if (key !== shadesKey) {
-    shadesKey = key;
-    shadesNow = colourScale(stops, SHADES);
-  }
-  return shadesNow;
 }

@@ -1,12 +1,12 @@
 /** What the orbit under the cursor does for good, and the whole diagram in words, by the library's verdicts. */
 
 import type { Context, State } from "../../contract";
-import { debounced, element, Facts, setText } from "../../elements";
+import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, plain, withError } from "../../numbers";
-import type { VerdictJson } from "../../protocol";
+import type { DiagramJson, VerdictJson } from "../../protocol";
 import { impactOf, tellFailure, verdictOf } from "../asking";
-import { endText, forcingText } from "./branches";
-import { DESCRIBED, RECORDED, TRANSIENT, type Told } from "./columns";
+import { areDrawn, endText, forcingText } from "./branches";
+import { DESCRIBED, RECORDED, TRANSIENT } from "./columns";
 
 const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as const;
 const HINT = "Point at the diagram: the orbit of that forcing from the shared start.";
@@ -18,17 +18,15 @@ export class Verdict {
   private readonly facts = new Facts(NAMES, "Orbit under the cursor");
   private readonly sentence = element("p", {}, HINT);
   private readonly caution = element("p", { class: "caution", hidden: true }, CAUTION);
-  private asked = NaN;
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
 
   constructor(private readonly context: Context) {
     const title = element("h3", {}, "Orbit under the cursor");
     const parts = [title, this.facts.root, this.sentence, this.caution];
-    this.root = element("section", { class: "panel", "aria-label": "Orbit under the cursor" }, ...parts);
+    this.root = section("Orbit under the cursor", "panel", ...parts);
   }
 
   point(forcing: number, state: State): void {
-    this.asked = forcing;
     this.facts.set("Γ", plain(forcing, 6));
     this.ask(forcing, state);
   }
@@ -41,8 +39,7 @@ export class Verdict {
   private async fetch(forcing: number, state: State): Promise<void> {
     const map = { axial_forcing: forcing, restitution: state.system.restitution };
     try {
-      const verdict = await verdictOf(this.context, "diagram-orbit", map, impactOf(state));
-      if (this.asked === forcing) this.tell(forcing, verdict);
+      this.tell(forcing, await verdictOf(this.context, "diagram-orbit", map, impactOf(state)));
     } catch (error) {
       tellFailure(this.context, error);
     }
@@ -76,55 +73,37 @@ function complex([real, imaginary]: readonly [number, number]): string {
 const SAMPLES = 5;
 const slotOf = (sample: number): string => `diagram-words-${sample}`;
 
-/** The orbit diagram for those who do not see it: what some of its orbits do for good. */
-export class Description {
-  private key = "";
-  private coming = Promise.resolve();
-  private verdicts: readonly VerdictJson[] = [];
+/** What some orbits of a diagram do for good: for those who do not see it. */
+export function verdictsOf(context: Context, state: State): Promise<VerdictJson[]> {
+  const { restitution } = state.system;
+  const asked = samplesOf(state).map((axial_forcing, sample) =>
+    verdictOf(context, slotOf(sample), { axial_forcing, restitution }, impactOf(state)),
+  );
+  return Promise.all(asked);
+}
 
-  constructor(private readonly context: Context) {}
+export function cancelVerdicts({ client }: Context): void {
+  for (let sample = 0; sample < SAMPLES; sample += 1) client.cancel(slotOf(sample));
+}
 
-  /** Asks for the verdicts on the samples of a state, unless they are there or on their way. */
-  fetch(state: State): Promise<void> {
-    const start = impactOf(state);
-    const { restitution } = state.system;
-    const key = JSON.stringify([state.diagram.axial_forcing, restitution, start]);
-    if (key === this.key) return this.coming;
-    this.key = key;
-    const asked = samplesOf(state).map((axial_forcing, sample) =>
-      verdictOf(this.context, slotOf(sample), { axial_forcing, restitution }, start),
-    );
-    this.coming = Promise.all(asked).then(
-      (verdicts) => {
-        if (this.key === key) this.verdicts = verdicts;
-      },
-      (error: unknown) => {
-        // What did not come is asked for when it is wanted again.
-        if (this.key === key) this.key = "";
-        throw error;
-      },
-    );
-    return this.coming;
-  }
-
-  cancel(): void {
-    for (let sample = 0; sample < SAMPLES; sample += 1) this.context.client.cancel(slotOf(sample));
-  }
-
-  words(state: State, count: number, told: Told): string {
-    const { axial_forcing, quantity, branches } = state.diagram;
-    const [low, high] = axial_forcing;
-    const samples = samplesOf(state);
-    const does = this.verdicts.map(
-      (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
-    );
-    return (
-      `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
-      `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
-      `of restitution of ${brief(state.system.restitution)}. What the vertical motion does for good: ` +
-      `${does.join(", ")}.${unsettled(count, told, quantity !== "angular_speed" && branches)}`
-    );
-  }
+export function describeDiagram(
+  state: State,
+  verdicts: readonly VerdictJson[],
+  count: number,
+  told: DiagramJson,
+): string {
+  const { axial_forcing, quantity } = state.diagram;
+  const [low, high] = axial_forcing;
+  const samples = samplesOf(state);
+  const does = verdicts.map(
+    (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
+  );
+  return (
+    `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
+    `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
+    `of restitution of ${brief(state.system.restitution)}. What the vertical motion does for good: ` +
+    `${does.join(", ")}.${unsettled(count, told, areDrawn(state))}`
+  );
 }
 
 function samplesOf({ diagram }: State): number[] {
@@ -132,12 +111,12 @@ function samplesOf({ diagram }: State): number[] {
   return Array.from({ length: SAMPLES }, (_, sample) => low + ((high - low) * (sample + 0.5)) / SAMPLES);
 }
 
-function leftOut({ left_out }: Told): string {
+function leftOut({ left_out }: DiagramJson): string {
   const more = left_out > TRANSIENT ? ` (where that is not enough, up to ${grouped(String(left_out))})` : "";
   return `${TRANSIENT}${more}`;
 }
 
-function unsettled(count: number, { unsettled: number, left_out }: Told, lines: boolean): string {
+function unsettled(count: number, { unsettled: number, left_out }: DiagramJson, lines: boolean): string {
   if (number === 0) return "";
   const some = `${number} of the ${count} orbits ${number === 1 ? "has" : "have"} not`;
   const of = number === count ? "None of the orbits has" : some;

@@ -2,8 +2,8 @@
 
 import type { Offer } from "../../contract";
 import { clamp, extent, padded } from "../../drawing/axes";
-import { paintChart, type Chart, type Curve, type Mark } from "../../drawing/chart";
-import { ONE_COLUMN, pictureOffers, PRINT_SIZE, rowsOf, tableOffers } from "../../drawing/files";
+import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/chart";
+import { ONE_COLUMN, rowsOf, tableOffers } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
 import { MEMBERS, SEED, type Operation, type Transient } from "./sheet";
@@ -160,23 +160,9 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
     const columns = [...LOAD_UNITS, "relative_error_wanted", "shortfall"];
     offers.push(...tableOffers({ name: "motor load curve", parameters: { sheet, seed: SEED }, columns, rows }));
   }
-  if (runUp !== null) offers.push(...stacked("motor run-up", "Run-up of the motor", [runUp]));
-  if (curves.length > 0)
-    offers.push(...stacked("motor load curve", "Speed, power and efficiency against load", curves));
-  return offers;
-}
-
-function stacked(name: string, title: string, charts: readonly Chart[]): Offer[] {
   const each = ONE_COLUMN * 0.62;
-  return pictureOffers({
-    name,
-    title,
-    width: ONE_COLUMN,
-    height: each * charts.length,
-    paint(pen, width) {
-      charts.forEach((chart, index) => {
-        pen.moved(0, index * each, () => paintChart(pen, chart, width, each, PRINT_SIZE));
-      });
-    },
-  });
+  if (runUp !== null) offers.push(...chartOffers("motor run-up", "Run-up of the motor", [runUp], each));
+  if (curves.length > 0)
+    offers.push(...chartOffers("motor load curve", "Speed, power and efficiency against load", curves, each));
+  return offers;
 }

@@ -2,13 +2,15 @@
 
 import type { Context, State } from "../../contract";
 import { save } from "../../drawing/files";
-import { button, element } from "../../elements";
+import { button, div, element, section } from "../../elements";
 import {
-  OPERATION_COLUMNS, type MotorSheet, type OperationsJson, type ReportJson, type SheetJson, type StallJson,
+  OPERATION_COLUMNS, type MotorSheet, type ReportJson, type SheetJson, type StallJson,
   type TransientJson,
 } from "../../protocol"; // prettier-ignore
 import { tellFailure } from "../asking";
 
+/** Of all that is asked of a motor, one after the other. */
+export const SLOT = "motor";
 /** The seed of all random numbers, so that everybody gets the same ones. */
 export const SEED = 1;
 export const MEMBERS = 16;
@@ -36,16 +38,16 @@ export interface Transient {
 
 /** The sheet of the shared system. */
 export async function sheetOf({ client }: Context, { system, mass }: State): Promise<MotorSheet> {
-  return (await client.ask<SheetJson>("motor-sheet", { call: "sheet_of_system", system, mass })).json.sheet;
+  return (await client.ask<SheetJson>(SLOT, { call: "sheet_of_system", system, mass })).json.sheet;
 }
 
 export async function reportOf({ client }: Context, sheet: MotorSheet): Promise<ReportJson> {
-  return (await client.series<ReportJson>("motor-report", [{ call: "motor_report", sheet }])).json;
+  return (await client.series<ReportJson>(SLOT, [{ call: "motor_report", sheet }])).json;
 }
 
 export function transientOf({ client }: Context, sheet: MotorSheet, rise_times: number): Promise<Transient> {
   const request = { sheet, members: MEMBERS, rise_times, points: TRANSIENT_POINTS, seed: SEED };
-  return client.series<TransientJson>("motor-transient", [{ call: "motor_transient", ...request }]);
+  return client.series<TransientJson>(SLOT, [{ call: "motor_transient", ...request }]);
 }
 
 /** All loads on one vertical motion: points of a curve that share their impacts are told apart best, and cost little
@@ -57,7 +59,7 @@ export async function operate(
   pass: (typeof PASSES)[number],
 ): Promise<Operation[]> {
   const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
-  const { json, numbers } = await client.series<OperationsJson>("motor-loads", [request]);
+  const { json, numbers } = await client.series<{ shortfalls: (string | null)[] }>(SLOT, [request]);
   return load_torques.map((_, row) => {
     const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
     const shortfall = json.shortfalls[row] ?? null;
@@ -67,7 +69,7 @@ export async function operate(
 
 export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<StallJson> {
   const request = { call: "motor_stall", sheet, relative_error: STALL_ERROR, seed: SEED } as const;
-  return (await client.series<StallJson>("motor-stall", [request])).json;
+  return (await client.series<StallJson>(SLOT, [request])).json;
 }
 
 /** A data sheet has some dozen numbers. */
@@ -91,16 +93,15 @@ export class SheetPanel {
     private readonly context: Context,
     private readonly take: (imported: SheetJson) => void,
   ) {
-    const bar = element(
-      "div",
-      { class: "bar" },
+    const bar = div(
+      "bar",
       button("Use this sheet", () => void this.read(this.text.value)),
       button("Open a file", () => this.file.click()),
       button("Save as JSON", () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
       this.file,
     );
     const parts = [element("h3", {}, "Data sheet"), this.text, bar, element("p", { class: "remark" }, REMARK)];
-    this.root = element("section", { class: "panel", "aria-label": "Data sheet" }, ...parts);
+    this.root = section("Data sheet", "panel", ...parts);
   }
 
   /** Shows a text, unless somebody is about to write another one. */

@@ -1,6 +1,6 @@
 /** The motor in words: regime, warnings, traps, steady speed, run-up and curves. */
 
-import { element, Facts, setText } from "../../elements";
+import { element, Facts, section, setText } from "../../elements";
 import { grouped, plain, prefixOf, quantity, quantityWithError, toldApart, withError } from "../../numbers";
 import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protocol";
 import type { Operation, Transient } from "./sheet";
@@ -10,7 +10,7 @@ const NAMES = [
 ] as const; // prettier-ignore
 
 export class ReportPanel {
-  readonly root = element("section", { class: "panel", "aria-label": "Report" });
+  readonly root = section("Report", "panel");
   private readonly facts = new Facts(NAMES, "The motor in numbers");
   /** Stands above the curves, which a trap makes those of another motion than one would expect. */
   readonly trap = element("p", { class: "caution trap", hidden: true });
@@ -74,13 +74,13 @@ export function whyNothingTurns(report: ReportJson): string | null {
 const under = (load: number): string =>
   load === 0 ? "without load" : `under the load of the sheet, ${quantity(load, "N m")}`;
 
+const overpowered = ({ load_torque }: Operation, largest: number): string =>
+  `the load of the sheet, ${quantity(load_torque, "N m")}, is more than ` +
+  `the ${quantity(largest, "N m")} that friction holds at most`;
+
 /** The steady speed under the load of the sheet, with no more digits than are known. */
 export function steadySpeed(own: Operation, largestTorque: number): string {
-  if (own.status === 2) {
-    const most = quantity(largestTorque, "N m");
-    const load = quantity(own.load_torque, "N m");
-    return `none: the load of the sheet, ${load}, is more than the ${most} that friction holds at most`;
-  }
+  if (own.status === 2) return `none: ${overpowered(own, largestTorque)}`;
   if (own.status === 1) {
     const why = own.shortfall === null ? "" : `; ${readable(own.shortfall)}`;
     return `not settled, ${plain(own.speed, 3)} rad/s so far ${under(own.load_torque)}${why}`;
@@ -114,11 +114,8 @@ export function timeConstant({ rise, refusal }: Transient["json"], own: Operatio
 /** What a run-up tends to, which its own end does not tell, and its form. */
 export function describeRunUp({ json }: Transient, own: Operation | null, report: ReportJson): string {
   if (own?.status === 2) {
-    const [load, most] = [own.load_torque, report.largest_torque].map((torque) => quantity(torque, "N m"));
-    return (
-      `The load of the sheet, ${load}, is more than the ${most} that friction holds at most: it drives the rotor ` +
-      "faster and faster, and there is no steady speed."
-    );
+    const why = overpowered(own, report.largest_torque).replace(/^t/, "T");
+    return `${why}: it drives the rotor faster and faster, and there is no steady speed.`;
   }
   const steady =
     own === null ? "The steady speed is being computed." : `Steady speed: ${steadySpeed(own, report.largest_torque)}.`;

@@ -1,58 +1,45 @@
 /** The impacts in the plane of phase and speed, growing with the motion. A click there is another start. */
 
-import { crossAt, hairsAt, layOut, paintAxes, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
+import { crossAt, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
-import { Gestures, Layers, type Point } from "../../drawing/window";
+import { WindowPicture, type Point } from "../../drawing/window";
 import type { ImpactStart } from "../../protocol";
 import type { Impact, Recording } from "./recording";
 
-const SIZE = 12;
-
 export class Portrait {
-  readonly layers = new Layers(
-    "picture-portrait",
-    "Phase portrait of the impacts. Shift with an arrow moves the cross, Enter makes it the start.",
-  );
-  private plot: Plot | null = null;
-  private drawn = 0;
+  readonly picture: WindowPicture;
+  /** How many impacts are to be seen. */
+  private shown = 0;
   private top = 1;
   private recording: Recording | null = null;
   private start: ImpactStart | null = null;
-  private cross: Point | null = null;
 
   /** `pick` gets a phase in periods and a normalised speed. */
   constructor(pick: (at: Point) => void) {
-    new Gestures(this.layers.surface, {
-      plot: () => this.plot,
+    this.picture = new WindowPicture({
+      className: "picture-portrait",
+      label: "Phase portrait of the impacts.",
+      axes: () => this.axes(),
+      paint: (pen, plot) => paintImpacts(pen, plot, this.recording?.impacts.slice(0, this.shown) ?? []),
+      paintMarks: (pen, plot) => this.paintMarks(pen, plot),
       window: () => ({ x: [0, 1], y: [0, this.top] }),
-      point: (at) => {
-        this.cross = at;
-        this.paintCursor();
-      },
       pick,
     });
   }
 
   /** Draws the first `count` impacts: only the new ones, where the others are there. */
   show(recording: Recording, start: ImpactStart, count: number, anew: boolean): void {
-    this.start = start;
-    const { layers } = this;
-    const resized = layers.fit();
-    if (layers.width < 60) return;
+    const { picture, shown } = this;
     const speeds = recording.impacts.slice(0, 4000).map((impact) => impact.normalised_speed);
     const highest = Math.max(...speeds, start.normalised_speed, 1e-6);
     const top = this.recording === recording ? this.top : roundUp(highest * 1.02);
-    this.recording = recording;
-    if (anew || resized || this.plot === null || count < this.drawn || top !== this.top) {
-      this.top = top;
-      this.drawn = 0;
-      const pen = layers.data();
-      this.plot = layOut(pen, layers.width, layers.height, this.axes(), SIZE);
-      paintAxes(pen, this.plot);
+    const whole = picture.layers.fit() || anew || count < shown || top !== this.top;
+    Object.assign(this, { recording, start, top, shown: count });
+    if (whole || picture.plot === null) picture.paintData();
+    else {
+      paintImpacts(picture.layers.more(), picture.plot, recording.impacts.slice(shown, count));
+      picture.paintCursor();
     }
-    paintImpacts(layers.more(), this.plot, recording.impacts.slice(this.drawn, count));
-    this.drawn = count;
-    this.paintCursor();
   }
 
   axes(): Axes {
@@ -62,11 +49,9 @@ export class Portrait {
     };
   }
 
-  private paintCursor(): void {
-    const pen = this.layers.cursor();
-    const { plot, cross, start } = this;
-    const last = this.recording?.impacts[this.drawn - 1];
-    if (plot === null) return;
+  private paintMarks(pen: Pen, plot: Plot): void {
+    const { start } = this;
+    const last = this.recording?.impacts[this.shown - 1];
     if (start !== null && start.normalised_speed <= this.top) {
       const [x, y] = [pixelX(plot, periods(start.impact_phase)), pixelY(plot, start.normalised_speed)];
       pen.path(crossAt(x, y, 6, true), { stroke: "--disk", width: 1.8 });
@@ -75,7 +60,6 @@ export class Portrait {
       const [x, y] = [pixelX(plot, periods(last.phase)), pixelY(plot, last.normalised_speed)];
       pen.circle(x, y, 6, { stroke: "--impact-now", width: 2.2 });
     }
-    if (cross !== null) pen.path(hairsAt(plot, cross), { stroke: "--picture-cursor", width: 1 });
   }
 }
 

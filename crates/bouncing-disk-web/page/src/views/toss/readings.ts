@@ -52,7 +52,6 @@ export class Readings {
   }
 }
 
-/** What a disk does in each mode. */
 const WORDS: Readonly<Record<string, string>> = {
   flight: "is in flight",
   sticking: "sticks to the platform",
@@ -61,7 +60,6 @@ const WORDS: Readonly<Record<string, string>> = {
   held: "is held",
 };
 
-/** A moment of the motion in words. */
 export function describeMoment(moment: Moment, periods: number, impacts: number, recording: Recording): string {
   const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
   const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);

@@ -34,7 +34,6 @@ export class Recording {
   constructor(
     { json, numbers, bytes }: Response<MotionJson>,
     readonly periods: number,
-    /** What moves. */
     readonly system: Readonly<SystemParameters>,
   ) {
     this.count = json.samples;
@@ -89,7 +88,6 @@ export class Recording {
     return Math.abs(value) <= ROUNDING * largest ? 0 : value;
   }
 
-  /** Impacts before this time. */
   impactsUntil(time: number): number {
     let low = 0;
     let high = this.impacts.length;
@@ -135,6 +133,8 @@ export function traces(recording: Recording, now: number): [Chart, Chart] {
   const at = recording.span("time", start, end, 1 / period);
   const heights = recording.extent("height", "platform_height");
   const metre = prefixOf(Math.max(...heights.map(Math.abs)));
+  // Both have one axis of time.
+  const widest = "−00.00";
   const curves = (disk: Column, platform: Column, factor: number): Curve[] => [
     { label: "disk", y: recording.span(disk, start, end, factor), colour: "--disk" },
     { label: "platform", y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
@@ -143,14 +143,22 @@ export function traces(recording: Recording, now: number): [Chart, Chart] {
     {
       title: "Heights",
       x,
-      y: { label: `height (${metre.symbol}m)`, range: padded([heights[0] * metre.factor, heights[1] * metre.factor]) },
+      y: {
+        label: `height (${metre.symbol}m)`,
+        range: padded([heights[0] * metre.factor, heights[1] * metre.factor]),
+        widest,
+      },
       at,
       curves: curves("height", "platform_height", metre.factor),
     },
     {
       title: "Angular speeds",
       x,
-      y: { label: "angular speed (rad/s)", range: padded(recording.extent("angular_speed", "platform_angular_speed")) },
+      y: {
+        label: "angular speed (rad/s)",
+        range: padded(recording.extent("angular_speed", "platform_angular_speed")),
+        widest,
+      },
       at,
       curves: curves("angular_speed", "platform_angular_speed", 1),
     },

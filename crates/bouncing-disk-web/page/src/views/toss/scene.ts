@@ -82,7 +82,6 @@ export class Stage {
     return this.project(0, 0, this.radii(pose.height) + THICKNESS);
   }
 
-  /** Metres of height of so many pixels. */
   metresOf(pixels: number): number {
     return (pixels * this.radius) / (this.pixels * this.heightGain * Math.cos(ELEVATION));
   }
@@ -218,7 +217,6 @@ export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
   pen.path(points, { stroke: "--platform-line", width: 1.6, close: true });
 }
 
-/** The picture in words. */
 export function describePath({ amplitude, twist_amplitude }: Platform): string {
   const wide = twist_amplitude >= LARGE ? `${plain(twist_amplitude, 3)} rad` : quantity(twist_amplitude, "rad");
   return (

@@ -1,7 +1,7 @@
 /** Throwing the disk: by dragging it, or by three numbers. */
 
 import { clamp } from "../../drawing/axes";
-import { button, element } from "../../elements";
+import { button, div, element, placeOn } from "../../elements";
 import { plain, quantity, typed } from "../../numbers";
 import type { FlightStart, SystemParameters } from "../../protocol";
 import type { Pose, Stage } from "./scene";
@@ -24,19 +24,11 @@ interface ThrowHost {
   start(thrown: FlightStart): void;
 }
 
-interface Place {
-  readonly x: number;
-  readonly y: number;
-  readonly time: number;
-}
+type Place = ReturnType<typeof placeOn> & { readonly time: number };
 
-/** Makes the disk on a canvas something that can be dragged. */
 export function attachThrowing(surface: HTMLElement, host: ThrowHost): void {
   let held: { from: Place; pose: Pose; trail: Place[] } | null = null;
-  const place = (event: PointerEvent): Place => {
-    const box = surface.getBoundingClientRect();
-    return { x: event.clientX - box.left, y: event.clientY - box.top, time: event.timeStamp };
-  };
+  const place = (event: PointerEvent) => ({ ...placeOn(surface, event), time: event.timeStamp });
   const heldAt = (stage: Stage, { from, pose }: NonNullable<typeof held>, at: Place) => ({
     height: Math.max(pose.height + stage.metresOf(from.y - at.y), pose.platform_height),
     angle: pose.angle + stage.radiansOf(at.x - from.x),
@@ -108,59 +100,42 @@ export function describeThrow({ gap, relative_velocity, angular_speed }: FlightS
   );
 }
 
+const ENTRIES = [
+  ["Height above the platform (mm)", "100"],
+  ["Relative velocity upwards (mm/s)", "500"],
+  ["Angular speed (rad/s)", "5"],
+] as const;
+
 /** Three numbers and a button: a throw without a pointer. */
 export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "phase" | "start">): HTMLElement {
-  const gap = new Entry("Height above the platform (mm)", "100");
-  const velocity = new Entry("Relative velocity upwards (mm/s)", "500");
-  const spin = new Entry("Angular speed (rad/s)", "5");
+  const entries = ENTRIES.map(([label, value]) => {
+    const input = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", value });
+    return { label, input, row: element("label", {}, label, input) };
+  });
   const problem = element("p", { class: "error", role: "alert", hidden: true });
   /** A number that no throw can have is refused with the range of those that one can. */
   const throwIt = () => {
-    const thrown = {
-      phase: phase(),
-      gap: gap.value / 1000,
-      relative_velocity: velocity.value / 1000,
-      angular_speed: spin.value,
-    };
+    const [gap = NaN, velocity = NaN, spin = NaN] = entries.map(({ input }) => typed(input.value, false) ?? NaN);
+    const thrown = { phase: phase(), gap: gap / 1000, relative_velocity: velocity / 1000, angular_speed: spin };
     const highest = bounded(system(), { ...thrown, gap: Infinity }).gap;
     const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
     // From the platform itself the disk can only leave upwards.
-    const slowest = thrown.gap > 0 ? -fastest : 0;
+    const slowest = gap > 0 ? -fastest : 0;
     const speeds = `${quantity(slowest, "m/s")} to ${quantity(fastest, "m/s")}`;
-    const wrong = [
-      gap.refuse(0, highest * 1000, `0 to ${quantity(highest, "m")}`),
-      velocity.refuse(slowest * 1000, fastest * 1000, speeds),
-      spin.refuse(-FASTEST, FASTEST, `−${FASTEST} to ${FASTEST} rad/s`),
-    ].filter((text) => text !== null);
+    const ranges = [
+      [gap >= 0 && gap <= highest * 1000, `0 to ${quantity(highest, "m")}`],
+      [velocity >= slowest * 1000 && velocity <= fastest * 1000, speeds],
+      [Math.abs(spin) <= FASTEST, `−${FASTEST} to ${FASTEST} rad/s`],
+    ] as const;
+    const wrong = entries.flatMap(({ label, input }, index) => {
+      const [legal, range] = ranges[index] as (typeof ranges)[number];
+      input.setAttribute("aria-invalid", String(!legal));
+      return legal ? [] : `${label}: "${input.value.slice(0, 24)}" is refused, it has to be from ${range}.`;
+    });
     problem.textContent = wrong.join(" ");
     problem.hidden = wrong.length === 0;
     if (wrong.length === 0) start(bounded(system(), thrown));
   };
-  const rows = [gap, velocity, spin].map(({ row }) => row);
-  const fields = element("div", { class: "fields" }, ...rows, problem, button("Throw", throwIt));
+  const fields = div("fields", ...entries.map(({ row }) => row), problem, button("Throw", throwIt));
   return element("details", { class: "throw" }, element("summary", {}, "Throw by numbers"), fields);
-}
-
-class Entry {
-  readonly row: HTMLElement;
-  private readonly input: HTMLInputElement;
-
-  constructor(
-    private readonly label: string,
-    value: string,
-  ) {
-    this.input = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", value });
-    this.row = element("label", {}, label, this.input);
-  }
-
-  get value(): number {
-    return typed(this.input.value, false) ?? NaN;
-  }
-
-  /** What is wrong with the number, or null. */
-  refuse(low: number, high: number, range: string): string | null {
-    const legal = this.value >= low && this.value <= high;
-    this.input.setAttribute("aria-invalid", String(!legal));
-    return legal ? null : `${this.label}: "${this.input.value.slice(0, 24)}" is refused, it has to be from ${range}.`;
-  }
 }
