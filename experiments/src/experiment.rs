@@ -328,6 +328,11 @@ struct Record {
 }
 
 impl RegisteredExperiment {
+    /// Whether it is a figure beyond the paper, whose identifiers begin alike.
+    pub fn is_extra(&self) -> bool {
+        self.id.starts_with("extra-")
+    }
+
     /// Runs the experiment. Measurements that cannot be used are left out, with a warning.
     pub fn compute(
         &self,

@@ -13,7 +13,6 @@ use serde::Serialize;
 use crate::claims::printed::is_multiple_of_pi;
 use crate::claims::{Claim, Class, Computed, Source, Verdict};
 use crate::experiment::{Made, RegisteredExperiment};
-use crate::registry::is_extra;
 
 /// A template that needs what is not there, or a number of a discussion that no claim has.
 pub use minijinja::Error as TemplateError;
@@ -123,7 +122,7 @@ impl Section {
             id: entry.id,
             name: name(entry.id),
             title: entry.title,
-            is_extra: is_extra(entry.id),
+            is_extra: entry.is_extra(),
             caption: made.caption.clone(),
             discussion,
             parameters: made.parameters.clone(),

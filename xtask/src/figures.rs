@@ -134,7 +134,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let entries = registry::all();
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) if options.ids.is_empty() => {
-            selected.into_iter().filter(|entry| registry::is_extra(entry.id) == options.extras).collect()
+            selected.into_iter().filter(|entry| entry.is_extra() == options.extras).collect()
         }
         Ok(selected) => selected,
         Err(error) => {
@@ -293,7 +293,7 @@ fn check(
         let comparable: Vec<&RegisteredExperiment> = selected
             .iter()
             .copied()
-            .filter(|entry| registry::is_extra(entry.id) == (pictures == Pictures::Extras))
+            .filter(|entry| entry.is_extra() == (pictures == Pictures::Extras))
             .filter(|entry| measurements.digest(entry.measurements).is_empty())
             .collect();
         let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;

@@ -12,9 +12,9 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
-use super::hand_path::HandPath;
-use super::toss_case::TossCase;
+use super::shared::cylinder::HandPath;
+use super::shared::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
+use super::shared::toss::TossCase;
 use crate::claims::paper::TableOne;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;

@@ -10,8 +10,8 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, curve, faint, polar};
-use super::hand_path::HandPath;
+use super::shared::cylinder::HandPath;
+use super::shared::cylinder::{Cylinder, Look, curve, faint, polar};
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;

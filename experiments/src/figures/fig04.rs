@@ -13,7 +13,7 @@ use bouncing_disk_plot::Figure;
 use self::consistency::consistency;
 pub use self::data::Fig04Data;
 use self::data::TossPoint;
-use super::toss_case::TossCase;
+use super::shared::toss::TossCase;
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality};

@@ -12,8 +12,8 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
-use super::toss_case::TossCase;
+use super::shared::toss::TossCase;
+use super::shared::toss::{AngleGrid, launch_case, printed_angles, unreadable};
 use crate::claims::{
     self as claim, Claim,
     paper::{self, SectionThree, TableOne},

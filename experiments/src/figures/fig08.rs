@@ -9,7 +9,7 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, arc, polar};
+use super::shared::cylinder::{Cylinder, Look, arc, polar};
 use crate::claims::paper::{self, STEEL_DENSITY, TableThree};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;

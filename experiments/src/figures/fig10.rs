@@ -14,7 +14,7 @@ use bouncing_disk_plot::Figure;
 use self::compute::MEMBER_INTERVALS;
 pub use self::data::Fig10Data;
 use self::data::Trial;
-use super::motor_case::MotorCase;
+use super::shared::motor::MotorCase;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Column, Layout, Range, Series};

@@ -13,7 +13,7 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
 use self::data::{LAYOUT, read};
-use super::motor_case::Form;
+use super::shared::motor::Form;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
@@ -37,7 +37,7 @@ impl Experiment for Fig11 {
             ("preloads", compute::PRELOAD_SEED),
             ("ensembles", TransientSettings::default().seed),
             ("bouncing motors that print alike", bouncing::SEED),
-            ("runs to stall", super::stall::SEED),
+            ("runs to stall", super::shared::stall::SEED),
         ]
     }
 

@@ -9,8 +9,8 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig12Data;
 use self::data::{Lines, LowPeriod};
-use super::alike::AlikeMotor;
-use super::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
+use super::shared::alike::AlikeMotor;
+use super::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
 use crate::claims::{Cases, Claim, Verdict};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;

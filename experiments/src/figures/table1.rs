@@ -9,10 +9,10 @@ use bouncing_disk::{Platform, System};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::hand_path::HandPath;
-use super::numbers::Propagated;
-use super::printed_inputs::{DRAWN, agreement, draws};
-use super::toss_case::TossCase;
+use super::shared::alike::{DRAWN, agreement, draws};
+use super::shared::cylinder::HandPath;
+use super::shared::numbers::Propagated;
+use super::shared::toss::TossCase;
 use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, SectionThree, TableOne, Uncertain},
@@ -84,7 +84,7 @@ impl Experiment for Table1 {
             "uncertainty, root sum of squares",
         ]);
         for row in &data.rows {
-            let uncertainty = |of: fn(&super::numbers::Propagated) -> f64| {
+            let uncertainty = |of: fn(&super::shared::numbers::Propagated) -> f64| {
                 row.uncertainty.as_ref().map_or(Cell::Empty, |uncertainty| of(uncertainty).into())
             };
             table.push([

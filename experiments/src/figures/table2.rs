@@ -5,8 +5,8 @@ use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::numbers::Propagated;
-use super::toss_case::TossCase;
+use super::shared::numbers::Propagated;
+use super::shared::toss::TossCase;
 use crate::claims::{
     Claim,
     paper::{self, SectionThree, TableOne, TableTwo, Uncertain},

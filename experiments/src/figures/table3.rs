@@ -8,10 +8,10 @@ use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::motor_case::MotorCase;
-use super::numbers::{Noise, Propagated};
-use super::printed_inputs::DRAWN;
-use super::stall::Stall;
+use super::shared::alike::DRAWN;
+use super::shared::motor::MotorCase;
+use super::shared::numbers::{Noise, Propagated};
+use super::shared::stall::Stall;
 use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, BallDrop, SectionFive, Uncertain},
@@ -34,7 +34,7 @@ impl Experiment for Table3 {
     fn seeds() -> Vec<(&'static str, u64)> {
         vec![
             ("drops of the ball", DROP_SEED),
-            ("runs to stall", super::stall::SEED),
+            ("runs to stall", super::shared::stall::SEED),
             ("ensembles", TransientSettings::default().seed),
         ]
     }
@@ -212,7 +212,7 @@ const DROP_SEED: u64 = 95;
 fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
     let table = paper::table_three()?;
     let section = paper::section_five()?;
-    let as_frequency = MotorCase::default_of(&table, &section);
+    let as_frequency = MotorCase::table_three()?;
     let as_printed =
         MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
     let cases = [as_printed, as_frequency];

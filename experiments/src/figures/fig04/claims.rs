@@ -9,7 +9,7 @@ use crate::claims::judging::{LINE_WIDTH, trend};
 use crate::claims::paper::Uncertain;
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{self as claim, Claim};
-use crate::figures::numbers;
+use crate::figures::shared::numbers;
 
 const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.

@@ -10,10 +10,10 @@ use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds}
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
-use crate::figures::angle_grid::{
+use crate::figures::shared::toss::TossCase;
+use crate::figures::shared::toss::{
     AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
-use crate::figures::toss_case::TossCase;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;

@@ -4,7 +4,7 @@ use bouncing_disk::toss::InitialSpin;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::{SectionThree, TableOne};
-use crate::figures::toss_case::TossCase;
+use crate::figures::shared::toss::TossCase;
 
 /// The data of Fig. 4.
 #[derive(Debug, Serialize, Deserialize)]

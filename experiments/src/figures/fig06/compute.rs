@@ -19,7 +19,7 @@ use super::slices::{branch_crossings, followed_slice, forcing_effect};
 use super::{contact, dimension, explored, merging, period_one};
 use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::FORCING_RANGE;
+use crate::figures::shared::FORCING_RANGE;
 use crate::progress::Progress;
 
 /// Impacts after which a disk that has not come to rest is looked at.

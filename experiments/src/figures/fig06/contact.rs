@@ -10,9 +10,8 @@ use rayon::prelude::*;
 
 use super::data::{Motion, Transfer};
 use super::inputs::{Inputs, Systems};
-use crate::claims::paper;
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::MotorCase;
+use crate::figures::shared::motor::MotorCase;
 
 /// Impacts of a long motion.
 const LONG: usize = 4_000;
@@ -124,7 +123,7 @@ fn turned_in_contact(record: &EventRecord, system: &DimensionlessSystem) -> f64 
 
 /// The share of the motor of Table III, from rest.
 pub(super) fn motor_transfer() -> Result<Option<f64>, ExperimentError> {
-    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
+    let motor = MotorCase::table_three()?.system()?;
     let phase = Phase::new(1.5 * PI)?;
     share_in_impacts(motor.dimensionless(), InitialCondition::Contact { phase, angular_speed: 0.0 })
 }

@@ -12,9 +12,9 @@ use super::data::{Dimension, TorqueRatio};
 use super::inputs::no_orbit;
 use crate::claims::paper;
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::MotorCase;
-use crate::figures::numbers::six_decimals;
-use crate::figures::toss_case::TossCase;
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::six_decimals;
+use crate::figures::shared::toss::TossCase;
 
 /// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
 /// that it divides are both far below the sixth decimal.
@@ -130,7 +130,7 @@ fn torque_ratio(name: &str, system: &System) -> Result<TorqueRatio, ExperimentEr
 
 pub(super) fn torque_ratios() -> Result<Vec<TorqueRatio>, ExperimentError> {
     let toss = TossCase::from(&paper::table_one()?).system()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?).system()?;
+    let motor = MotorCase::table_three()?.system()?;
     Ok(vec![torque_ratio("the toss of Table I", &toss)?, torque_ratio("the motor of Table III", &motor)?])
 }
 

@@ -17,7 +17,7 @@ use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, 
 use super::inputs::{Inputs, map, no_orbit};
 use super::merging::starts;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::numbers::{occupied_arc, six_decimals};
+use crate::figures::shared::numbers::{occupied_arc, six_decimals};
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.

@@ -5,7 +5,7 @@ use super::rotation::{extent, period_ones};
 use crate::claims::catalogue;
 use crate::claims::judging::trend;
 use crate::claims::{self as claim, Cases, Claim};
-use crate::figures::numbers::occupied_arc;
+use crate::figures::shared::numbers::occupied_arc;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = chattering(data);

@@ -7,8 +7,8 @@ use bouncing_disk::core::numerics::elementary::{cos, sin};
 use super::data::{Fig06Data, Slice};
 use crate::claims::judging::trend;
 use crate::claims::{self as claim, Cases, Claim, Kind};
-use crate::figures::numbers;
-pub(super) use crate::figures::numbers::extent;
+use crate::figures::shared::numbers;
+pub(super) use crate::figures::shared::numbers::extent;
 
 /// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence to the
 /// orbit next to a doubling.

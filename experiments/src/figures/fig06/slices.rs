@@ -12,7 +12,7 @@ use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings, OrbitClass, TossOr
 use super::data::{ForcingEffect, Slice, Twist};
 use super::inputs::{Inputs, Systems};
 use crate::experiment::ExperimentError;
-use crate::figures::numbers::{self, six_decimals};
+use crate::figures::shared::numbers::{self, six_decimals};
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 pub(super) fn followed_slice(

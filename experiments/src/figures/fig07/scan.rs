@@ -81,7 +81,7 @@ pub(super) fn beyond(
     top: f64,
     quality: Quality,
 ) -> Result<Vec<Beyond>, ExperimentError> {
-    let (first, last) = (section.merging, crate::figures::FORCING_RANGE.1);
+    let (first, last) = (section.merging, FORCING_RANGE.1);
     let (step, side) = quality.choose((5.0e-4, 8), (2.0e-4, 16));
     let count = ((last - first) / step).round() as u32;
     (0..=count)

@@ -3,9 +3,11 @@
 use super::data::{Fig10Data, Transient};
 use crate::claims::catalogue;
 use crate::claims::{Cases, Claim, all};
-use crate::figures::alike::{AlikeMotor, INTERVALS};
-use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words, perturbation_claim};
-use crate::figures::numbers;
+use crate::figures::shared::alike::{AlikeMotor, INTERVALS};
+use crate::figures::shared::motor::{
+    DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words, perturbation_claim,
+};
+use crate::figures::shared::numbers;
 
 const ID: &str = "fig10";
 

@@ -16,10 +16,10 @@ use super::data::{Alike, BetweenRests, Exception, Fig10Data, Reading, Transient}
 use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{alike_with_band, oscillation};
-use crate::figures::motor_case::{MotorCase, perturbation_table};
-use crate::figures::numbers::median;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{alike_with_band, oscillation};
+use crate::figures::shared::motor::{MotorCase, perturbation_table};
+use crate::figures::shared::numbers::median;
 use crate::progress::Progress;
 
 /// Relaunch perturbations (units of g/omega) for which the steady speed is compared: from none at all.
@@ -40,7 +40,7 @@ const BAND_POINTS: usize = 60;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
     let table = paper::table_three()?;
     let section = paper::section_five()?;
-    let case = MotorCase::default_of(&table, &section);
+    let case = MotorCase::table_three()?;
     let members = quality.choose(4, 32);
     let defaults = TransientSettings::default();
     let amplitudes = section.amplitudes_of_fig10_m;

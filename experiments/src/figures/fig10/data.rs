@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
 use crate::claims::paper::{SectionFive, TableThree};
-use crate::figures::alike::{AlikeMotor, SpeedBand};
-use crate::figures::motor_case::{Cycle, PerturbationEffect, RobustCycle};
+use crate::figures::shared::alike::{AlikeMotor, SpeedBand};
+use crate::figures::shared::motor::{Cycle, PerturbationEffect, RobustCycle};
 
 /// The data of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]

@@ -12,9 +12,9 @@ use super::data::{Coexisting, EndOfBouncing};
 use crate::claims::Cases;
 use crate::claims::catalogue;
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::{MotorCase, core_error};
-use crate::figures::numbers::Noise;
-use crate::figures::printed_inputs::DRAWN;
+use crate::figures::shared::alike::DRAWN;
+use crate::figures::shared::motor::{MotorCase, core_error};
+use crate::figures::shared::numbers::Noise;
 
 /// Seed of the rotors.
 pub(super) const SEED: u64 = 318;

@@ -12,11 +12,11 @@ use super::trends;
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::motor_case::MotorCase;
-use crate::figures::numbers::Noise;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
-use crate::figures::stall::{Stall, net_share_at_rest};
+use crate::figures::shared::alike::{AlikeMotor, alike};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs};
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::Noise;
+use crate::figures::shared::stall::{Stall, net_share_at_rest};
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g): seven time constants or more.
@@ -37,7 +37,7 @@ const REDUCED_TWIST: f64 = 0.5;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
     let printed = paper::preloads()?;
     let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let rotor_mass_kg = section.rotor_mass_kg();
     let members = quality.choose([2, 3, 6], [3, 6, 24]);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;

@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::claims::Cases;
 use crate::claims::paper::Preloads;
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::{MotorCase, MotorStatistics};
-use crate::figures::numbers::StraightLine;
-use crate::figures::stall::Stall;
+use crate::figures::shared::motor::{MotorCase, MotorStatistics};
+use crate::figures::shared::numbers::StraightLine;
+use crate::figures::shared::stall::Stall;
 use crate::measured::{Column, Layout, Range, Series};
 
 /// The data of Fig. 11.

@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
-use crate::figures::numbers::{exponent, extent, middle_range};
+use crate::figures::shared::numbers::{exponent, extent, middle_range};
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =

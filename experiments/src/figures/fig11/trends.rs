@@ -2,7 +2,7 @@
 
 use super::data::{Curve, Holes, Point, Trend};
 use crate::claims::Cases;
-use crate::figures::numbers;
+use crate::figures::shared::numbers;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
@@ -134,7 +134,7 @@ mod tests {
     use bouncing_disk::toss::ChatteringCycle;
 
     use super::*;
-    use crate::figures::motor_case::{Cycle, Form, MotorStatistics};
+    use crate::figures::shared::motor::{Cycle, Form, MotorStatistics};
 
     fn point(preload_mn: f64, speed: f64, stall: Option<f64>, long_flights: usize) -> Point {
         let spread = |mean: f64| Spread { mean, deviation: 0.0, standard_error: 0.0 };

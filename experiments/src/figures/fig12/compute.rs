@@ -12,10 +12,10 @@ use rayon::prelude::*;
 use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::alike;
-use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
-use crate::figures::numbers::StraightLine;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::alike;
+use crate::figures::shared::alike::{DRAWN, PrintedInputs};
+use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
+use crate::figures::shared::numbers::StraightLine;
 use crate::progress::Progress;
 
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.
@@ -45,8 +45,7 @@ const REACHED_WITHIN: f64 = 0.02;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
     let cases = paper::chattering_cases()?;
-    let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let long = MotorCase {
         amplitude_m: cases.amplitudes_m[0],
         preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[0],
@@ -377,10 +376,7 @@ mod tests {
     #[test]
     fn the_low_period_case_that_is_drawn_is_not_chosen_by_rounding() {
         let cases = paper::chattering_cases().expect("reads");
-        let motor = MotorCase::default_of(
-            &paper::table_three().expect("reads"),
-            &paper::section_five().expect("reads"),
-        );
+        let motor = MotorCase::table_three().expect("reads");
         let printed = MotorCase {
             amplitude_m: cases.amplitudes_m[1],
             preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],

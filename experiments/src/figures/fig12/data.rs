@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::ChatteringCases;
-use crate::figures::alike::AlikeMotor;
-use crate::figures::motor_case::{MotorCase, RobustCycle};
+use crate::figures::shared::alike::AlikeMotor;
+use crate::figures::shared::motor::{MotorCase, RobustCycle};
 
 /// The data of Fig. 12.
 #[derive(Debug, Serialize, Deserialize)]

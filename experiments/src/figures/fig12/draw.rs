@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Fig12Data, Shown};
-use crate::figures::numbers::exponent;
+use crate::figures::shared::numbers::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {
     const HEIGHT: f64 = 430.0;

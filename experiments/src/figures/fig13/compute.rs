@@ -15,10 +15,10 @@ use super::sweeps::{cosine_fit, trend_change};
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::motor_case::MotorCase;
-use crate::figures::numbers::{self, StraightLine};
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{AlikeMotor, alike};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs};
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::{self, StraightLine};
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).
@@ -41,7 +41,7 @@ const FLIGHT_COUNTS: [usize; 5] = [2, 4, 8, 16, 32];
 const SHORT_CYCLE: f64 = 0.01;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
     let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let members = quality.choose(3, 12);
     let impacts = quality.choose(4_000, 40_000);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;

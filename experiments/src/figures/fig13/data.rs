@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
-use crate::figures::motor_case::{MotorCase, MotorStatistics};
-use crate::figures::numbers::Concentration;
+use crate::figures::shared::motor::{MotorCase, MotorStatistics};
+use crate::figures::shared::numbers::Concentration;
 
 /// The identifier of the figure.
 pub(super) const ID: &str = "fig13";

@@ -8,8 +8,8 @@ use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
 use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
 use crate::claims::judging::trend;
 use crate::claims::{Cases, Claim, all, any};
-use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
-use crate::figures::numbers::{Concentration, StraightLine};
+use crate::figures::shared::motor::LOW_PERIOD_FLIGHTS;
+use crate::figures::shared::numbers::{Concentration, StraightLine};
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
 const CONSTANT_WITHIN: f64 = 0.1;

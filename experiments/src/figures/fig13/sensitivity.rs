@@ -8,7 +8,7 @@ use super::sweeps::{
     sweep_points, trend_change,
 };
 use crate::claims::{Cases, Claim};
-use crate::figures::numbers::{self, StraightLine};
+use crate::figures::shared::numbers::{self, StraightLine};
 
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;

@@ -3,8 +3,8 @@
 use bouncing_disk::core::numerics::elementary::{cos, ln};
 
 use super::data::{Fig13Data, Parameter, Sweep, SweepPoint};
-use crate::figures::numbers::StraightLine;
-pub(super) use crate::figures::numbers::extent;
+use crate::figures::shared::numbers::StraightLine;
+pub(super) use crate::figures::shared::numbers::extent;
 
 pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
     data.sweeps.iter().flat_map(|sweep| &sweep.points)

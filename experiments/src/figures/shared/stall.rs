@@ -9,7 +9,7 @@ use bouncing_disk::motor::{ImpulseTrain, NormalImpulses};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::motor_case::MotorCase;
+use super::motor::MotorCase;
 use crate::experiment::ExperimentError;
 
 /// Duration of a run in rise times ωΦ a_g²/(μ a_e g): a dozen relaxation times of the speed, so that where it starts does not matter.
@@ -160,15 +160,9 @@ mod tests {
     use bouncing_disk::{Engine, Event, InitialCondition, System};
 
     use super::*;
-    use crate::claims::paper;
-    use crate::figures::numbers::Noise;
+    use crate::figures::shared::numbers::Noise;
 
     const PERTURBATION: f64 = 1e-3;
-
-    fn motor() -> MotorCase {
-        let (table, section) = (paper::table_three().expect("reads"), paper::section_five().expect("reads"));
-        MotorCase::default_of(&table, &section)
-    }
 
     /// The mean speed over ωΦ of the event engine against a load, over a few seeded members.
     fn engine_speed(case: &MotorCase, load: f64, rises: f64) -> f64 {
@@ -207,7 +201,7 @@ mod tests {
     /// The engine integrates flights, impacts, chattering and contact with the load; the list of kicks is none of its business.
     #[test]
     fn the_engine_stands_still_on_average_at_the_stall_load_and_turns_with_less_or_more() {
-        let case = motor();
+        let case = MotorCase::table_three().expect("reads");
         let stall = Stall::of(&case, 8, PERTURBATION).expect("no failure");
         let load = stall.load_rad_per_s2.mean;
         let [less, still, more] = [0.8, 1.0, 1.2].map(|share| engine_speed(&case, share * load, 6.0));

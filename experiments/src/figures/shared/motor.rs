@@ -10,8 +10,7 @@ use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
-use crate::claims::paper::{SectionFive, TableThree};
-use crate::claims::{Cases, Claim};
+use crate::claims::{Cases, Claim, paper};
 use crate::experiment::ExperimentError;
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
@@ -51,8 +50,9 @@ pub(crate) struct MotorCase {
 
 impl MotorCase {
     /// The default motor: Table III with its 70 read as ω/2π in kHz, and gravity as the preload.
-    pub(crate) fn default_of(table: &TableThree, section: &SectionFive) -> Self {
-        Self {
+    pub(crate) fn table_three() -> Result<Self, ExperimentError> {
+        let (table, section) = (paper::table_three()?, paper::section_five()?);
+        Ok(Self {
             friction: table.friction,
             restitution: table.restitution,
             phase_lag_rad: table.phase_lag_rad,
@@ -62,7 +62,7 @@ impl MotorCase {
             gyration_radius_m: 1e-3 * table.gyration_radius_mm,
             preload_acceleration_m_per_s2: section.gravity_m_per_s2,
             frequency_hz: section.default_frequency_hz,
-        }
+        })
     }
 
     pub(crate) fn system(&self) -> Result<System, ExperimentError> {
@@ -146,11 +146,6 @@ impl MotorCase {
             bouncing_disk::estimate::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
         Ok(statistics.into())
     }
-}
-
-/// An error of the core as one of this crate.
-pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
-    ExperimentError::model(bouncing_disk::Error::from(error))
 }
 
 /// What `multi_toss` says that the unperturbed motor repeats.
@@ -340,11 +335,7 @@ mod tests {
     /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
     #[test]
     fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
-        use crate::claims::paper;
-        let motor = MotorCase::default_of(
-            &paper::table_three().expect("reads"),
-            &paper::section_five().expect("reads"),
-        );
+        let motor = MotorCase::table_three().expect("reads");
         let at = |amplitude_m, preload_acceleration_m_per_s2| {
             MotorCase { amplitude_m, preload_acceleration_m_per_s2, ..motor }.robust_cycle().expect("runs")
         };
