@@ -127,7 +127,44 @@ impl Experiment for ExtraBranches {
     }
 
     fn draw(data: &ExtraBranchesData) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 300.0;
+        let margins = Margins { left: 46.0, right: 10.0, top: 12.0, bottom: 34.0 };
+        let cell = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 1).margins(margins).cell(0, 0);
+        let dense = |dots: &[Dot], colour| {
+            DensePoints::new(dots.iter().map(|dot| shown(*dot))).colour(colour).radius(0.3)
+        };
+        let mut panel = Panel::new(cell)
+            .x(Axis::linear(RANGE.0, RANGE.1).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
+            .y(Axis::linear(FIRST_PHASE, FIRST_PHASE + 1.0)
+                .label(r"$\tau_{imp}/2\pi$")
+                .ticks(Ticks::every(0.2).minor(4)))
+            .markers_on_top()
+            .layer(dense(&data.from_rest, Colour::LIGHT_GREY))
+            .layer(dense(&data.followed, Colour::GREY));
+        for (index, branch) in data.branches.iter().enumerate() {
+            let colour = if branch.doubled { Colour::BLUE } else { Colour::BLACK };
+            let first = index == 0 || branch.doubled && !data.branches[index - 1].doubled;
+            let solid = Line::new(parts(branch, true)).colour(colour).width(1.5);
+            let named = if branch.doubled { "doubled" } else { "one impact" };
+            panel = panel
+                .layer(Line::new(parts(branch, false)).colour(colour).width(0.7).dash(Dash::Dashed))
+                .layer(if first && index < 3 { solid.name(named) } else { solid });
+        }
+        let marks = [
+            (&data.folds, "fold", Marker::Square),
+            (&data.doublings, "doubling", Marker::Circle),
+            (&data.grazes, "graze", Marker::Cross),
+        ];
+        for (marks, name, marker) in marks {
+            let points = marks.iter().map(|mark| shown(*mark));
+            panel = panel
+                .layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
+        }
+        for k in 1..=MOST_PERIODS {
+            let place = Text::at_data(birth(data.restitution, k) + 0.015, 0.0, format!("$k = {k}$"));
+            panel = panel.layer(place.anchor(Anchor::LeftCentre).size(8.0).halo(Colour::WHITE));
+        }
+        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopRight))))
     }
 }
 
@@ -205,45 +242,4 @@ fn parts(branch: &BranchLine, stable: bool) -> Vec<Dot> {
         }
     }
     points
-}
-
-fn draw(data: &ExtraBranchesData) -> Figure {
-    const HEIGHT: f64 = 300.0;
-    let margins = Margins { left: 46.0, right: 10.0, top: 12.0, bottom: 34.0 };
-    let cell = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 1).margins(margins).cell(0, 0);
-    let dense = |dots: &[Dot], colour| {
-        DensePoints::new(dots.iter().map(|dot| shown(*dot))).colour(colour).radius(0.3)
-    };
-    let mut panel = Panel::new(cell)
-        .x(Axis::linear(RANGE.0, RANGE.1).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
-        .y(Axis::linear(FIRST_PHASE, FIRST_PHASE + 1.0)
-            .label(r"$\tau_{imp}/2\pi$")
-            .ticks(Ticks::every(0.2).minor(4)))
-        .markers_on_top()
-        .layer(dense(&data.from_rest, Colour::LIGHT_GREY))
-        .layer(dense(&data.followed, Colour::GREY));
-    for (index, branch) in data.branches.iter().enumerate() {
-        let colour = if branch.doubled { Colour::BLUE } else { Colour::BLACK };
-        let first = index == 0 || branch.doubled && !data.branches[index - 1].doubled;
-        let solid = Line::new(parts(branch, true)).colour(colour).width(1.5);
-        let named = if branch.doubled { "doubled" } else { "one impact" };
-        panel = panel
-            .layer(Line::new(parts(branch, false)).colour(colour).width(0.7).dash(Dash::Dashed))
-            .layer(if first && index < 3 { solid.name(named) } else { solid });
-    }
-    let marks = [
-        (&data.folds, "fold", Marker::Square),
-        (&data.doublings, "doubling", Marker::Circle),
-        (&data.grazes, "graze", Marker::Cross),
-    ];
-    for (marks, name, marker) in marks {
-        let points = marks.iter().map(|mark| shown(*mark));
-        panel =
-            panel.layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
-    }
-    for k in 1..=MOST_PERIODS {
-        let place = Text::at_data(birth(data.restitution, k) + 0.015, 0.0, format!("$k = {k}$"));
-        panel = panel.layer(place.anchor(Anchor::LeftCentre).size(8.0).halo(Colour::WHITE));
-    }
-    Figure::new(DOUBLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopRight)))
 }

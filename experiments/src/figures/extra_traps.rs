@@ -61,8 +61,6 @@ struct Map {
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct TrappedShare {
     amplitude_m: f64,
-    preloads_m_per_s2: [f64; 2],
-    forcings: [f64; 2],
     motors: usize,
     trapped: usize,
 }
@@ -129,7 +127,41 @@ impl Experiment for ExtraTraps {
     }
 
     fn draw(data: &ExtraTrapsData) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 235.0;
+        let left = Rect::new(40.0, 12.0, 196.0, 188.0);
+        let right = Rect::new(276.0, 12.0, 166.0, 188.0);
+        let key = Rect::new(460.0, 40.0, 24.0, 80.0);
+        let first = f64::from(data.whole_forcings.first().copied().unwrap_or(1));
+        let rows = data.whole_forcings.len();
+        let y = (first - 0.5, first + rows as f64 - 0.5);
+        let columns = data.forcing_fractions.len();
+        let by_fraction = Panel::new(left)
+            .x(Axis::linear(0.0, 1.0).label(r"fraction of $\Gamma$").ticks(Ticks::every(0.2).minor(2)))
+            .y(Axis::linear(y.0, y.1).label(r"integer part of $\Gamma$"))
+            .letter("a")
+            .layer(Raster::new(columns, rows, cells(&data.by_fraction), &palette(), (0.0, 1.0), y))
+            .layer(Rule::vertical(0.5).stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)));
+        let (wide, high) = (data.axial_forcings.len(), data.restitutions.len());
+        let (x, y) = (edges(&data.axial_forcings), edges(&data.restitutions));
+        let by_restitution = Panel::new(right)
+            .x(Axis::linear(x.0, x.1).label(r"$\Gamma$").ticks(Ticks::every(0.5).minor(5)))
+            .y(Axis::linear(y.0, y.1).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(4)))
+            .letter("b")
+            .layer(Raster::new(wide, high, cells(&data.by_restitution), &palette(), x, y))
+            .layer(
+                Rule::horizontal(data.motor.parameters().restitution)
+                    .stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)),
+            );
+        // Below each other, the pale colour on the left.
+        let squares: Vec<u8> = (0..KINDS as u8).rev().flat_map(|kind| [1 + 2 * kind, 2 + 2 * kind]).collect();
+        let ticks = (0..KINDS).map(|kind| ((KINDS - 1 - kind) as f64 + 0.5, NAMES[kind]));
+        let legend = Panel::new(key)
+            .x(Axis::linear(0.0, 2.0).ticks(Ticks::none()))
+            .y(Axis::linear(0.0, KINDS as f64).ticks(Ticks::none()))
+            .right(Axis::linear(0.0, KINDS as f64).ticks(Ticks::at(ticks)))
+            .title("flights")
+            .layer(Raster::new(2, KINDS, squares, &palette(), (0.0, 2.0), (0.0, KINDS as f64)));
+        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT).panels([by_fraction, by_restitution, legend]))
     }
 
     fn parameters(data: &ExtraTrapsData) -> Vec<(String, String)> {
@@ -183,19 +215,15 @@ fn map<T: Sync>(
 /// How many of the preloads of Fig. 11, on a regular grid, are trapped.
 fn shares(motor: &Motor, motors: usize) -> Result<Vec<TrappedShare>, ExperimentError> {
     let section = paper::section_five()?;
-    let ends = paper::preloads()?.preload_accelerations_m_per_s2;
-    let preloads = middles(ends, motors);
+    let preloads = middles(paper::preloads()?.preload_accelerations_m_per_s2, motors);
     section
         .amplitudes_of_fig10_m
         .into_iter()
         .map(|amplitude_m| {
             let motor = motor.with(|sheet| sheet.amplitude = amplitude_m)?;
-            let peak = motor.system().platform().peak_acceleration();
             let trapped = low_period_traps(&motor, &preloads, &Unobserved)?;
             Ok(TrappedShare {
                 amplitude_m,
-                preloads_m_per_s2: ends,
-                forcings: [ends[1], ends[0]].map(|preload| peak / (PI * preload)),
                 motors,
                 trapped: trapped.iter().filter(|verdict| verdict.is_trap).count(),
             })
@@ -218,44 +246,6 @@ fn cells(map: &Map) -> Vec<u8> {
             count => 1 + 2 * ((*count).min(KINDS) - 1) as u8 + u8::from(*is_trap),
         })
         .collect()
-}
-
-fn draw(data: &ExtraTrapsData) -> Figure {
-    const HEIGHT: f64 = 235.0;
-    let left = Rect::new(40.0, 12.0, 196.0, 188.0);
-    let right = Rect::new(276.0, 12.0, 166.0, 188.0);
-    let key = Rect::new(460.0, 40.0, 24.0, 80.0);
-    let first = f64::from(data.whole_forcings.first().copied().unwrap_or(1));
-    let rows = data.whole_forcings.len();
-    let y = (first - 0.5, first + rows as f64 - 0.5);
-    let columns = data.forcing_fractions.len();
-    let by_fraction = Panel::new(left)
-        .x(Axis::linear(0.0, 1.0).label(r"fraction of $\Gamma$").ticks(Ticks::every(0.2).minor(2)))
-        .y(Axis::linear(y.0, y.1).label(r"integer part of $\Gamma$"))
-        .letter("a")
-        .layer(Raster::new(columns, rows, cells(&data.by_fraction), &palette(), (0.0, 1.0), y))
-        .layer(Rule::vertical(0.5).stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)));
-    let (wide, high) = (data.axial_forcings.len(), data.restitutions.len());
-    let (x, y) = (edges(&data.axial_forcings), edges(&data.restitutions));
-    let by_restitution = Panel::new(right)
-        .x(Axis::linear(x.0, x.1).label(r"$\Gamma$").ticks(Ticks::every(0.5).minor(5)))
-        .y(Axis::linear(y.0, y.1).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(4)))
-        .letter("b")
-        .layer(Raster::new(wide, high, cells(&data.by_restitution), &palette(), x, y))
-        .layer(
-            Rule::horizontal(data.motor.parameters().restitution)
-                .stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)),
-        );
-    // Below each other, the pale colour on the left.
-    let squares: Vec<u8> = (0..KINDS as u8).rev().flat_map(|kind| [1 + 2 * kind, 2 + 2 * kind]).collect();
-    let ticks = (0..KINDS).map(|kind| ((KINDS - 1 - kind) as f64 + 0.5, NAMES[kind]));
-    let legend = Panel::new(key)
-        .x(Axis::linear(0.0, 2.0).ticks(Ticks::none()))
-        .y(Axis::linear(0.0, KINDS as f64).ticks(Ticks::none()))
-        .right(Axis::linear(0.0, KINDS as f64).ticks(Ticks::at(ticks)))
-        .title("flights")
-        .layer(Raster::new(2, KINDS, squares, &palette(), (0.0, 2.0), (0.0, KINDS as f64)));
-    Figure::new(DOUBLE_COLUMN, HEIGHT).panels([by_fraction, by_restitution, legend])
 }
 
 /// The outer edges of equal cells with these middles.

@@ -54,11 +54,44 @@ impl Experiment for Fig01 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
-        compute(quality, progress)
+        progress.start(1, "toss");
+        let table_i = crate::claims::paper::table_one()?;
+        let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
+        let system = case.system()?;
+        let scales = system.scales();
+        let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
+        let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
+        let Some(flight) = flight else {
+            let peak_acceleration = system.peak_acceleration();
+            return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
+        };
+        let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
+        let disk = scales.state(&instant.disk);
+        let platform = system.platform();
+        let path = HandPath::new(platform, quality.choose(120, 720))?;
+        progress.advance(1);
+        Ok(Fig01Data {
+            phase_lag_rad: PHASE_LAG,
+            contact_radius_m: case.contact_radius_m,
+            disk_radius_m: SQRT_2 * case.gyration_radius_m,
+            amplitude_m: platform.amplitude(),
+            twist_amplitude_rad: platform.twist_amplitude(),
+            phase_rad: instant.time.phase.angle(),
+            platform_height_m: platform.height(instant.time.phase),
+            platform_angle_rad: platform.angle(instant.time.phase),
+            disk_height_m: disk.height,
+            disk_angle_rad: disk.angle,
+            path,
+            table_i,
+        })
     }
 
     fn draw(data: &Fig01Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let high = HEIGHT - 8.0;
+        Ok(Figure::new(WIDTH, HEIGHT)
+            .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
+            .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
+            .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high))))
     }
 
     fn parameters(data: &Fig01Data) -> Vec<(String, String)> {
@@ -101,39 +134,6 @@ const PHASE_LAG: f64 = -FRAC_PI_4;
 
 /// The instant shown, as a share of the flight.
 const SHARE_OF_FLIGHT: f64 = 0.18;
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
-    progress.start(1, "toss");
-    let table_i = crate::claims::paper::table_one()?;
-    let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
-    let system = case.system()?;
-    let scales = system.scales();
-    let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
-    let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
-    let Some(flight) = flight else {
-        let peak_acceleration = system.peak_acceleration();
-        return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
-    };
-    let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
-    let disk = scales.state(&instant.disk);
-    let platform = system.platform();
-    let path = HandPath::new(platform, quality.choose(120, 720))?;
-    progress.advance(1);
-    Ok(Fig01Data {
-        phase_lag_rad: PHASE_LAG,
-        contact_radius_m: case.contact_radius_m,
-        disk_radius_m: SQRT_2 * case.gyration_radius_m,
-        amplitude_m: platform.amplitude(),
-        twist_amplitude_rad: platform.twist_amplitude(),
-        phase_rad: instant.time.phase.angle(),
-        platform_height_m: platform.height(instant.time.phase),
-        platform_angle_rad: platform.angle(instant.time.phase),
-        disk_height_m: disk.height,
-        disk_angle_rad: disk.angle,
-        path,
-        table_i,
-    })
-}
 
 const WIDTH: f64 = DOUBLE_COLUMN;
 const HEIGHT: f64 = 236.0;
@@ -437,12 +437,4 @@ fn path(data: &Fig01Data, area: Rect) -> Drawing {
         r"$(a_e\beta, s)$",
     );
     letter(drawing, area, "(c)")
-}
-
-fn draw(data: &Fig01Data) -> Figure {
-    let high = HEIGHT - 8.0;
-    Figure::new(WIDTH, HEIGHT)
-        .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
-        .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
-        .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high)))
 }

@@ -52,7 +52,46 @@ impl Experiment for Fig09 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-        compute(progress)
+        progress.start(u64::from(PRELOADS), "preloads");
+        let section = paper::section_five()?;
+        let case = MotorCase::table_three()?;
+        let [lowest, highest] = paper::preloads()?.measured_range_n;
+        let rotor_mass_kg = section.rotor_mass_kg();
+        let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
+        let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
+        let curves = (0..PRELOADS)
+            .map(|k| {
+                let preload = lowest + share(k, PRELOADS) * (highest - lowest);
+                progress.advance(1);
+                curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let printed_mean = paper::value("section5.mean_friction")?;
+        let printed_deviation = paper::value("section5.friction_deviation")?;
+        let mut noise = Noise::new(SEED);
+        let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
+            .map(|k| {
+                let friction = noise.log_normal(printed_mean, printed_deviation);
+                (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
+            })
+            .collect();
+        let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
+        let line = StraightLine::through(&synthetic);
+        Ok(Fig09Data {
+            case,
+            rotor_mass_kg,
+            first_speed_rad_per_s,
+            curves,
+            printed_mean,
+            printed_deviation,
+            synthetic_spread: Spread::of(&frictions)?,
+            synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
+            synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
+            synthetic,
+            measured_decelerations: Vec::new(),
+            measured_frictions: Vec::new(),
+            measured_words: String::new(),
+        })
     }
 
     fn overlay(data: &mut Fig09Data, series: &Series) -> Result<(), ExperimentError> {
@@ -67,7 +106,12 @@ impl Experiment for Fig09 {
     }
 
     fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 200.0;
+        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+        let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
+        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT)
+            .panel(speeds(grid.cell(0, 0), data))
+            .panel(frictions(grid.cell(0, 1), data)))
     }
 
     fn parameters(data: &Fig09Data) -> Vec<(String, String)> {
@@ -143,49 +187,6 @@ const SEED: u64 = 9;
 
 /// Speeds of a curve that the line is fitted to.
 const SAMPLES: usize = 60;
-
-fn compute(progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-    progress.start(u64::from(PRELOADS), "preloads");
-    let section = paper::section_five()?;
-    let case = MotorCase::table_three()?;
-    let [lowest, highest] = paper::preloads()?.measured_range_n;
-    let rotor_mass_kg = section.rotor_mass_kg();
-    let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
-    let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
-    let curves = (0..PRELOADS)
-        .map(|k| {
-            let preload = lowest + share(k, PRELOADS) * (highest - lowest);
-            progress.advance(1);
-            curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let printed_mean = paper::value("section5.mean_friction")?;
-    let printed_deviation = paper::value("section5.friction_deviation")?;
-    let mut noise = Noise::new(SEED);
-    let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
-        .map(|k| {
-            let friction = noise.log_normal(printed_mean, printed_deviation);
-            (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
-        })
-        .collect();
-    let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
-    let line = StraightLine::through(&synthetic);
-    Ok(Fig09Data {
-        case,
-        rotor_mass_kg,
-        first_speed_rad_per_s,
-        curves,
-        printed_mean,
-        printed_deviation,
-        synthetic_spread: Spread::of(&frictions)?,
-        synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
-        synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
-        synthetic,
-        measured_decelerations: Vec::new(),
-        measured_frictions: Vec::new(),
-        measured_words: String::new(),
-    })
-}
 
 /// The rotor on the still stator from `first_speed` to rest.
 fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Result<Curve, ExperimentError> {
@@ -308,15 +309,6 @@ impl Curve {
 
 fn measured(points: impl IntoIterator<Item = (f64, f64)>) -> Scatter {
     Scatter::new(points).marker(Marker::Cross).colour(Colour::GREEN).name("measured")
-}
-
-fn draw(data: &Fig09Data) -> Figure {
-    const HEIGHT: f64 = 200.0;
-    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
-    Figure::new(DOUBLE_COLUMN, HEIGHT)
-        .panel(speeds(grid.cell(0, 0), data))
-        .panel(frictions(grid.cell(0, 1), data))
 }
 
 fn speeds(area: Rect, data: &Fig09Data) -> Panel {

@@ -13,12 +13,10 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
 use self::data::{LAYOUT, read};
-use super::shared::motor::Form;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Fig. 11.
 #[derive(Debug)]
@@ -100,49 +98,5 @@ impl Experiment for Fig11 {
             pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
         ];
         motor.shared_inputs().into_iter().chain(own).collect()
-    }
-
-    fn table(data: &Fig11Data) -> Option<Table> {
-        let mut table = Table::new([
-            "frequency (Hz)",
-            "A (m)",
-            "g (m/s^2)",
-            "preload (mN)",
-            "Gamma",
-            "steady speed (rad/s)",
-            "its standard deviation (rad/s)",
-            "stall acceleration (rad/s^2)",
-            "its standard deviation (rad/s^2)",
-            "read from",
-            "members without fit",
-            "S(0)",
-            "low-period cycle",
-        ]);
-        for curve in &data.curves {
-            for point in &curve.points {
-                let statistics = &point.statistics;
-                let stall = statistics.stall_acceleration_rad_per_s2;
-                table.push([
-                    curve.frequency_hz.into(),
-                    curve.amplitude_m.into(),
-                    point.preload_acceleration_m_per_s2.into(),
-                    point.preload_mn.into(),
-                    point.axial_forcing.into(),
-                    statistics.steady_speed_rad_per_s.mean.into(),
-                    statistics.steady_speed_rad_per_s.deviation.into(),
-                    stall.map(|spread| spread.mean).into(),
-                    stall.map(|spread| spread.deviation).into(),
-                    match statistics.form {
-                        Form::Exponential => "exponential",
-                        Form::Ramp => "ramp",
-                    }
-                    .into(),
-                    Cell::Integer(statistics.unfitted as i64),
-                    point.net_share_at_rest.into(),
-                    if statistics.is_low_period() { "low period".into() } else { Cell::Empty },
-                ]);
-            }
-        }
-        Some(table)
     }
 }

@@ -56,7 +56,14 @@ impl Experiment for Fig12 {
     }
 
     fn claims(data: &Fig12Data) -> Vec<Claim> {
-        claims(data)
+        vec![
+            case(data, 0, "section5.long_period_case"),
+            case(data, 1, "section5.low_period_case"),
+            exponential(data),
+            linear(data),
+            abrupt(data),
+            lines(data),
+        ]
     }
 
     fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
@@ -80,17 +87,6 @@ const ENOUGH: usize = 20;
 
 fn is_low(motor: &AlikeMotor, most: usize) -> bool {
     motor.cycle.chattering_flights().is_some_and(|flights| flights <= most)
-}
-
-fn claims(data: &Fig12Data) -> Vec<Claim> {
-    vec![
-        case(data, 0, "section5.long_period_case"),
-        case(data, 1, "section5.low_period_case"),
-        exponential(data),
-        linear(data),
-        abrupt(data),
-        lines(data),
-    ]
 }
 
 /// That the orbits of a case are of long period (the first), or of low period.
@@ -127,7 +123,7 @@ fn exponential(data: &Fig12Data) -> Claim {
         format!(
             "whether the exponential fits better than a linear rise to a constant, for the orbits of long period. Of the \
              motor drawn the root mean square deviation from the exponential is {:.3} rad/s, from the other {:.3} rad/s",
-            fits.exponential_residual_rad_per_s, fits.ramp_residual_rad_per_s
+            fits.exponential.residual, fits.ramp_residual_rad_per_s
         ),
     )
     .by_definition(&under_definitions(data, 0, AlikeMotor::is_exponential))

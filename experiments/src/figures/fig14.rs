@@ -50,7 +50,42 @@ impl Experiment for Fig14 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-        compute(progress)
+        progress.start(1, "records");
+        let printed = paper::dough_growth()?;
+        let duration_s = printed.growth / printed.fit_slope_per_s;
+        let [first, last] = printed.tosses.map(|toss| toss as u32);
+        let tosses_between = last - first;
+        let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
+        let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
+        progress.advance(1);
+        let toss = TossCase::from(&paper::table_one()?);
+        let larger = 1.0 + printed.growth / f64::from(tosses_between);
+        Ok(Fig14Data {
+            start_s: printed.fit_start_s,
+            slope_per_s: printed.fit_slope_per_s,
+            growth: printed.growth,
+            duration_s,
+            tosses_between,
+            growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
+            growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
+            toss_start_s: (0..=tosses_between)
+                .map(|k| {
+                    let share = f64::from(k) / f64::from(tosses_between);
+                    (first + k, printed.fit_start_s + share * duration_s)
+                })
+                .collect(),
+            synthetic,
+            synthetic_slope_per_s: slope,
+            synthetic_slope_error_per_s: error,
+            airborne_speed_change_rad_per_s: TossCase {
+                gyration_radius_m: larger * toss.gyration_radius_m,
+                ..toss
+            }
+            .airborne_speed()?
+                - toss.airborne_speed()?,
+            flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
+            measured: None,
+        })
     }
 
     fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
@@ -59,7 +94,42 @@ impl Experiment for Fig14 {
     }
 
     fn draw(data: &Fig14Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 190.0;
+        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+        let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
+        let end = data.start_s + data.duration_s;
+        let ends = (data.start_s - 0.4, end + 0.4);
+        let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
+        let scale = data.synthetic_slope_per_s;
+        let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
+        let mut panel = Panel::new(grid.cell(0, 0))
+            .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
+            .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
+            .layer(
+                Scatter::new(data.synthetic.iter().copied())
+                    .size(1.6)
+                    .colour(Colour::GREY)
+                    .name("synthetic, not measured"),
+            )
+            .layer(Line::new(straight).name("printed line"))
+            .layer(
+                Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"),
+            );
+        for (toss, start) in &data.toss_start_s {
+            let at = data.on_line(*start);
+            panel = panel
+                .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
+                .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
+        }
+        if let Some(own) = &data.measured {
+            let points = || own.time_s.iter().copied().zip(own.relative_diameter.iter().copied());
+            let ends = [points().next(), points().last()].into_iter().flatten();
+            let line = ends.map(|(time, _)| (time, 1.0 + own.slope_per_s * (time - own.time_s[0])));
+            panel = panel
+                .layer(Scatter::new(points()).marker(Marker::Cross).colour(Colour::GREEN).name("measured"))
+                .layer(Line::new(line).colour(Colour::GREEN).dash(Dash::Dashed).name("its fit"));
+        }
+        Ok(Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft))))
     }
 
     fn claims(data: &Fig14Data) -> Vec<Claim> {
@@ -120,45 +190,6 @@ impl Fig14Data {
 const FRAMES_PER_S: f64 = 25.0;
 const SCATTER: f64 = 0.012;
 const SEED: u64 = 14;
-
-fn compute(progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-    progress.start(1, "records");
-    let printed = paper::dough_growth()?;
-    let duration_s = printed.growth / printed.fit_slope_per_s;
-    let [first, last] = printed.tosses.map(|toss| toss as u32);
-    let tosses_between = last - first;
-    let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
-    let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
-    progress.advance(1);
-    let toss = TossCase::from(&paper::table_one()?);
-    let larger = 1.0 + printed.growth / f64::from(tosses_between);
-    Ok(Fig14Data {
-        start_s: printed.fit_start_s,
-        slope_per_s: printed.fit_slope_per_s,
-        growth: printed.growth,
-        duration_s,
-        tosses_between,
-        growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
-        growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
-        toss_start_s: (0..=tosses_between)
-            .map(|k| {
-                let share = f64::from(k) / f64::from(tosses_between);
-                (first + k, printed.fit_start_s + share * duration_s)
-            })
-            .collect(),
-        synthetic,
-        synthetic_slope_per_s: slope,
-        synthetic_slope_error_per_s: error,
-        airborne_speed_change_rad_per_s: TossCase {
-            gyration_radius_m: larger * toss.gyration_radius_m,
-            ..toss
-        }
-        .airborne_speed()?
-            - toss.airborne_speed()?,
-        flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
-        measured: None,
-    })
-}
 
 /// A synthetic record, and the slope of the line through it over its value at the start, with its standard
 /// error.
@@ -232,43 +263,6 @@ impl Growth {
             self.time_s.len()
         )
     }
-}
-
-fn draw(data: &Fig14Data) -> Figure {
-    const HEIGHT: f64 = 190.0;
-    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-    let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
-    let end = data.start_s + data.duration_s;
-    let ends = (data.start_s - 0.4, end + 0.4);
-    let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
-    let scale = data.synthetic_slope_per_s;
-    let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
-    let mut panel = Panel::new(grid.cell(0, 0))
-        .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
-        .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
-        .layer(
-            Scatter::new(data.synthetic.iter().copied())
-                .size(1.6)
-                .colour(Colour::GREY)
-                .name("synthetic, not measured"),
-        )
-        .layer(Line::new(straight).name("printed line"))
-        .layer(Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"));
-    for (toss, start) in &data.toss_start_s {
-        let at = data.on_line(*start);
-        panel = panel
-            .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
-            .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
-    }
-    if let Some(own) = &data.measured {
-        let points = || own.time_s.iter().copied().zip(own.relative_diameter.iter().copied());
-        let ends = [points().next(), points().last()].into_iter().flatten();
-        let line = ends.map(|(time, _)| (time, 1.0 + own.slope_per_s * (time - own.time_s[0])));
-        panel = panel
-            .layer(Scatter::new(points()).marker(Marker::Cross).colour(Colour::GREEN).name("measured"))
-            .layer(Line::new(line).colour(Colour::GREEN).dash(Dash::Dashed).name("its fit"));
-    }
-    Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft)))
 }
 
 #[cfg(test)]

@@ -47,15 +47,87 @@ impl Experiment for Table1 {
     }
 
     fn compute(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
-        compute()
+        let table_i = paper::table_one()?;
+        let section = paper::section_three()?;
+        let slip_slope_deg = slip_slope()?;
+        let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
+        let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
+        let separation = at_separation(&table_i, &section, uncorrected)?;
+        let rows = rows(&table_i, &computed_entries, &separation)?;
+        let case = TossCase::from(&table_i);
+        let system = case.system()?;
+        let platform = system.platform();
+        Ok(Table1Data {
+            arc: arc(&case, platform)?,
+            alike: alike(slip_slope_deg.uncertainty)?,
+            table_i,
+            section,
+            slip_slope_deg,
+            rows,
+            computed_entries,
+            separation,
+        })
     }
 
     fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let header = ["", "printed", "computed", "from"].map(Label::new);
+        let rows: Vec<Vec<Label>> = data
+            .rows
+            .iter()
+            .map(|row| {
+                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                let digits = row.decimals;
+                let uncertainty = row
+                    .uncertainty
+                    .as_ref()
+                    .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
+                let computed = row
+                    .computed
+                    .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
+                let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
+                vec![
+                    Label::new(&row.label),
+                    Label::plain(&printed),
+                    Label::plain(&computed),
+                    Label::new(&row.origin),
+                ]
+            })
+            .collect();
+        Ok(ruled_table(&header, &rows))
     }
 
     fn claims(data: &Table1Data) -> Vec<Claim> {
-        claims(data)
+        let entries = &data.computed_entries;
+        let arc = &data.arc;
+        let (frequency, angle, friction) =
+            ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
+        vec![
+            over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
+            combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
+                .note("the effects of a_e and the launch speeds"),
+            over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
+            combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
+                .note("the effects of c, a_e and the launch speeds"),
+            over_alike(friction, entries.friction.value, data.alike.friction)
+                .note(format!("tan({}°)", data.slip_slope_deg.value)),
+            over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
+                .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
+            Claim::printed_statement(
+                "section3.arc_length",
+                (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
+                format!(
+                    "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
+                     sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
+                     c is half of the arc",
+                    arc.length_m,
+                    arc.length_m / arc.half_m,
+                    arc.half_m,
+                    arc.per_period_m
+                ),
+            )
+            .cause("half of the arc called the arc"),
+            launch_without_slip(data),
+        ]
     }
 
     fn parameters(data: &Table1Data) -> Vec<(String, String)> {
@@ -176,28 +248,6 @@ struct AtSeparation {
 
 /// Pieces of a period of the hand's path; its ends are among their ends.
 const PIECES: u32 = 400;
-fn compute() -> Result<Table1Data, ExperimentError> {
-    let table_i = paper::table_one()?;
-    let section = paper::section_three()?;
-    let slip_slope_deg = slip_slope()?;
-    let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
-    let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
-    let separation = at_separation(&table_i, &section, uncorrected)?;
-    let rows = rows(&table_i, &computed_entries, &separation)?;
-    let case = TossCase::from(&table_i);
-    let system = case.system()?;
-    let platform = system.platform();
-    Ok(Table1Data {
-        arc: arc(&case, platform)?,
-        alike: alike(slip_slope_deg.uncertainty)?,
-        table_i,
-        section,
-        slip_slope_deg,
-        rows,
-        computed_entries,
-        separation,
-    })
-}
 
 fn slip_slope() -> Result<Uncertain, ExperimentError> {
     let key = "section3.slip_slope";
@@ -431,71 +481,10 @@ fn following(symbol: &str, label: &str, unit: &str, decimals: usize, origin: &st
     }
 }
 
-fn draw(data: &Table1Data) -> Figure {
-    let header = ["", "printed", "computed", "from"].map(Label::new);
-    let rows: Vec<Vec<Label>> = data
-        .rows
-        .iter()
-        .map(|row| {
-            let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-            let digits = row.decimals;
-            let uncertainty = row
-                .uncertainty
-                .as_ref()
-                .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
-            let computed = row
-                .computed
-                .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
-            let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
-            vec![
-                Label::new(&row.label),
-                Label::plain(&printed),
-                Label::plain(&computed),
-                Label::new(&row.origin),
-            ]
-        })
-        .collect();
-    ruled_table(&header, &rows)
-}
-
 /// Two speeds that are the same differ by no more than this share: rounding.
 const ROUNDING: f64 = 1e-14;
 /// A length along a polygon of hundreds of points of a straight line adds as many roundings.
 const LENGTH: f64 = 1e-12;
-
-fn claims(data: &Table1Data) -> Vec<Claim> {
-    let entries = &data.computed_entries;
-    let arc = &data.arc;
-    let (frequency, angle, friction) =
-        ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
-    vec![
-        over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
-        combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
-            .note("the effects of a_e and the launch speeds"),
-        over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
-        combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
-            .note("the effects of c, a_e and the launch speeds"),
-        over_alike(friction, entries.friction.value, data.alike.friction)
-            .note(format!("tan({}°)", data.slip_slope_deg.value)),
-        over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
-            .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
-        Claim::printed_statement(
-            "section3.arc_length",
-            (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
-            format!(
-                "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
-                 sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
-                 c is half of the arc",
-                arc.length_m,
-                arc.length_m / arc.half_m,
-                arc.half_m,
-                arc.per_period_m
-            ),
-        )
-        .cause("half of the arc called the arc"),
-        launch_without_slip(data),
-    ]
-}
 
 /// A printed uncertainty that several inputs share in: the paper does not say how their effects add up.
 fn combined(key: &str, computed: &Propagated) -> Claim {

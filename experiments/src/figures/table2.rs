@@ -36,15 +36,76 @@ impl Experiment for Table2 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-        compute(progress)
+        let table_i = paper::table_one()?;
+        let printed = paper::table_two()?;
+        let section = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        let inputs = inputs(&table_i, &printed);
+        progress.start(inputs.len() as u64, "inputs");
+        let mut effects = Vec::new();
+        for input in &inputs {
+            effects.push(effect(&table, input)?);
+            progress.advance(1);
+        }
+        Ok(Table2Data {
+            airborne_speed_rad_per_s: table.airborne_speed()?,
+            combined: combined(&effects),
+            uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
+            effects,
+            table_i,
+            section,
+        })
     }
 
     fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let header = [
+            "input",
+            "value",
+            r"effect on $\dot{\alpha}_f$ (rad/s)",
+            "at the upper end",
+            "at the lower end",
+            "printed",
+        ]
+        .map(Label::new);
+        let mut rows: Vec<Vec<Label>> = Vec::new();
+        for effect in &data.effects {
+            // As many decimals as the printed entry, and one or two more.
+            let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
+            let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
+            rows.push(vec![
+                Label::new(&effect.label),
+                Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
+                Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
+                Label::plain(&signed(effect.upper_rad_per_s, decimals)),
+                Label::plain(&signed(effect.lower_rad_per_s, decimals)),
+                Label::plain(&format!("± {}", effect.printed_rad_per_s)),
+            ]);
+        }
+        rows.push(vec![
+            Label::new(r"$\dot{\alpha}_f$"),
+            Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
+            Label::plain(&format!(
+                "± {:.2} (root sum of squares)",
+                data.combined.root_sum_of_squares_rad_per_s
+            )),
+            Label::plain(""),
+            Label::plain(""),
+            Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
+        ]);
+        Ok(ruled_table(&header, &rows))
     }
 
     fn claims(data: &Table2Data) -> Vec<Claim> {
-        claims(data)
+        let mut claims = Vec::new();
+        for effect in &data.effects {
+            let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
+            claims.push(claim.note(format!(
+                "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
+                effect.upper_rad_per_s, effect.lower_rad_per_s
+            )));
+        }
+        claims.push(together(data));
+        claims
     }
 
     fn parameters(data: &Table2Data) -> Vec<(String, String)> {
@@ -272,78 +333,8 @@ fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<f64, E
     Ok(Propagated::of(inputs, airborne_speed)?.root_sum_of_squares)
 }
 
-fn compute(progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-    let table_i = paper::table_one()?;
-    let printed = paper::table_two()?;
-    let section = paper::section_three()?;
-    let table = TossCase::from(&table_i);
-    let inputs = inputs(&table_i, &printed);
-    progress.start(inputs.len() as u64, "inputs");
-    let mut effects = Vec::new();
-    for input in &inputs {
-        effects.push(effect(&table, input)?);
-        progress.advance(1);
-    }
-    Ok(Table2Data {
-        airborne_speed_rad_per_s: table.airborne_speed()?,
-        combined: combined(&effects),
-        uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
-        effects,
-        table_i,
-        section,
-    })
-}
-
-fn draw(data: &Table2Data) -> Figure {
-    let header = [
-        "input",
-        "value",
-        r"effect on $\dot{\alpha}_f$ (rad/s)",
-        "at the upper end",
-        "at the lower end",
-        "printed",
-    ]
-    .map(Label::new);
-    let mut rows: Vec<Vec<Label>> = Vec::new();
-    for effect in &data.effects {
-        // As many decimals as the printed entry, and one or two more.
-        let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
-        let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
-        rows.push(vec![
-            Label::new(&effect.label),
-            Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
-            Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
-            Label::plain(&signed(effect.upper_rad_per_s, decimals)),
-            Label::plain(&signed(effect.lower_rad_per_s, decimals)),
-            Label::plain(&format!("± {}", effect.printed_rad_per_s)),
-        ]);
-    }
-    rows.push(vec![
-        Label::new(r"$\dot{\alpha}_f$"),
-        Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
-        Label::plain(&format!("± {:.2} (root sum of squares)", data.combined.root_sum_of_squares_rad_per_s)),
-        Label::plain(""),
-        Label::plain(""),
-        Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
-    ]);
-    ruled_table(&header, &rows)
-}
-
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
-}
-
-fn claims(data: &Table2Data) -> Vec<Claim> {
-    let mut claims = Vec::new();
-    for effect in &data.effects {
-        let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
-        claims.push(claim.note(format!(
-            "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
-            effect.upper_rad_per_s, effect.lower_rad_per_s
-        )));
-    }
-    claims.push(together(data));
-    claims
 }
 
 /// The uncertainty of all inputs together by the usual rule, and by what else may be meant: the paper does not say.

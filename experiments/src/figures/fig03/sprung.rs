@@ -38,8 +38,7 @@ pub(super) struct SprungMotor {
     pub(super) travel_m: f64,
     /// The static deflection for which the preload changes by the share, from end to end of the travel.
     pub(super) deflection_for_share_m: f64,
-    /// The first flight of a rotor at rest.
-    pub(super) flight_cycles: f64,
+    /// By the spring, the first flight of a rotor at rest.
     pub(super) springs: Vec<SprungFlight>,
 }
 
@@ -197,7 +196,6 @@ fn motor(case: &MotorCase, events: usize) -> Result<SprungMotor, ExperimentError
         events,
         travel_m: travel * length,
         deflection_for_share_m: travel * length / SHARE,
-        flight_cycles: constant.duration / std::f64::consts::TAU,
         springs,
     })
 }

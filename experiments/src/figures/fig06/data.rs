@@ -133,8 +133,6 @@ pub(super) struct Dimension {
     pub(super) outcomes: usize,
     /// Rank of the matrix of derivatives.
     pub(super) rank: usize,
-    /// Its pivots relative to the first, rounded to 1e-6: those of dependent inputs are 0.
-    pub(super) pivots: Vec<f64>,
 }
 
 /// Γ_T beside the torques.
@@ -187,8 +185,6 @@ pub(super) struct Explored {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Shadow {
     pub(super) axial_forcing: f64,
-    /// Orbits that stayed long enough to show the saddle.
-    pub(super) stayed: usize,
     /// Share of the impacts within a hundredth or two of the saddle, in periods and in |w_A Γ/(ωA)|.
     pub(super) share_near: f64,
     /// Share of the plane, up to the largest speed just after the crisis, that is so near.
@@ -204,9 +200,7 @@ pub(super) struct BestLag {
     pub(super) followed: bool,
     /// Impacts in one round of it, if it is periodic.
     pub(super) period: Option<usize>,
-    /// The best lag tried (rad).
-    pub(super) lag_rad: f64,
-    /// Mean speed/(ωΦ) there.
+    /// Mean speed/(ωΦ) at the best lag tried.
     pub(super) speed: f64,
 }
 

@@ -106,12 +106,10 @@ pub(super) fn dimension() -> Result<Dimension, ExperimentError> {
         })
         .collect::<Result<Vec<Vec<f64>>, ExperimentError>>()?;
     let outcomes = rows.first().map_or(0, Vec::len);
-    let pivots = pivots(&rows);
     Ok(Dimension {
         parameters: NAMES.map(str::to_owned).to_vec(),
         outcomes,
-        rank: pivots.iter().filter(|pivot| **pivot > 0.0).count(),
-        pivots,
+        rank: pivots(&rows).into_iter().filter(|pivot| *pivot > 0.0).count(),
     })
 }
 

@@ -96,12 +96,8 @@ fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, E
     orbit_diagram(orbits, 0, impacts, &Unobserved).map_err(ExperimentError::model)
 }
 
-/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while, and how many of them did.
-fn saddle(
-    axial_forcing: f64,
-    from: &[ImpactState],
-    inputs: Inputs,
-) -> Result<(Cells, usize), ExperimentError> {
+/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while.
+fn saddle(axial_forcing: f64, from: &[ImpactState], inputs: Inputs) -> Result<Cells, ExperimentError> {
     let map = map(axial_forcing, inputs.restitution)?;
     let orbits: Vec<Orbit> = from
         .iter()
@@ -116,7 +112,7 @@ fn saddle(
         .map(|(orbit, _)| orbit)
         .collect();
     let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS, &Unobserved)?;
-    Ok((Cells::of(&states.concat(), CELLS), stay.len()))
+    Ok(Cells::of(&states.concat(), CELLS))
 }
 
 /// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ.
@@ -139,11 +135,10 @@ pub(super) fn explored(
     let after = visited(after, &beside[1]);
     let beyond = cycles.iter().filter(|(forcing, cycle)| *forcing > crisis && cycle.is_some());
     let shadow = |&(axial_forcing, _): &(f64, Option<usize>)| {
-        let (saddle, stayed) = saddle(axial_forcing, &beside[0], inputs)?;
+        let saddle = saddle(axial_forcing, &beside[0], inputs)?;
         let states = recorded(&[orbit_from_rest(axial_forcing, inputs)?], SHADOWING)?;
         Ok(Shadow {
             axial_forcing,
-            stayed,
             share_near: saddle.share(&states[0]),
             share_of_plane: saddle.share_of_plane(after.largest_speed),
         })
@@ -223,7 +218,6 @@ pub(super) fn best_lags(
                 angular_forcing,
                 followed: state.is_some(),
                 period: None,
-                lag_rad: 0.0,
                 speed: f64::NEG_INFINITY,
             };
             for step in LAGS_DEG {
@@ -242,7 +236,7 @@ pub(super) fn best_lags(
                         OrbitClass::Periodic { period, .. } => Some(period),
                         _ => None,
                     };
-                    best = BestLag { lag_rad: phase_lag, speed, period, ..best };
+                    best = BestLag { speed, period, ..best };
                 }
             }
             Ok(best)
@@ -297,7 +291,6 @@ pub(super) fn one_impact_decides(
                 angular_forcing: LARGE_ANGULAR_FORCING,
                 followed: false,
                 period: None,
-                lag_rad: -phase,
                 speed: orbit.mean_angular_speed.unwrap_or_default() / angular_speed,
             }))
         })

@@ -6,14 +6,15 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::acos;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase, Vibration};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
 
 use super::data::{Coexisting, EndOfBouncing};
 use crate::claims::Cases;
 use crate::claims::catalogue;
 use crate::experiment::ExperimentError;
 use crate::figures::shared::alike::DRAWN;
-use crate::figures::shared::motor::{MotorCase, core_error};
+use crate::figures::shared::map;
+use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::Noise;
 
 /// Seed of the rotors.
@@ -28,15 +29,12 @@ impl EndOfBouncing {
         let printed = catalogue::number("table3.restitution", 0)?;
         let restitutions = [printed.value - printed.half_unit, printed.value + printed.half_unit];
         let mut noise = Noise::new(SEED);
-        let mut most_impacts = 0;
         let mut rested = Vec::with_capacity(DRAWN);
         for _ in 0..DRAWN {
             let restitution = restitutions[0] + (restitutions[1] - restitutions[0]) * noise.even();
             let map = map(FRAC_1_PI * noise.even(), restitution)?;
             let (phase, speed) = (TAU * noise.even(), largest_launch_speed * noise.even());
-            let impacts = impacts_to_rest(&map, phase, speed)?;
-            most_impacts = most_impacts.max(impacts.unwrap_or(0));
-            rested.push(impacts.is_some());
+            rested.push(comes_to_rest(&map, phase, speed)?);
         }
         let restitution = restitutions[1];
         let birth = (1.0 - restitution) / (1.0 + restitution);
@@ -48,40 +46,31 @@ impl EndOfBouncing {
         let mut bounces = true;
         // A basin and no point: so do those that are launched a little differently.
         for share in [0.99, 1.0, 1.01] {
-            bounces &= impacts_to_rest(&map, phase, share * speed)?.is_none();
+            bounces &= !comes_to_rest(&map, phase, share * speed)?;
         }
         Ok(Self {
-            seed: SEED,
             restitutions,
-            largest_launch_speed,
             at_rest: Cases::of(rested),
-            most_impacts,
             threshold_restitution: (PI - 1.0) / (PI + 1.0),
             coexisting: Coexisting { restitution, axial_forcing, impacts: MOST_IMPACTS, bounces },
         })
     }
 }
 
-fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(axial_forcing).map_err(core_error)?;
-    ImpactMap::new(vibration, restitution).map_err(core_error)
-}
-
-/// The impacts until the rotor is at rest for good; `None` if it is not after [`MOST_IMPACTS`].
-fn impacts_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<Option<usize>, ExperimentError> {
-    let phase = Phase::new(phase).map_err(core_error)?;
-    let mut orbit =
-        map.orbit_from_launch(Launch::new(phase, speed).map_err(core_error)?, ChatterPolicy::Complete);
+/// Whether the rotor is at rest for good within [`MOST_IMPACTS`].
+fn comes_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<bool, ExperimentError> {
+    let launch = Launch::new(Phase::new(phase)?, speed)?;
+    let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
     let mut impacts = 0;
     while impacts < MOST_IMPACTS {
-        match orbit.advance().map_err(core_error)? {
+        match orbit.advance()? {
             Some(OrbitEvent::Impact(_)) => impacts += 1,
-            Some(OrbitEvent::Attachment(rest)) if rest.separation.is_none() => return Ok(Some(impacts)),
+            Some(OrbitEvent::Attachment(rest)) if rest.separation.is_none() => return Ok(true),
             Some(_) => {}
-            None => return Ok(Some(impacts)),
+            None => return Ok(true),
         }
     }
-    Ok(None)
+    Ok(false)
 }
 
 #[cfg(test)]
@@ -95,7 +84,7 @@ mod tests {
             let phase = if forcing > birth { acos(birth / forcing) } else { 0.0 };
             let speed = TAU * restitution / (1.0 + restitution);
             let map = map(forcing, restitution).expect("legal");
-            impacts_to_rest(&map, phase, speed).expect("no failure").is_none()
+            !comes_to_rest(&map, phase, speed).expect("no failure")
         };
         assert!(!bouncing(0.28, 0.55) && bouncing(0.30, 0.55));
         assert!(!bouncing(0.31, 0.5), "the orbit of ε = 0.5 begins at Γ = 1/3");

@@ -120,9 +120,8 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
-    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration of single orbits over preload.
+    /// The middle steady speed of all motors inside.
     pub(super) median_speed_rad_per_s: f64,
-    pub(super) single_stall_per_preload_rad_per_s2_mn: f64,
     /// How many single orbits inside have a speed, a torque or both on the trend. One without a stall torque is off it.
     pub(super) speed: Cases,
     pub(super) torque: Cases,
@@ -159,15 +158,10 @@ pub(super) struct Holes {
 /// What bouncing rotors do at Γ < 1/π.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct EndOfBouncing {
-    pub(super) seed: u64,
     /// What still prints as the ε of Table III.
     pub(super) restitutions: [f64; 2],
-    /// The largest launch speed (g/ω): A ω²/g of the default motor.
-    pub(super) largest_launch_speed: f64,
     /// How many come to rest for good.
     pub(super) at_rest: Cases,
-    /// The most impacts that one of these needed.
-    pub(super) most_impacts: usize,
     /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
     pub(super) threshold_restitution: f64,
     pub(super) coexisting: Coexisting,

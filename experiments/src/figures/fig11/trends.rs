@@ -50,7 +50,6 @@ impl Trend {
             frequency_hz: curve.frequency_hz,
             amplitude_m: curve.amplitude_m,
             median_speed_rad_per_s: median_speed,
-            single_stall_per_preload_rad_per_s2_mn: single_stall_per_preload,
             speed: Cases::of(inside.iter().map(|point| speed_holds(point))),
             torque: Cases::of(inside.iter().map(|point| torque_holds(point))),
             both: Cases::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
@@ -134,7 +133,7 @@ mod tests {
     use bouncing_disk::toss::ChatteringCycle;
 
     use super::*;
-    use crate::figures::shared::motor::{Cycle, Form, MotorStatistics};
+    use crate::figures::shared::motor::{Cycle, MotorStatistics};
 
     fn point(preload_mn: f64, speed: f64, stall: Option<f64>, long_flights: usize) -> Point {
         let spread = |mean: f64| Spread { mean, deviation: 0.0, standard_error: 0.0 };
@@ -145,8 +144,6 @@ mod tests {
             statistics: MotorStatistics {
                 steady_speed_rad_per_s: spread(speed),
                 stall_acceleration_rad_per_s2: stall.map(spread),
-                form: Form::Exponential,
-                unfitted: 0,
                 cycle: Cycle::Chattering(ChatteringCycle { impacts: 9, platform_periods: 11, long_flights }),
                 locked: true,
             },

@@ -1,7 +1,7 @@
 //! The computation of Fig. 13.
 
 use bouncing_disk::core::Unobserved;
-use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::estimate::ExponentialFit;
@@ -67,7 +67,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
                 predicted_stall_acceleration_rad_per_s2,
                 mean_impact_speed_m_per_s,
                 mean_impact_interval_s: system.scales().time * impulses.duration / count,
-                impulse_share_near_zero: impulses.share_near_zero(FRAC_PI_4),
             });
             progress.advance(1);
         }
@@ -79,14 +78,11 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
             let case = MotorCase { restitution, ..motor };
             let map = *case.system()?.dimensionless().map();
             let impulses = NormalImpulses::of(&map, 5 * impacts, BREAKING_PERTURBATION)?;
-            let contact: f64 = impulses.contact.iter().map(|one| one.impulse).sum();
             Ok(ImpulsePhases {
                 restitution,
                 shares: impulses.histogram(PARTS),
-                share_near_zero: impulses.share_near_zero(FRAC_PI_4),
                 impulse: impulses.concentration(),
                 collisions: impulses.concentration_of_collisions(),
-                contact_share: contact / impulses.total(),
             })
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
@@ -187,9 +183,6 @@ fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
             .map(|(&restitution, motors)| prevalence(restitution, motors, &rises))
             .collect(),
         draws: (0..count).map(|index| draw(&restitutions, &sweeps, index)).collect(),
-        frictions: frictions.to_vec(),
-        phase_lags_rad: phase_lags,
-        peak_angular_speeds_rad_per_s: peak_angular_speeds.to_vec(),
     })
 }
 
@@ -277,8 +270,6 @@ fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
         StraightLine::through(&points)
     };
     let range = restitutions.last().zip(restitutions.first()).map_or(0.0, |(last, first)| last - first);
-    let largest =
-        |of: fn(&AlikeMotor) -> Option<f64>| motors().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
     let ratio = |motor: &AlikeMotor| Some(speed_ratio(motor));
     let over_limit = |motor: &AlikeMotor| motor.stall_over_limit;
     // The middle amplitude is the printed one.
@@ -286,19 +277,15 @@ fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
     let default = (speed(printed.0, printed.1), stall(printed.0, printed.1));
     let sensitivities: Vec<Sensitivity> =
         sweeps.iter().map(|sweep| sweep.sensitivity(index, default)).collect();
-    let exponents = sensitivities[3];
     Draw {
         speed_ratio_slope: line(ratio).map(|line| line.slope),
         stall_over_limit_slope: line(over_limit).map(|line| line.slope),
         stall_over_limit_rise: line(over_limit).map(|line| line.slope * range / line.intercept),
-        largest_stall_over_limit: largest(over_limit),
-        largest_speed_ratio: largest(ratio),
+        largest_speed_ratio: motors().map(speed_ratio).fold(f64::NEG_INFINITY, f64::max),
         share_of_exponential: motors().filter(|motor| motor.is_exponential()).count() as f64
             / restitutions.len() as f64,
         speed_cosine: cosine_fit(&by_lag.read(index, speed)).map(|fit| fit.1),
         stall_cosine: cosine_fit(&by_lag.read(index, stall)).map(|fit| fit.1),
-        speed_amplitude_exponent: exponents.speed_exponent,
-        stall_amplitude_exponent: exponents.stall_exponent,
         sensitivities,
     }
 }

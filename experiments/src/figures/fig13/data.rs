@@ -103,8 +103,6 @@ pub(super) struct SweepPoint {
     /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
-    /// Share of the normal impulse within π/4 of τ = 0.
-    pub(super) impulse_share_near_zero: f64,
     /// Means over the impacts that are not summed.
     pub(super) mean_impact_speed_m_per_s: f64,
     pub(super) mean_impact_interval_s: f64,
@@ -126,12 +124,9 @@ pub(super) struct ImpulsePhases {
     pub(super) restitution: f64,
     /// Shares in equal parts of the cycle from τ = −π to π.
     pub(super) shares: Vec<f64>,
-    pub(super) share_near_zero: f64,
     /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more than half a period.
     pub(super) impulse: Option<Concentration>,
     pub(super) collisions: Option<Concentration>,
-    /// Share that comes in contact and in summed chattering.
-    pub(super) contact_share: f64,
 }
 
 /// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at each. Nothing perturbs
@@ -142,10 +137,6 @@ pub(super) struct AlikeMotors {
     pub(super) inputs: String,
     /// Motors drawn.
     pub(super) drawn: usize,
-    /// The values of μ, θ and ωΦ that each of them is given, too.
-    pub(super) frictions: Vec<f64>,
-    pub(super) phase_lags_rad: Vec<f64>,
-    pub(super) peak_angular_speeds_rad_per_s: Vec<f64>,
     /// What most of them do with other values of each parameter, in the order of the panels.
     pub(super) ranges: Vec<AlikeRange>,
     /// By rising ε.
@@ -186,8 +177,6 @@ pub(super) struct Draw {
     pub(super) stall_over_limit_slope: Option<f64>,
     /// What the second of these lines rises by over the range of ε, over its value at the first ε.
     pub(super) stall_over_limit_rise: Option<f64>,
-    /// The largest α̇_ss/t_c over the limit, at any of the ε.
-    pub(super) largest_stall_over_limit: f64,
     /// The largest steady speed over ωΦ.
     pub(super) largest_speed_ratio: f64,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
@@ -197,9 +186,6 @@ pub(super) struct Draw {
     /// Share of the variance of steady speed and of α̇_ss/t_c over θ that a cosine explains.
     pub(super) speed_cosine: Option<f64>,
     pub(super) stall_cosine: Option<f64>,
-    /// Exponents of A in both, over the three printed amplitudes at the printed ε.
-    pub(super) speed_amplitude_exponent: Option<f64>,
-    pub(super) stall_amplitude_exponent: Option<f64>,
 }
 
 /// What a parameter changes in a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative

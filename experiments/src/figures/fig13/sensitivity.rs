@@ -71,10 +71,8 @@ fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
     let [of_speed, of_stall] = [speed as Quantity, stall].map(|of| exponent(data, Parameter::Amplitude, of));
     let small = |exponent: f64| is_insignificant(data, Parameter::Amplitude, exponent);
-    let holds = data.alike.draws.iter().map(|draw| {
-        [draw.speed_amplitude_exponent, draw.stall_amplitude_exponent]
-            .into_iter()
-            .all(|one| one.is_some_and(small))
+    let single = agreement(data, Parameter::Amplitude, |of| {
+        [of.speed_exponent, of.stall_exponent].into_iter().all(|one| one.is_some_and(small))
     });
     Claim::printed_statement(
         "section5.amplitude_insensitivity",
@@ -87,7 +85,7 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
         ),
     )
     .cause("short cycles in the sweep of A")
-    .single_orbits(Cases::of(holds))
+    .single_orbits(single)
 }
 
 /// The agreement of the motors that print alike on what a parameter changes.

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
+pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
 use bouncing_disk::motor::TransientSettings;
 use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
@@ -248,9 +248,6 @@ pub(crate) struct MotorStatistics {
     pub(crate) steady_speed_rad_per_s: Spread,
     /// Over the members that can be fitted; `None` where less than half can.
     pub(crate) stall_acceleration_rad_per_s2: Option<Spread>,
-    pub(crate) form: Form,
-    /// Members without a meaningful fit.
-    pub(crate) unfitted: usize,
     /// The cycle without perturbation.
     pub(crate) cycle: Cycle,
     /// Whether the perturbed members repeat that cycle, too.
@@ -262,8 +259,6 @@ impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
         Self {
             steady_speed_rad_per_s: statistics.steady_speed,
             stall_acceleration_rad_per_s2: statistics.stall_acceleration,
-            form: statistics.form,
-            unfitted: statistics.unfitted,
             cycle: statistics.orbit.into(),
             locked: statistics.locked,
         }
