@@ -4,7 +4,7 @@ use bouncing_disk::core::orbits::{
     BifurcationKind, Branch, Continuation, ContinuationParameter, follow_attractor,
 };
 use bouncing_disk::core::sweep::orbit_diagram;
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Orbit, Unobserved, Vibration};
+use bouncing_disk::core::{ChatterPolicy, Error, Launch, Orbit, Unobserved};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
@@ -12,6 +12,7 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
+use super::shared::{distinct_phases, map};
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -173,12 +174,8 @@ fn birth(restitution: f64, k: u64) -> f64 {
     k as f64 * (1.0 - restitution) / (1.0 + restitution)
 }
 
-fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Error> {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
-}
-
 /// Both ways along a pair of one impact every k periods, and what doubles from it, from branch to branch.
-fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, Error> {
+fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, ExperimentError> {
     let way = |rising: bool| {
         Continuation::new(ContinuationParameter::Forcing, RANGE, rising)?
             .with_steps(STEPS.0, STEPS.1, STEPS.2)
@@ -216,14 +213,12 @@ fn line(doubled: bool, branch: &Branch) -> BranchLine {
 fn dots(orbits: Vec<(f64, Orbit)>, transient: usize, examined: usize) -> Result<Vec<Dot>, Error> {
     let (forcings, orbits): (Vec<f64>, Vec<Orbit>) = orbits.into_iter().unzip();
     let diagram = orbit_diagram(&orbits, transient, examined, &Unobserved)?;
-    let column = |(forcing, states): (f64, Vec<bouncing_disk::core::ImpactState>)| {
-        let mut phases: Vec<f64> =
-            states.iter().map(|state| (state.phase().cycles() * 1e6).round() / 1e6).collect();
-        phases.sort_by(f64::total_cmp);
-        phases.dedup();
-        phases.into_iter().map(move |phase| (forcing, phase))
-    };
-    Ok(forcings.into_iter().zip(diagram).flat_map(column).collect())
+    let columns = forcings.into_iter().zip(&diagram);
+    Ok(columns
+        .flat_map(|(forcing, impacts)| {
+            distinct_phases(impacts).into_iter().map(move |phase| (forcing, phase))
+        })
+        .collect())
 }
 
 fn shown((forcing, cycles): Dot) -> Dot {

@@ -5,7 +5,6 @@ mod data;
 mod draw;
 mod panels;
 mod scan;
-mod windows;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
@@ -13,7 +12,8 @@ use rayon::prelude::*;
 
 pub use self::data::Fig07Data;
 use self::data::Panel;
-use self::{panels::WINDOW_TOP, windows::windows};
+use self::{panels::WINDOW_TOP, scan::windows};
+use super::shared::map;
 use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -65,7 +65,7 @@ impl Experiment for Fig07 {
                 .collect::<Vec<_>>()
         };
         let decay = || {
-            let chaotic = panels::map(forcings[3], printed.restitution)?;
+            let chaotic = map(forcings[3], printed.restitution)?;
             panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
         };
         let windows = || windows(&printed, (rows, columns), progress);

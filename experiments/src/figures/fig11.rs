@@ -1,6 +1,5 @@
 //! Fig. 11: steady-state speed and stall torque of the motor against preload.
 
-mod bouncing;
 mod claims;
 mod compute;
 mod data;
@@ -34,7 +33,7 @@ impl Experiment for Fig11 {
         vec![
             ("preloads", compute::PRELOAD_SEED),
             ("ensembles", TransientSettings::default().seed),
-            ("bouncing motors that print alike", bouncing::SEED),
+            ("bouncing motors that print alike", compute::BOUNCING_SEED),
             ("runs to stall", super::shared::stall::SEED),
         ]
     }

@@ -5,7 +5,6 @@ mod data;
 mod draw;
 mod orbits;
 mod sensitivity;
-mod sweeps;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motor::TransientSettings;
@@ -33,8 +32,8 @@ impl Experiment for Fig13 {
     }
 
     fn caption(data: &Fig13Data) -> String {
-        let left_out: usize = sweeps::sweep_points(data).filter(|point| point.stall().is_none()).count();
-        let low: usize = sweeps::sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
+        let left_out: usize = data::sweep_points(data).filter(|point| point.stall().is_none()).count();
+        let low: usize = data::sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
         format!(
             "Effect of varying (a) μ, (b) ε, (c) θ, (d) A and (e) ωΦ about the default values (μ = {}, ε = {}, θ = {}, A = {:e} m, \
              ωΦ = {} rad/s, g = {} m/s², {} kHz). Crosses, left scales: steady-state speed over ωΦ; dots, right scales: stall torque \

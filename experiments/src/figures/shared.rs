@@ -10,6 +10,7 @@ pub(crate) mod toss;
 use bouncing_disk::core::chaos::Manifold;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 
+use self::numbers::six_decimals;
 use crate::experiment::ExperimentError;
 
 /// The range of Γ of the diagrams of Fig. 6, to whose end Fig. 7 looks for starts that do not come to rest.
@@ -36,4 +37,12 @@ pub(crate) fn lines(manifold: &Manifold, spot: impl Fn(ImpactState) -> (f64, f64
     }
     lines.retain(|line| line.len() > 1);
     lines
+}
+
+/// The phases of impacts (periods), each once, to six decimals and in their order: a periodic orbit repeats its own.
+pub(crate) fn distinct_phases(impacts: &[ImpactState]) -> Vec<f64> {
+    let mut phases: Vec<f64> = impacts.iter().map(|impact| six_decimals(impact.phase().cycles())).collect();
+    phases.sort_by(f64::total_cmp);
+    phases.dedup_by(|one, other| one.total_cmp(other).is_eq());
+    phases
 }

@@ -14,11 +14,11 @@ use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};
 
 use super::data::{Chatter, SingleTosses, Slice};
-use super::inputs::{Inputs, Systems, map};
-use super::slices::slice;
+use super::slices::{Inputs, Systems, slice, start};
 use crate::claims::judging::trend;
 use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
+use crate::figures::shared::map;
 
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;
@@ -119,14 +119,8 @@ pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter
     forcings.iter().map(chatter).filter_map(Result::transpose).collect()
 }
 
-/// Rest on the platform at its lowest point, turning with it.
-pub(super) fn from_rest(system: &DimensionlessSystem) -> Result<InitialCondition, ExperimentError> {
-    let phase = Phase::new(1.5 * PI)?;
-    Ok(InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
-}
-
 fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
-    multi_toss(*system, from_rest(system)?, settings, &Unobserved).map_err(ExperimentError::model)
+    multi_toss(*system, start(system, None, true)?, settings, &Unobserved).map_err(ExperimentError::model)
 }
 
 /// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.

@@ -11,7 +11,7 @@ use super::data::{
     AlikeMotors, AlikeRange, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep,
     SweepPoint,
 };
-use super::sweeps::{cosine_fit, trend_change};
+use super::data::{cosine_fit, trend_change};
 use crate::claims::Cases;
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};

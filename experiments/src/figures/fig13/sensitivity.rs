@@ -3,7 +3,7 @@
 use bouncing_disk::core::numerics::elementary::ln;
 
 use super::data::{Draw, Fig13Data, Parameter, Sensitivity, SweepPoint};
-use super::sweeps::{
+use super::data::{
     Quantity, cosine_fit, extent, low_period_words, read, speed, stall, stall_over_limit, sweep,
     sweep_points, trend_change,
 };
