@@ -16,7 +16,7 @@ use crate::json::{self, FiniteError};
 use crate::measured::{Layout, MeasuredError, Measurements, Series};
 use crate::progress::Progress;
 use crate::provenance;
-use crate::table::{Table, TableError};
+use crate::table::Table;
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -85,7 +85,7 @@ pub enum ExperimentError {
     Draw(#[from] DrawError),
     /// The table is malformed.
     #[error("the table could not be written")]
-    Table(#[from] TableError),
+    Table(#[from] csv::Error),
     /// The data cannot be stored: a number is infinite or not a number.
     #[error("the data cannot be stored")]
     Data(#[from] FiniteError),

@@ -176,12 +176,8 @@ structs! {
         observed_amplitude_angle_rad: String = "section3.observed_amplitude_angle";
         /// φ_L of the optimum.
         optimal_amplitude_angle_rad: String = "section3.optimal_amplitude_angle";
-        /// L of the optimum.
-        optimal_amplitude_ratio: String = "section3.optimal_amplitude_ratio";
         /// The airborne speed at the optimum.
         largest_airborne_speed_rad_per_s: String = "section3.largest_airborne_speed";
-        /// η at the optimum.
-        largest_efficiency: String = "section3.largest_efficiency";
         /// ν at the optimum.
         speed_ratio_at_optimum: String = "section3.speed_ratio_at_optimum";
         /// The largest ν.

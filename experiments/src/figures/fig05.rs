@@ -106,7 +106,7 @@ impl Experiment for Fig05 {
 
     fn claims(data: &Fig05Data) -> Vec<Claim> {
         let mut claims = amplitude_ratio(data);
-        claims.extend(limits(data));
+        claims.push(no_slip(data));
         claims.extend(phase_lag(data));
         claims
     }
@@ -467,13 +467,7 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                 data.columns.last().and_then(first).map(|toss| toss.sliding_at_separation),
                 rises(&slips),
             ]),
-            listed(data, |column, toss| {
-                format!(
-                    "{} at the separation, {:.1} % behind the hand",
-                    if toss.sliding_at_separation { "slides" } else { "sticks" },
-                    100.0 * slip_share(column, toss),
-                )
-            }),
+            listed(data, |column, toss| format!("{:.1} % behind the hand", 100.0 * slip_share(column, toss))),
         )
         .note("θ = 0; at low φ_L the dough slides in the last moments only, where N falls to zero"),
         Claim::printed_statement(
@@ -504,34 +498,25 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
 }
 
 /// Enough force and friction.
-fn limits(data: &Fig05Data) -> Vec<Claim> {
-    let shares =
-        |missing: &[f64]| missing.iter().map(|share| format!("{share:.1e}")).collect::<Vec<_>>().join(", ");
-    let grips: Vec<_> = data
-        .firm_grip
-        .iter()
-        .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
-        .collect();
+fn no_slip(data: &Fig05Data) -> Claim {
+    let missing = |grip: &Grip, column: usize| grip.missing_share.get(column).map(|share| share.abs());
     let converges = claim::all(0..data.columns.len(), |column| {
-        let missing: Vec<f64> = data
-            .firm_grip
-            .iter()
-            .filter_map(|grip| grip.missing_share.get(column))
-            .map(|share| share.abs())
-            .collect();
+        let missing: Vec<f64> = data.firm_grip.iter().filter_map(|grip| missing(grip, column)).collect();
         // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
         falls(missing.get(1..).unwrap_or_default()) == Some(true)
             && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
     });
-    vec![Claim::printed_statement(
+    let firmest = data.firm_grip.last();
+    let most =
+        firmest.map_or(f64::NAN, |grip| grip.missing_share.iter().fold(0.0, |most, own| own.abs().max(most)));
+    Claim::printed_statement(
         "section3.no_slip_at_separation",
         converges,
         format!(
-            "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
-             θ = 0: {}; it vanishes as μ grows",
-            grips.join("; ")
+            "the share of the hand's speed at τ_sep that the dough lacks, θ = 0, vanishes as μ grows: at most {most:.1e} at μ = {}",
+            firmest.map_or(f64::NAN, |grip| grip.friction),
         ),
-    )]
+    )
 }
 
 /// What θ does.
@@ -546,28 +531,22 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
         ROUNDING * data.columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
     let reversed =
         claim::all(lags, |lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
-    let described = |value: fn(&Dependence) -> f64| {
-        // No minus sign before a zero.
-        let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };
-        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), shown(value(lag))));
-        parts.collect::<Vec<_>>().join("; ")
-    };
-    let angle = &data.printed.optimal_amplitude_angle_rad;
+    let places = format!(
+        "φ_L = {}, θ = {}",
+        data.printed.optimal_amplitude_angle_rad,
+        lags.iter().map(|lag| pi(lag.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+    );
     vec![
         Claim::printed_statement(
             "section3.positive_lag_torque",
             reduced,
-            format!(
-                "speed gained in the second half of the contact (rad/s), φ_L = {angle}: {}",
-                described(|lag| lag.late_gain_rad_per_s)
-            ),
+            format!("a positive lag gains less speed in the second half of the contact; {places}"),
         ),
         Claim::printed_statement(
             "section3.negative_lag_torque",
             reversed,
             format!(
-                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
-                described(|lag| lag.lowest_speed_rad_per_s)
+                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest and turns backwards where θ is negative alone; {places}"
             ),
         ),
     ]

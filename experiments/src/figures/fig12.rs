@@ -85,14 +85,11 @@ impl Experiment for Fig12 {
 /// So many orbits are enough for a verdict under another definition.
 const ENOUGH: usize = 20;
 
-fn is_low(motor: &AlikeMotor, most: usize) -> bool {
-    motor.cycle.chattering_flights().is_some_and(|flights| flights <= most)
-}
-
 /// That the orbits of a case are of long period (the first), or of low period.
 fn case(data: &Fig12Data, case: usize, key: &str) -> Claim {
     let alike = &data.alike[case];
-    let cases = |most: usize| Cases::of(alike.motors.iter().map(|motor| is_low(motor, most) == (case == 1)));
+    let cases =
+        |most: usize| Cases::of(alike.motors.iter().map(|motor| motor.cycle.is_low(most) == (case == 1)));
     let others = DEFINITIONS.map(cases);
     Claim::printed_statement(
         key,
@@ -108,8 +105,9 @@ fn case(data: &Fig12Data, case: usize, key: &str) -> Claim {
 
 /// The verdicts on the orbits of a case that are of low period, or not, under the other definitions.
 fn under_definitions(data: &Fig12Data, case: usize, holds: fn(&AlikeMotor) -> bool) -> Vec<Verdict> {
-    let orbits =
-        |most: usize| data.alike[case].motors.iter().filter(move |motor| is_low(motor, most) == (case == 1));
+    let orbits = |most: usize| {
+        data.alike[case].motors.iter().filter(move |motor| motor.cycle.is_low(most) == (case == 1))
+    };
     let cases = DEFINITIONS.map(|most| Cases::of(orbits(most).map(holds)));
     cases.into_iter().filter(|cases| cases.tried >= ENOUGH).map(Cases::sampled).collect()
 }

@@ -71,7 +71,6 @@ impl Experiment for Fig13 {
             sensitivity::twist(data),
             sensitivity::friction(data),
             sensitivity::both(data),
-            sensitivity::speed_limit(data),
             sensitivity::torque_limit(data),
             sensitivity::only_reduce(data),
             orbits::slower_collisions(data),

@@ -19,7 +19,7 @@ use crate::claims::{
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
+use crate::table::Table;
 
 /// Table I.
 #[derive(Debug)]
@@ -156,16 +156,13 @@ impl Experiment for Table1 {
             "uncertainty, root sum of squares",
         ]);
         for row in &data.rows {
-            let uncertainty = |of: fn(&super::shared::numbers::Propagated) -> f64| {
-                row.uncertainty.as_ref().map_or(Cell::Empty, |uncertainty| of(uncertainty).into())
-            };
             table.push([
-                Cell::from(row.symbol.as_str()),
-                Cell::from(row.unit.as_str()),
-                row.printed.as_deref().map_or(Cell::Empty, Cell::from),
-                row.computed.map_or(Cell::Empty, Cell::from),
-                uncertainty(|uncertainty| uncertainty.sum),
-                uncertainty(|uncertainty| uncertainty.root_sum_of_squares),
+                row.symbol.as_str().into(),
+                row.unit.as_str().into(),
+                row.printed.as_deref().into(),
+                row.computed.into(),
+                row.uncertainty.map(|uncertainty| uncertainty.sum).into(),
+                row.uncertainty.map(|uncertainty| uncertainty.root_sum_of_squares).into(),
             ]);
         }
         Some(table)

@@ -113,11 +113,6 @@ impl Experiment for Table3 {
     }
 
     fn claims(data: &Table3Data) -> Vec<Claim> {
-        let known = data.inputs.iter().filter(|input| input.known).count();
-        let names = |wanted: bool| {
-            let inputs = data.inputs.iter().filter(|input| input.known == wanted);
-            inputs.map(|input| input.symbol.clone()).collect::<Vec<_>>().join(", ")
-        };
         let missing: Vec<_> = data
             .inputs
             .iter()
@@ -132,8 +127,6 @@ impl Experiment for Table3 {
                 data.printed_inputs,
                 missing.join(", ")
             )),
-            Claim::printed("section5.known_inputs", known as f64).note(names(true)),
-            Claim::printed("section5.unknown_inputs", (data.inputs.len() - known) as f64).note(names(false)),
             Claim::printed("table3.gyration_radius", data.ball_gyration_radius_mm)
                 .note("a_g of a solid ball is √(2/5) of its radius"),
             preload(data),
@@ -197,7 +190,7 @@ impl Experiment for Table3 {
             table.push([
                 Cell::from(row.symbol.as_str()),
                 Cell::from(row.unit.as_str()),
-                Cell::Empty,
+                Cell::default(),
                 row.values[0].into(),
                 row.values[1].into(),
             ]);

@@ -1,7 +1,7 @@
 //! How far a disk goes, where it gets its angular momentum, the numbers that the next-collision map depends on, and what Γ_T
 //! compares.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase};
 use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
@@ -59,13 +59,10 @@ fn motion(axial_forcing: f64, system: &DimensionlessSystem) -> Result<Motion, Ex
     let (Some(first), Some(last)) = (first, last) else {
         return Err(super::slices::no_orbit(axial_forcing));
     };
-    let span = last.time.since(&first.time).radians();
     let launched = system.restitution() * speed_bound(peak, system.restitution()) + peak;
     Ok(Motion {
         axial_forcing,
         restitution: system.restitution(),
-        impacts,
-        platform_periods: span / TAU,
         highest: highest / peak,
         height_bound: (peak + 0.5 * launched * launched) / peak,
         turned_in_first_half: (half - first.angle) / system.twist_speed(),

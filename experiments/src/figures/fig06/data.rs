@@ -113,8 +113,6 @@ pub(super) struct LagScan {
 pub(super) struct Motion {
     pub(super) axial_forcing: f64,
     pub(super) restitution: f64,
-    pub(super) impacts: usize,
-    pub(super) platform_periods: f64,
     /// Largest height of the disk, in amplitudes of the platform.
     pub(super) highest: f64,
     /// No disk can ever rise higher, by energy.

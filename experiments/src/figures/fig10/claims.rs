@@ -4,21 +4,13 @@ use super::data::{Fig10Data, Transient};
 use crate::claims::catalogue;
 use crate::claims::{Cases, Claim, all};
 use crate::figures::shared::alike::{AlikeMotor, INTERVALS};
-use crate::figures::shared::motor::{
-    DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words, perturbation_claim,
-};
-use crate::figures::shared::numbers;
-
-const ID: &str = "fig10";
+use crate::figures::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words};
+use crate::figures::shared::numbers::median;
 
 pub(super) fn claims(data: &Fig10Data) -> Vec<Claim> {
     let mut claims = axial_forcings(data);
     claims.extend(transients(data));
-    claims.push(perturbation_claim(
-        ID,
-        "Table III's motor: the steady speed does not depend on the size of the relaunch perturbation",
-        &data.perturbations,
-    ));
+    claims.extend(perturbations(data));
     claims
 }
 
@@ -44,11 +36,6 @@ fn axial_forcings(data: &Fig10Data) -> Vec<Claim> {
 
 fn percent(value: f64) -> String {
     format!("{:.1} %", 100.0 * value)
-}
-
-/// The middle of some numbers, NaN of none: in words, and in comparisons that must fail then.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    numbers::median(values).unwrap_or(f64::NAN)
 }
 
 fn transients(data: &Fig10Data) -> Vec<Claim> {
@@ -105,14 +92,10 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
     ]
 }
 
-/// Low period under the definitions that are tried: cycles of at most so many flights.
-fn is_low(motor: &AlikeMotor, most: usize) -> bool {
-    motor.cycle.chattering_flights().is_some_and(|flights| flights <= most)
-}
-
 fn long_period(data: &Fig10Data) -> Claim {
-    let by_draw =
-        |most| Cases::of(data.alike.draws().map(|draw| draw.into_iter().all(|motor| !is_low(motor, most))));
+    let by_draw = |most| {
+        Cases::of(data.alike.draws().map(|draw| draw.into_iter().all(|motor| !motor.cycle.is_low(most))))
+    };
     let others = DEFINITIONS.map(by_draw);
     Claim::printed_statement(
         "section5.long_period_chattering",
@@ -152,14 +135,15 @@ fn transient_chaos(data: &Fig10Data) -> Claim {
 fn long_period_oscillates(data: &Fig10Data) -> Claim {
     let middles = |most: usize| {
         data.alike.motors.each_ref().map(|motors| {
-            let low = motors.iter().filter(|motor| is_low(motor, most));
-            median(low.map(|motor| motor.oscillation))
+            let low = motors.iter().filter(|motor| motor.cycle.is_low(most));
+            // A comparison with NaN fails.
+            median(low.map(|motor| motor.oscillation)).unwrap_or(f64::NAN)
         })
     };
     let by_draw = |most: usize| {
         let middles = middles(most);
         let draws = data.alike.draws().filter_map(|draw| {
-            let long = draw.into_iter().zip(middles).filter(|(motor, _)| !is_low(motor, most));
+            let long = draw.into_iter().zip(middles).filter(|(motor, _)| !motor.cycle.is_low(most));
             all(long, |(motor, middle)| motor.oscillation > middle)
         });
         Cases::of(draws)
@@ -175,4 +159,30 @@ fn long_period_oscillates(data: &Fig10Data) -> Claim {
         ),
     )
     .by_definition(&others.map(Cases::sampled))
+}
+
+/// Two speeds that differ by no more standard errors count as the same.
+const SAME_WITHIN: f64 = 3.0;
+
+/// That the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
+/// their standard errors.
+fn perturbations(data: &Fig10Data) -> Option<Claim> {
+    let speeds = || data.perturbations.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
+    let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean))?;
+    let most = speeds().max_by(|one, other| one.mean.total_cmp(&other.mean))?;
+    let difference = most.mean - least.mean;
+    let error =
+        (least.standard_error * least.standard_error + most.standard_error * most.standard_error).sqrt();
+    Some(Claim::statement(
+        "fig10",
+        "our ensemble",
+        "Table III's motor: the steady speed does not depend on the size of the relaunch perturbation",
+        difference <= SAME_WITHIN * error,
+        format!(
+            "of {} perturbations from none to {:e} g/ω the slowest and the fastest differ by {difference:.2} ± {error:.2} rad/s, {:.1} % of the speed",
+            data.perturbations.len(),
+            data.perturbations.iter().map(|effect| effect.relaunch_perturbation).fold(0.0, f64::max),
+            100.0 * difference / most.mean.abs(),
+        ),
+    ))
 }

@@ -12,13 +12,13 @@ use bouncing_disk::{PlatformParameters, System};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::data::{Alike, BetweenRests, Exception, Fig10Data, Reading, Transient};
+use super::data::{Alike, BetweenRests, Exception, Fig10Data, PerturbationEffect, Reading, Transient};
 use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::alike::{DRAWN, PrintedInputs};
 use crate::figures::shared::alike::{alike_with_band, oscillation};
-use crate::figures::shared::motor::{MotorCase, perturbation_table};
+use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::median;
 use crate::progress::Progress;
 
@@ -67,7 +67,11 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
     let alike = drawn_alike(inputs, count)?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
-    let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
+    let perturbed = |relaunch_perturbation: f64| {
+        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
+        Ok::<_, ExperimentError>(PerturbationEffect { relaunch_perturbation, statistics })
+    };
+    let perturbations = PERTURBATIONS.into_iter().map(perturbed).collect::<Result<_, _>>()?;
     progress.advance(1);
 
     let tsujino_axial_forcing = axial_forcing(

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
 use crate::figures::shared::alike::{AlikeMotor, SpeedBand};
-use crate::figures::shared::motor::{Cycle, MotorCase, PerturbationEffect, RobustCycle};
+use crate::figures::shared::motor::{Cycle, MotorCase, MotorStatistics, RobustCycle};
 
 /// The data of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]
@@ -116,4 +116,12 @@ pub(super) struct Trial {
     pub(super) time_s: Vec<f64>,
     pub(super) angular_speed_rad_per_s: Vec<f64>,
     pub(super) fit: ExponentialFit,
+}
+
+/// Steady speed and stall acceleration for one size of the relaunch perturbation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct PerturbationEffect {
+    /// In units of g/ω.
+    pub(super) relaunch_perturbation: f64,
+    pub(super) statistics: MotorStatistics,
 }

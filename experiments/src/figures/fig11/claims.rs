@@ -14,9 +14,6 @@ const NEARER_TO_TREND: f64 = 0.5;
 /// A difference of more than so many standard errors is one.
 const STANDARD_ERRORS: f64 = 3.0;
 
-/// The two speeds of a mirrored motor are of opposite sign to this share of ωΦ: fits keep half of the digits.
-const MIRRORED_WITHIN: f64 = 1e-6;
-
 pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
     let [default, second] = data.printed.frequencies_hz.map(|frequency| at_frequency(data, frequency));
     let total =
@@ -89,7 +86,6 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
         holes(data),
         balance(data),
         estimate(data),
-        mirrored(data),
     ]
 }
 
@@ -233,27 +229,4 @@ fn estimate(data: &Fig11Data) -> Claim {
             data.mean_estimate_over_balance,
         ),
     )
-}
-
-/// The direction of the rotor.
-fn mirrored(data: &Fig11Data) -> Claim {
-    let [one, other] = data.mirrored.steady_speeds_rad_per_s;
-    Claim::statement(
-        ID,
-        "Fig. 11 caption",
-        "a phase lag shifted by π turns the same motor as fast the other way",
-        (one.mean + other.mean).abs() <= MIRRORED_WITHIN * data.motor.peak_angular_speed_rad_per_s
-            && one.mean.abs() > STANDARD_ERRORS * one.standard_error,
-        format!(
-            "at {} kHz and {:.0} mN: {:.3} rad/s with θ = {}, {:.3} rad/s with θ = {:.4}. Such a lag of the second resonance would explain its direction; the paper does not \
-             give one",
-            data.printed.frequencies_hz[1] / 1e3,
-            data.mirrored.preload_mn,
-            one.mean,
-            data.mirrored.phase_lags_rad[0],
-            other.mean,
-            data.mirrored.phase_lags_rad[1],
-        ),
-    )
-    .identity()
 }

@@ -12,8 +12,8 @@ use bouncing_disk::motor::TransientSettings;
 use rayon::prelude::*;
 
 use super::data::{
-    Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist,
-    StallAt, Trend, trend_mn,
+    Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Point, ReducedTwist, StallAt, Trend,
+    trend_mn,
 };
 use super::trends;
 use crate::claims::{Cases, catalogue, paper};
@@ -52,7 +52,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let amplitudes = section.amplitudes_of_fig10_m;
     let [low, high] = printed.measured_range_n.map(|preload| preload / rotor_mass_kg);
     let three_preloads = [low, 0.5 * (low + high), high];
-    let [_, middle, _] = three_preloads;
     progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len())) as u64, "curves");
 
     let mut noise = Noise::new(PRELOAD_SEED);
@@ -88,7 +87,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let trends: Vec<Trend> =
         curves.iter().map(|curve| Trend::of(curve, trend_mn(&printed), 1e3 * printed.plateau_n)).collect();
     let over_balance = estimates_over_balance(&curves, &motor, [low, high]);
-    let second = MotorCase { frequency_hz: frequencies[1], preload_acceleration_m_per_s2: middle, ..motor };
     Ok(Fig11Data {
         holes: Holes::of(&curves),
         estimate_over_balance: trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
@@ -99,7 +97,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
             quality.choose(DRAWN / 10, DRAWN),
             relaunch_perturbation,
         )?,
-        mirrored: mirrored(&second, rotor_mass_kg, members[1], relaunch_perturbation)?,
         end_of_bouncing: EndOfBouncing::of(&motor)?,
         motor,
         printed,
@@ -189,24 +186,6 @@ fn reduced_twist(
             .zip(reduced.stall_acceleration_rad_per_s2)
             .map(|(printed, reduced)| [printed, reduced]),
         slower,
-    })
-}
-
-fn mirrored(
-    motor: &MotorCase,
-    mass: f64,
-    members: usize,
-    relaunch_perturbation: f64,
-) -> Result<Mirrored, ExperimentError> {
-    let lags = [motor.phase_lag_rad, motor.phase_lag_rad + std::f64::consts::PI];
-    let speed = |phase_lag_rad: f64| -> Result<Spread, ExperimentError> {
-        let case = MotorCase { phase_lag_rad, ..*motor };
-        Ok(case.statistics(RISES, members, relaunch_perturbation)?.steady_speed_rad_per_s)
-    };
-    Ok(Mirrored {
-        preload_mn: 1e3 * mass * motor.preload_acceleration_m_per_s2,
-        phase_lags_rad: lags,
-        steady_speeds_rad_per_s: [speed(lags[0])?, speed(lags[1])?],
     })
 }
 

@@ -38,8 +38,6 @@ pub struct Fig11Data {
     pub(super) stalls: Vec<StallAt>,
     /// The default motor at full preload with the printed and with a smaller ωΦ.
     pub(super) reduced_twist: ReducedTwist,
-    /// The motor at the second frequency with θ and with θ + π.
-    pub(super) mirrored: Mirrored,
     pub(super) end_of_bouncing: EndOfBouncing,
     /// A user's own measurements.
     #[serde(default, skip_serializing_if = "MeasuredMotors::is_empty")]
@@ -88,14 +86,6 @@ pub(super) struct ReducedTwist {
     pub(super) stall_accelerations_rad_per_s2: Option<[Spread; 2]>,
     /// Single orbits that are slower with the reduced one.
     pub(super) slower: Cases,
-}
-
-/// A motor and the same with the phase lag shifted by π.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Mirrored {
-    pub(super) preload_mn: f64,
-    pub(super) phase_lags_rad: [f64; 2],
-    pub(super) steady_speeds_rad_per_s: [Spread; 2],
 }
 
 impl Fig11Data {

@@ -281,7 +281,6 @@ fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
         speed_ratio_slope: line(ratio).map(|line| line.slope),
         stall_over_limit_slope: line(over_limit).map(|line| line.slope),
         stall_over_limit_rise: line(over_limit).map(|line| line.slope * range / line.intercept),
-        largest_speed_ratio: motors().map(speed_ratio).fold(f64::NEG_INFINITY, f64::max),
         share_of_exponential: motors().filter(|motor| motor.is_exponential()).count() as f64
             / restitutions.len() as f64,
         speed_cosine: cosine_fit(&by_lag.read(index, speed)).map(|fit| fit.1),

@@ -179,8 +179,6 @@ pub(super) struct Draw {
     pub(super) stall_over_limit_slope: Option<f64>,
     /// What the second of these lines rises by over the range of ε, over its value at the first ε.
     pub(super) stall_over_limit_rise: Option<f64>,
-    /// The largest steady speed over ωΦ.
-    pub(super) largest_speed_ratio: f64,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
     pub(super) share_of_exponential: f64,
     /// What each parameter changes, in the order of the panels.

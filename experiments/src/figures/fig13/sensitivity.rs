@@ -256,20 +256,6 @@ pub(super) fn both(data: &Fig13Data) -> Claim {
     .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
 }
 
-pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
-    let ratio = sweep_points(data).map(|point| point.speed_ratio().abs()).fold(0.0, f64::max);
-    let draws = &data.alike.draws;
-    let largest = extent(draws.iter().map(|draw| draw.largest_speed_ratio)).1;
-    Claim::printed_statement(
-        "section5.speed_limit",
-        Cases::of(draws.iter().map(|draw| draw.largest_speed_ratio <= 1.0 && ratio <= 1.0)),
-        format!(
-            "largest steady speed of the {} motors drawn in the figure: {ratio:.3} ωΦ; of the motors that print alike, at all ε: {largest:.3} ωΦ",
-            sweep_points(data).count()
-        ),
-    )
-}
-
 /// The quotient α̇_ss/t_c against the acceleration that friction can give, where the paper defines it: for exponential transients.
 pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
     let cases: Cases = data.alike.prevalence.iter().map(|entry| entry.within_limit).sum();

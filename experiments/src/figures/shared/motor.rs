@@ -10,7 +10,7 @@ use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
-use crate::claims::{Cases, Claim, paper};
+use crate::claims::{Cases, paper};
 use crate::experiment::ExperimentError;
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
@@ -30,9 +30,6 @@ pub(crate) fn by_definition_words(cases: [Cases; 4]) -> String {
     });
     words.collect::<Vec<_>>().join(", ")
 }
-
-/// Two speeds that differ by no more standard errors count as the same.
-const SAME_WITHIN: f64 = 3.0;
 
 /// The inputs of Sec. V A, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -232,7 +229,12 @@ impl Cycle {
 
     /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle, however short.
     pub(crate) fn is_low_period(self) -> bool {
-        self.chattering_flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS)
+        self.is_low(LOW_PERIOD_FLIGHTS)
+    }
+
+    /// The same under another definition: of at most so many flights.
+    pub(crate) fn is_low(self, most: usize) -> bool {
+        self.chattering_flights().is_some_and(|flights| flights <= most)
     }
 
     /// Whether every flight ends in a rest.
@@ -271,56 +273,6 @@ impl MotorStatistics {
     pub(crate) fn is_low_period(&self) -> bool {
         self.cycle.is_low_period() && (self.locked || self.cycle.is_one_flight())
     }
-}
-
-/// Steady speed and stall acceleration for one size of the relaunch perturbation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct PerturbationEffect {
-    /// In units of g/ω.
-    pub(crate) relaunch_perturbation: f64,
-    pub(crate) statistics: MotorStatistics,
-}
-
-/// The statistics of `case` for several sizes of the relaunch perturbation.
-pub(crate) fn perturbation_table(
-    case: &MotorCase,
-    sizes: &[f64],
-    rises: f64,
-    members: usize,
-) -> Result<Vec<PerturbationEffect>, ExperimentError> {
-    let effect = |&relaunch_perturbation: &f64| {
-        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
-        Ok(PerturbationEffect { relaunch_perturbation, statistics })
-    };
-    sizes.iter().map(effect).collect()
-}
-
-/// The statement that the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
-/// their standard errors.
-pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[PerturbationEffect]) -> Claim {
-    let speeds = || table.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
-    let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean));
-    let most = speeds().max_by(|one, other| one.mean.total_cmp(&other.mean));
-    let (holds, range) = match (least, most) {
-        (Some(least), Some(most)) => {
-            let difference = most.mean - least.mean;
-            let error = (least.standard_error * least.standard_error
-                + most.standard_error * most.standard_error)
-                .sqrt();
-            let range = format!(
-                "the slowest and the fastest differ by {difference:.2} ± {error:.2} rad/s, {:.1} % of the speed",
-                100.0 * difference / most.mean.abs()
-            );
-            (Some(difference <= SAME_WITHIN * error), range)
-        }
-        _ => (None, String::new()),
-    };
-    let evidence = format!(
-        "of {} perturbations from none to {:e} g/ω {range}",
-        table.len(),
-        table.iter().map(|effect| effect.relaunch_perturbation).fold(0.0, f64::max),
-    );
-    Claim::statement(id, "our ensemble", quantity, holds, evidence)
 }
 
 #[cfg(test)]
