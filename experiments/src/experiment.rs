@@ -226,6 +226,11 @@ pub trait Experiment: Sync + Send + 'static {
     }
 }
 
+/// [`Experiment::parameters`] of known names.
+pub(crate) fn named<const N: usize>(parameters: [(&str, String); N]) -> Vec<(String, String)> {
+    parameters.map(|(name, value)| (name.to_owned(), value)).to_vec()
+}
+
 /// Data of an experiment, whatever their type, and all that is made from them.
 #[derive(Debug)]
 pub struct Made {

@@ -16,7 +16,7 @@ use super::shared::cylinder::HandPath;
 use super::shared::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
 use super::shared::toss::TossCase;
 use crate::claims::paper::TableOne;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 1.
@@ -96,7 +96,7 @@ impl Experiment for Fig01 {
 
     fn parameters(data: &Fig01Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        [
+        named([
             ("phase lag θ", format!("{:.2}π (Table I: {})", data.phase_lag_rad / PI, table.phase_lag_rad)),
             ("amplitude angle φ_L", format!("{} rad", table.amplitude_angle_rad.value)),
             ("stroke c", format!("{} m", table.stroke_m.value)),
@@ -105,9 +105,7 @@ impl Experiment for Fig01 {
             ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
             ("friction μ", table.friction.value.to_string()),
             ("start", "lowest point of the hand, dough at rest".to_owned()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::cylinder::HandPath;
 use super::shared::cylinder::{Cylinder, Look, curve, faint, polar};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 2.
@@ -71,16 +71,14 @@ impl Experiment for Fig02 {
             values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
         };
         let panels = &data.panels;
-        [
+        named([
             ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
             (
                 "amplitude angle φ_L of (a)–(f)",
                 list(&mut panels.iter().map(|panel| panel.amplitude_angle_rad)),
             ),
             ("stroke c", format!("{} a_e", data.stroke_over_contact_radius)),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

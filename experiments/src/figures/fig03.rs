@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use self::census::{Census, ChatteringCycle, census, cycle};
 use self::sprung::{Sprung, sprung};
 use crate::claims::{self as claim, Claim};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 3.
@@ -64,7 +64,7 @@ impl Experiment for Fig03 {
     fn parameters(data: &Fig03Data) -> Vec<(String, String)> {
         let (census, cycle) = (&data.census, &data.cycle);
         let list = |values: &[f64]| values.iter().map(f64::to_string).collect::<Vec<_>>().join(", ");
-        [
+        named([
             ("peak acceleration Aω²/g", list(&census.peak_accelerations)),
             ("largest platform speed, in g a_e/(a_g² ω)", list(&census.twist_speeds)),
             ("phase lag θ (rad)", list(&census.phase_lags_rad)),
@@ -73,9 +73,7 @@ impl Experiment for Fig03 {
             ("load torque, in m g a_e", list(&census.loads)),
             ("events of a motion", format!("at most {}", census.longest_motion)),
             ("inset", format!("Γ = {}, ε = {}, complete chattering", cycle.axial_forcing, cycle.restitution)),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

@@ -16,7 +16,7 @@ use self::data::TossPoint;
 use super::shared::toss::TossCase;
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 4.
@@ -119,7 +119,7 @@ impl Experiment for Fig04 {
 
     fn parameters(data: &Fig04Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        [
+        named([
             ("phase lag θ", "nπ/8, n = 0 … 8".to_owned()),
             (
                 "amplitude angle φ_L",
@@ -136,9 +136,7 @@ impl Experiment for Fig04 {
                 "lowest point of the hand, τ = 3π/2; dough at rest, or turning with the hand".to_owned(),
             ),
             ("points of a curve", data.amplitude_angle_rad.len().to_string()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

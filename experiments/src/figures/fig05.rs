@@ -19,7 +19,7 @@ use crate::claims::{
     paper::{self, SectionThree, TableOne},
     printed::PrintedNumber,
 };
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 5.
@@ -117,7 +117,7 @@ impl Experiment for Fig05 {
         let lags = data.columns.first().map_or(String::new(), |column| {
             column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
         });
-        [
+        named([
             ("amplitude angle φ_L", angles.join(", ")),
             ("phase lag θ", lags),
             ("stroke c", format!("{} m", table.stroke_m.value)),
@@ -127,9 +127,7 @@ impl Experiment for Fig05 {
             ("friction μ", table.friction.value.to_string()),
             ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
             ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

@@ -15,7 +15,7 @@ use self::data::Panel;
 use self::{panels::WINDOW_TOP, scan::windows};
 use super::shared::map;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 7.
@@ -104,19 +104,18 @@ impl Experiment for Fig07 {
     }
 
     fn parameters(data: &Fig07Data) -> Vec<(String, String)> {
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let forcings: Vec<String> =
             data.panels.iter().map(|panel| draw::forcing_text(panel.axial_forcing)).collect();
         let longest: Vec<String> = data.panels.iter().map(|panel| panel.max_impacts.to_string()).collect();
-        vec![
-            pair("restitution ε", data.restitution.to_string()),
-            pair("axial forcing Γ", forcings.join(", ")),
-            pair("τ_imp/2π", "0 to 1".to_owned()),
-            pair("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
-            pair("cells a panel", format!("{} × {}", data.cells, data.cells)),
-            pair("impacts followed", longest.join(", ")),
-            pair("chattering", "summed in closed form (complete)".to_owned()),
-        ]
+        named([
+            ("restitution ε", data.restitution.to_string()),
+            ("axial forcing Γ", forcings.join(", ")),
+            ("τ_imp/2π", "0 to 1".to_owned()),
+            ("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
+            ("cells a panel", format!("{} × {}", data.cells, data.cells)),
+            ("impacts followed", longest.join(", ")),
+            ("chattering", "summed in closed form (complete)".to_owned()),
+        ])
     }
 }
 

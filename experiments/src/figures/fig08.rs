@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::cylinder::{Cylinder, Look, arc, polar};
 use crate::claims::paper::{self, TableThree};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 8.
@@ -55,13 +55,11 @@ impl Experiment for Fig08 {
     }
 
     fn parameters(data: &Fig08Data) -> Vec<(String, String)> {
-        [
+        named([
             ("ball diameter", format!("{} mm", data.ball_diameter_mm)),
             ("contact radius a_e", format!("{} mm", data.table_iii.contact_radius_mm)),
             ("radius of gyration a_g", format!("{} mm", data.table_iii.gyration_radius_mm)),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::motor::MotorCase;
 use super::shared::numbers::{Noise, StraightLine};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
@@ -115,13 +115,13 @@ impl Experiment for Fig09 {
     }
 
     fn parameters(data: &Fig09Data) -> Vec<(String, String)> {
-        vec![
-            ("coefficient of friction μ of the model".to_owned(), data.case.friction.to_string()),
-            ("contact radius a_e".to_owned(), format!("{} m", data.case.contact_radius_m)),
-            ("radius of gyration a_g".to_owned(), format!("{} m", data.case.gyration_radius_m)),
-            ("mass of the rotor".to_owned(), format!("{:.4} kg", data.rotor_mass_kg)),
+        named([
+            ("coefficient of friction μ of the model", data.case.friction.to_string()),
+            ("contact radius a_e", format!("{} m", data.case.contact_radius_m)),
+            ("radius of gyration a_g", format!("{} m", data.case.gyration_radius_m)),
+            ("mass of the rotor", format!("{:.4} kg", data.rotor_mass_kg)),
             (
-                "synthetic record".to_owned(),
+                "synthetic record",
                 format!(
                     "mean {:.3}, standard deviation {:.3}, slope {:.2} ± {:.2} 1/N",
                     data.synthetic_spread.mean,
@@ -130,7 +130,7 @@ impl Experiment for Fig09 {
                     data.synthetic_slope_error_per_n
                 ),
             ),
-        ]
+        ])
     }
 }
 

@@ -15,7 +15,7 @@ use self::compute::MEMBER_INTERVALS;
 pub use self::data::Fig10Data;
 use self::data::Trial;
 use crate::claims::Claim;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
@@ -89,8 +89,7 @@ impl Experiment for Fig10 {
             ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
             ("inputs that print alike", data.alike.inputs.clone()),
         ];
-        let own = own.map(|(name, value)| (name.to_owned(), value));
-        motor.shared_inputs().into_iter().chain(own).collect()
+        [motor.shared_inputs(), named(own)].concat()
     }
 }
 

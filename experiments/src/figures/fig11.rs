@@ -13,7 +13,7 @@ use bouncing_disk_plot::Figure;
 pub use self::data::Fig11Data;
 use self::data::{LAYOUT, read};
 use crate::claims::Claim;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 
@@ -85,17 +85,16 @@ impl Experiment for Fig11 {
 
     fn parameters(data: &Fig11Data) -> Vec<(String, String)> {
         let motor = &data.motor;
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let own = [
-            pair("a_e", format!("{} m", motor.contact_radius_m)),
-            pair("a_g", format!("{} m", motor.gyration_radius_m)),
-            pair("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
-            pair("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
-            pair("seed of the preloads", data.preload_seed.to_string()),
-            pair("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
-            pair("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
-            pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
+            ("a_e", format!("{} m", motor.contact_radius_m)),
+            ("a_g", format!("{} m", motor.gyration_radius_m)),
+            ("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
+            ("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
+            ("seed of the preloads", data.preload_seed.to_string()),
+            ("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
+            ("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
+            ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
         ];
-        motor.shared_inputs().into_iter().chain(own).collect()
+        [motor.shared_inputs(), named(own)].concat()
     }
 }

@@ -12,7 +12,7 @@ use self::data::{Lines, LowPeriod};
 use super::shared::alike::AlikeMotor;
 use super::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
 use crate::claims::{Cases, Claim, Verdict};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 12.
@@ -68,17 +68,16 @@ impl Experiment for Fig12 {
 
     fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
         let motor = &data.long_period.motor;
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let own = [
-            pair("ω/2π", format!("{} Hz", motor.frequency_hz)),
-            pair("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
-            pair("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
-            pair("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
-            pair("relaunch perturbation", "none".to_owned()),
-            pair("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
-            pair("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
+            ("ω/2π", format!("{} Hz", motor.frequency_hz)),
+            ("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
+            ("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
+            ("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
+            ("relaunch perturbation", "none".to_owned()),
+            ("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
+            ("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
         ];
-        motor.shared_inputs().into_iter().chain(own).collect()
+        [motor.shared_inputs(), named(own)].concat()
     }
 }
 

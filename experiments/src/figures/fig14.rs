@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::numbers::{Noise, StraightLine};
 use super::shared::toss::TossCase;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Column, Layout, Range, SMALLEST, Series};
 use crate::progress::Progress;
 
@@ -142,11 +142,11 @@ impl Experiment for Fig14 {
     }
 
     fn parameters(data: &Fig14Data) -> Vec<(String, String)> {
-        vec![
-            ("start of the line".to_owned(), format!("{} s", data.start_s)),
-            ("slope of d/d₀".to_owned(), format!("{} 1/s", data.slope_per_s)),
-            ("synthetic scatter of d".to_owned(), format!("{SCATTER}, {FRAMES_PER_S} frames a second")),
-        ]
+        named([
+            ("start of the line", format!("{} s", data.start_s)),
+            ("slope of d/d₀", format!("{} 1/s", data.slope_per_s)),
+            ("synthetic scatter of d", format!("{SCATTER}, {FRAMES_PER_S} frames a second")),
+        ])
     }
 }
 

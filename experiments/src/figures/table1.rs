@@ -17,7 +17,7 @@ use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, SectionThree, TableOne, Uncertain},
 };
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 use crate::table::Table;
 
@@ -132,18 +132,15 @@ impl Experiment for Table1 {
 
     fn parameters(data: &Table1Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        vec![
-            ("launch speed".to_owned(), format!("{} m/s", data.section.launch_speed_m_per_s)),
-            (
-                "launch angular speed".to_owned(),
-                format!("{} rad/s", data.section.launch_angular_speed_rad_per_s),
-            ),
-            ("slope of slip".to_owned(), format!("{}°", data.slip_slope_deg)),
-            ("c".to_owned(), format!("{} m", table.stroke_m)),
-            ("a_e".to_owned(), format!("{} m", table.contact_radius_m)),
-            ("a_g".to_owned(), format!("{} m", table.gyration_radius_m)),
-            ("g".to_owned(), format!("{} m/s²", table.preload_acceleration_m_per_s2)),
-        ]
+        named([
+            ("launch speed", format!("{} m/s", data.section.launch_speed_m_per_s)),
+            ("launch angular speed", format!("{} rad/s", data.section.launch_angular_speed_rad_per_s)),
+            ("slope of slip", format!("{}°", data.slip_slope_deg)),
+            ("c", format!("{} m", table.stroke_m)),
+            ("a_e", format!("{} m", table.contact_radius_m)),
+            ("a_g", format!("{} m", table.gyration_radius_m)),
+            ("g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+        ])
     }
 
     fn table(data: &Table1Data) -> Option<Table> {

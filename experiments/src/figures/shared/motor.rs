@@ -11,7 +11,7 @@ use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::{Cases, paper};
-use crate::experiment::ExperimentError;
+use crate::experiment::{ExperimentError, named};
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
@@ -87,13 +87,12 @@ impl MotorCase {
 
     /// What all motors of the figures share, by name and with units, for the gallery.
     pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
-        let named = [
+        named([
             ("μ", self.friction.to_string()),
             ("ε", self.restitution.to_string()),
             ("θ", format!("{} rad", self.phase_lag_rad)),
             ("ωΦ", format!("{} rad/s", self.peak_angular_speed_rad_per_s)),
-        ];
-        named.map(|(name, value)| (name.to_owned(), value)).into()
+        ])
     }
 
     /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time.
