@@ -92,8 +92,7 @@ impl Experiment for ExtraAttractors {
         let restitution = |index: usize| data.sweeps.get(index).map_or(f64::NAN, |sweep| sweep.restitution);
         format!(
             "All attractors of a disk, found without being told, for the restitutions (a) {} and (b) {}: the share of the {} starts that \
-             end on each, spread evenly over the region of impacts that no attractor can leave (95 % intervals are in the data, and \
-             drawn where forcings are few). Colours: platform periods for each impact. (c) Basins at Γ = {} and restitution {RESTITUTION}, \
+             end on each, spread evenly over the region of impacts that no attractor can leave (95 % intervals are in the data). Colours: platform periods for each impact. (c) Basins at Γ = {} and restitution {RESTITUTION}, \
              up to the proven bound of the impact speed; the key gives impacts and platform periods of each attractor.",
             restitution(0),
             restitution(1),
@@ -188,7 +187,6 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
         .y(Axis::log(1.0e-5, 1.5).label("share of the starts"))
         .letter_in(letter, Corner::BottomRight)
         .legend(Legend::at(Corner::BottomLeft).without_frame());
-    let few = sweep.axial_forcings.len() < 100;
     for (kind, (name, colour)) in KINDS.into_iter().enumerate() {
         let all = sweep.found.iter().zip(&sweep.axial_forcings);
         let own = all.flat_map(|(found, forcing)| found.iter().map(move |found| (*forcing, *found)));
@@ -197,9 +195,7 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
             continue;
         }
         let dots = Scatter::new(own.iter().map(|(forcing, found)| (*forcing, found.1)));
-        let dots = dots.marker(Marker::Dot).size(if few { 2.0 } else { 1.3 }).colour(colour).name(name);
-        let errors = own.iter().map(|(_, (_, _, (low, high)))| 0.5 * (high - low));
-        panel = panel.layer(if few { dots.errors_y(errors) } else { dots });
+        panel = panel.layer(dots.marker(Marker::Dot).size(1.3).colour(colour).name(name));
     }
     panel
 }

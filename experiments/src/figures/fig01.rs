@@ -12,8 +12,7 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::shared::cylinder::HandPath;
-use super::shared::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
+use super::shared::cylinder::{Cylinder, HandPath, Look, arc, circle, curve, faint, polar};
 use super::shared::toss::TossCase;
 use crate::claims::paper::TableOne;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};

@@ -10,8 +10,7 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::shared::cylinder::HandPath;
-use super::shared::cylinder::{Cylinder, Look, curve, faint, polar};
+use super::shared::cylinder::{Cylinder, HandPath, Look, curve, faint, polar};
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;

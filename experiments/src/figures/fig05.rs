@@ -12,13 +12,10 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::shared::toss::TossCase;
-use super::shared::toss::{AngleGrid, launch_case, printed_angles, unreadable};
-use crate::claims::{
-    self as claim, Claim,
-    paper::{self, SectionThree, TableOne},
-    printed::PrintedNumber,
-};
+use super::shared::toss::{AngleGrid, TossCase, launch_case, printed_angles, unreadable};
+use crate::claims::paper::{self, SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
+use crate::claims::{self as claim, Claim};
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
@@ -255,7 +252,7 @@ impl Toss {
         let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
         let scales = system.scales();
         let mut toss = Self { phase_lag_rad: case.phase_lag_rad, ..Self::default() };
-        let mut contact_speeds = Vec::new();
+        let mut lowest = f64::INFINITY;
         for record in trajectory.records() {
             let flies = record.before.mode == Mode::Flight;
             for step in 0..=points {
@@ -267,7 +264,7 @@ impl Toss {
                 toss.dough_angle_rad.push(state.angle);
                 toss.dough_speed_rad_per_s.push(state.angular_speed);
                 if !flies {
-                    contact_speeds.push((time, state.angular_speed));
+                    lowest = lowest.min(state.angular_speed);
                 }
             }
             if record.event.kind() == EventKind::Separation {
@@ -283,8 +280,7 @@ impl Toss {
                 toss.apex_height_m = state.height + rise;
             }
         }
-        toss.lowest_speed_rad_per_s =
-            contact_speeds.iter().map(|(_, speed)| *speed).fold(f64::INFINITY, f64::min);
+        toss.lowest_speed_rad_per_s = lowest;
         let middle = trajectory.start().after(bouncing_disk::motion::PhaseSpan::from_radians(
             0.5 * toss.separation_time_s * case.angular_frequency_rad_per_s,
         ));

@@ -11,9 +11,8 @@ use crate::claims::catalogue;
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
-use crate::figures::shared::toss::TossCase;
 use crate::figures::shared::toss::{
-    AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
+    AngleGrid, MOST_INTERVALS, TossCase, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
 
 /// Numbers that the paper prints about tosses with θ = 0.

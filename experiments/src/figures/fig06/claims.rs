@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use super::data::Fig06Data;
 use super::{regimes, rotation};
-use crate::claims::catalogue;
-use crate::claims::{self as claim, Claim};
+use crate::claims::{self as claim, Claim, catalogue};
 
 /// The doublings whose Γ is printed.
 const PRINTED_DOUBLINGS: usize = 5;

@@ -2,9 +2,8 @@
 
 use super::data::{BestLag, Chatter, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use crate::claims::catalogue;
 use crate::claims::judging::trend;
-use crate::claims::{self as claim, Cases, Claim};
+use crate::claims::{self as claim, Cases, Claim, catalogue};
 use crate::figures::shared::numbers::occupied_arc;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {

@@ -7,8 +7,10 @@ use bouncing_disk::core::{
     ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
 };
 
-use super::data::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
-use super::data::{Other, Panel, Shares, Spot};
+use super::data::{
+    ATTRACTOR, CHATTERING, OTHER, Other, Panel, STILL_OPEN, Shares, Spot, boundary_share, exponent, kind,
+    runs,
+};
 use crate::experiment::ExperimentError;
 use crate::figures::shared::map;
 use crate::progress::{Progress, advancing};

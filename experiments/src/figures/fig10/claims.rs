@@ -1,8 +1,7 @@
 //! What the paper says about Fig. 10.
 
 use super::data::{Fig10Data, Transient};
-use crate::claims::catalogue;
-use crate::claims::{Cases, Claim, all};
+use crate::claims::{Cases, Claim, all, catalogue};
 use crate::figures::shared::alike::{AlikeMotor, INTERVALS};
 use crate::figures::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words};
 use crate::figures::shared::numbers::median;

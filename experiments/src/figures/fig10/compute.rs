@@ -16,8 +16,7 @@ use super::data::{Alike, BetweenRests, Exception, Fig10Data, PerturbationEffect,
 use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{DRAWN, PrintedInputs};
-use crate::figures::shared::alike::{alike_with_band, oscillation};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike_with_band, oscillation};
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::median;
 use crate::progress::Progress;

@@ -1,22 +1,19 @@
 //! The computation of Fig. 13.
 
-use bouncing_disk::core::Unobserved;
 use std::f64::consts::{PI, TAU};
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::estimate::ExponentialFit;
 use bouncing_disk::motor::{NormalImpulses, TransientSettings};
 
 use super::data::{
     AlikeMotors, AlikeRange, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep,
-    SweepPoint,
+    SweepPoint, cosine_fit, trend_change,
 };
-use super::data::{cosine_fit, trend_change};
-use crate::claims::Cases;
-use crate::claims::paper;
+use crate::claims::{Cases, paper};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{AlikeMotor, alike};
-use crate::figures::shared::alike::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::{self, StraightLine};
 use crate::progress::Progress;

@@ -4,8 +4,10 @@ use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::numerics::elementary::ln;
 
-use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
-use super::data::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
+use super::data::{
+    Fig13Data, ID, Parameter, Prevalence, Quantity, SweepPoint, extent, read, speed, stall, sweep,
+    sweep_points, words,
+};
 use crate::claims::judging::trend;
 use crate::claims::{Cases, Claim, all, any};
 use crate::figures::shared::motor::LOW_PERIOD_FLIGHTS;
