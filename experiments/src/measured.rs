@@ -14,7 +14,6 @@ use std::{fs, io};
 use bouncing_disk::csv_records::{self, NumberFault, RecordFault, fields, lines};
 use bouncing_disk::regular_file;
 
-use crate::provenance;
 use crate::visible::{excerpt, visible};
 
 /// The largest legal magnitude, in the unit of any column: more is a wrong unit, and no fit to it overflows.
@@ -264,9 +263,6 @@ impl Series {
     pub fn read(layout: &Layout, bytes: &[u8]) -> Result<Self, MeasuredError> {
         let malformed = |fault: RecordFault| MeasuredError::from(format!("{}, {fault}", layout.file));
         let text = csv_records::text(bytes).map_err(malformed)?;
-        // A table that an experiment wrote is read like others, unless its form may be another one.
-        provenance::refuse_newer(provenance::FIGURE, provenance::from_csv(text).as_ref(), layout.file)
-            .map_err(|error| MeasuredError::from(error.to_string()))?;
         let mut lines = lines(text);
         let empty = || format!("{} is empty; its first line must be {}", layout.file, layout.header());
         let first = lines.next().ok_or_else(empty)?;
@@ -455,17 +451,6 @@ mod tests {
             let read = rows(&format!("{HEADER}1,0.3,0,{text}\n1,0.3,1,0\n"));
             assert!(read[0][3].is_sign_positive());
         }
-    }
-
-    #[test]
-    fn a_table_of_an_experiment_is_read_unless_its_format_is_newer() {
-        let origin = provenance::new(provenance::FIGURE).with("of", "a \"dough\", 'as' printed");
-        let body = format!("{HEADER}1,0.3,0,20.5\n1,0.3,0.1,1e-3\n");
-        let table = provenance::in_csv(&origin.expect("storable"), &body);
-        assert_eq!(rows(&table), rows(&body));
-        assert_eq!(Series::read(&LAYOUT, table.as_bytes()).expect("well formed").lines, [3, 4]);
-        let newer = fault(table.replace("\"format_version\":1", "\"format_version\":2"));
-        assert!(newer.starts_with("\"demo.csv\" has version 2 of the format \"bouncing-disk figure\""));
     }
 
     /// Each fault with its place and what would be legal; a number of fields, of lines, of characters is stated, not shown.

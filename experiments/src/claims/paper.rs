@@ -118,16 +118,6 @@ structs! {
         preload_acceleration_m_per_s2: f64 = "table1.preload_acceleration";
     }
 
-    /// Table II: effects of input parameter uncertainties on the airborne speed.
-    TableTwo, table_two {
-        stroke_effect_rad_per_s: f64 = "table2.stroke_effect";
-        angular_frequency_effect_rad_per_s: f64 = "table2.angular_frequency_effect";
-        contact_radius_effect_rad_per_s: f64 = "table2.contact_radius_effect";
-        gyration_radius_effect_rad_per_s: f64 = "table2.gyration_radius_effect";
-        friction_effect_rad_per_s: f64 = "table2.friction_effect";
-        amplitude_angle_effect_rad_per_s: f64 = "table2.amplitude_angle_effect";
-    }
-
     /// Table III: default values for the dimensional parameters of the motor.
     TableThree, table_three {
         friction: f64 = "table3.friction";
@@ -281,7 +271,6 @@ mod tests {
 
     #[test]
     fn all_structs_find_their_entries() {
-        table_two().expect("reads");
         section_three().expect("reads");
         preloads().expect("reads");
         chattering_cases().expect("reads");

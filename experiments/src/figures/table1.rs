@@ -19,7 +19,6 @@ use crate::claims::{
 };
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
-use crate::table::Table;
 
 /// Table I.
 #[derive(Debug)]
@@ -141,28 +140,6 @@ impl Experiment for Table1 {
             ("a_g", format!("{} m", table.gyration_radius_m)),
             ("g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
         ])
-    }
-
-    fn table(data: &Table1Data) -> Option<Table> {
-        let mut table = Table::new([
-            "quantity",
-            "unit",
-            "printed",
-            "computed",
-            "uncertainty, sum of effects",
-            "uncertainty, root sum of squares",
-        ]);
-        for row in &data.rows {
-            table.push([
-                row.symbol.as_str().into(),
-                row.unit.as_str().into(),
-                row.printed.as_deref().into(),
-                row.computed.into(),
-                row.uncertainty.map(|uncertainty| uncertainty.sum).into(),
-                row.uncertainty.map(|uncertainty| uncertainty.root_sum_of_squares).into(),
-            ]);
-        }
-        Some(table)
     }
 }
 

@@ -18,7 +18,6 @@ use crate::claims::{
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Table III.
 #[derive(Debug)]
@@ -172,30 +171,6 @@ impl Experiment for Table3 {
         parameters.push(("height of the drop".to_owned(), format!("{} m", drop.heights.drop_height_m)));
         parameters.push(("height of the rebound".to_owned(), format!("{} m", drop.heights.rebound_height_m)));
         parameters
-    }
-
-    fn table(data: &Table3Data) -> Option<Table> {
-        let mut table =
-            Table::new(["quantity", "unit", "printed", "g as printed", "70 read as frequency in kHz"]);
-        for input in &data.inputs {
-            table.push([
-                Cell::from(input.symbol.as_str()),
-                Cell::from(input.unit.as_str()),
-                Cell::from(input.printed.as_str()),
-                input.values[0].into(),
-                input.values[1].into(),
-            ]);
-        }
-        for row in &data.derived {
-            table.push([
-                Cell::from(row.symbol.as_str()),
-                Cell::from(row.unit.as_str()),
-                Cell::default(),
-                row.values[0].into(),
-                row.values[1].into(),
-            ]);
-        }
-        Some(table)
     }
 }
 

@@ -3,11 +3,10 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use bouncing_disk::InitialCondition;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::sweep::{SweepEvent, sweep};
 use bouncing_disk::core::{
-    ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Phase, Unobserved, Vibration,
+    ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Unobserved, Vibration,
 };
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::parameters::DimensionlessSystem;

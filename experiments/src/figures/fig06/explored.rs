@@ -10,7 +10,7 @@ use bouncing_disk::core::orbits::follow_attractor;
 use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk::core::{ChatterPolicy, ImpactState, Launch, Orbit, Phase, Unobserved};
 use bouncing_disk::motor::{NormalImpulses, PhasedImpulse};
-use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::parameters::ForcingParameters;
 use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
 use rayon::prelude::*;
 

@@ -4,7 +4,7 @@ use bouncing_disk::core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, UND
 use bouncing_disk::core::orbits::Multipliers;
 use bouncing_disk::core::sweep::survival_times;
 use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
+    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved,
 };
 
 use super::data::{

@@ -7,7 +7,6 @@ use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::acos;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
-use bouncing_disk::estimate::Spread;
 use bouncing_disk::motor::TransientSettings;
 use rayon::prelude::*;
 

@@ -4,7 +4,7 @@ use bouncing_disk::core::numerics::elementary::ln;
 
 use super::data::{
     Draw, Fig13Data, Parameter, Quantity, Sensitivity, SweepPoint, cosine_fit, extent, low_period_words,
-    read, speed, stall, stall_over_limit, sweep, sweep_points, trend_change,
+    read, speed, stall, stall_over_limit, sweep, trend_change,
 };
 use crate::claims::{Cases, Claim};
 use crate::figures::shared::numbers::{self, StraightLine};
