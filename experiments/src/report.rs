@@ -106,16 +106,12 @@ struct Section {
 impl Section {
     fn of(entry: &RegisteredExperiment, made: &Made) -> Result<Self, TemplateError> {
         let numbers = made.claims.iter().filter_map(|claim| match (&claim.source, &claim.computed) {
-            (Source::Entry(key) | Source::Reading(key), Computed::Number(number)) => {
+            (Source::Entry(key), Computed::Number(number)) => {
                 Some((key.clone(), like(&claim.printed, *number, 4)))
             }
             _ => None,
         });
-        // The first claim on an entry counts, which is its answer.
-        let mut claims = std::collections::BTreeMap::new();
-        numbers.for_each(|(key, number)| {
-            claims.entry(key).or_insert(number);
-        });
+        let claims: std::collections::BTreeMap<_, _> = numbers.collect();
         let discussion =
             environment().render_named_str(entry.id, entry.discussion.trim(), context! { claims })?;
         Ok(Self {

@@ -29,7 +29,7 @@ pub enum Class {
     Input,
     /// True by construction: a definition, an equation that the code implements, printed against printed.
     Identity,
-    /// A further reading of a printed number, or a finding that the paper does not have.
+    /// A finding that the paper does not have.
     ThisWork,
 }
 

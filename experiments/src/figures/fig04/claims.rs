@@ -43,7 +43,6 @@ fn described(data: &Fig04Data) -> String {
 pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
     let mut claims = optimum(data);
     claims.push(hand_speed(data));
-    claims.extend(even_grid(data));
     claims.push(dependence(data));
     claims.push(separation(data));
     claims
@@ -283,17 +282,6 @@ fn hand_speed(data: &Fig04Data) -> Claim {
             hand.least_rad_per_s, hand.most_rad_per_s,
         ),
     )
-}
-
-/// What an even grid of amplitude angles gives.
-fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
-    let grid = &data.consistency.coarse_grid;
-    grid.reading.numbers.iter().map(move |number| {
-        let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
-        Claim::reading(ID, &number.key, &quantity, number.computed)
-            .fitted("a_g, and the number of intervals")
-            .note(described(data))
-    })
 }
 
 /// How the optimum depends on friction.

@@ -45,9 +45,8 @@ impl Printed {
 }
 
 fn reading(parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
-    let compare = |((name, quantity), computed): (&(&str, &str), &f64)| Comparison {
+    let compare = |((_, quantity), computed): (&(&str, &str), &f64)| Comparison {
         quantity: (*quantity).to_owned(),
-        key: format!("section3.{name}"),
         computed: *computed,
     };
     Reading { parameters, numbers: NAMES.iter().zip(numbers).map(compare).collect() }

@@ -165,8 +165,6 @@ pub(super) struct Reading {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Comparison {
     pub(super) quantity: String,
-    /// The entry of the catalogue.
-    pub(super) key: String,
     /// In the unit of the printed number; angles in rad.
     pub(super) computed: f64,
 }

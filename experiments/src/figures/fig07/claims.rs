@@ -62,15 +62,6 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
             .note(&window)
             .note(accuracy(b.shares.attractor, b, data.cells))
         .note(format!("{} gives the printed number", top_text(windows.top_for_b))),
-        Claim::reading(
-            ID,
-            "section4.share_at_fig7b",
-            "share of all starts that do not chatter at Γ = 0.486",
-            100.0 * b.shares.not_chattering(),
-        )
-        .note("the printed number read as everything that is not white, which counts a second periodic attractor in")
-        .note(accuracy(b.shares.not_chattering(), b, data.cells))
-        .note(format!("{} gives the printed number", top_text(windows.top_for_b_not_chattering))),
         Claim::statement(
             ID,
             SECTION,

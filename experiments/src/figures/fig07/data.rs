@@ -108,13 +108,6 @@ pub(super) struct Shares {
     pub(super) undecided: f64,
 }
 
-impl Shares {
-    /// Everything that does not chatter.
-    pub(super) fn not_chattering(&self) -> f64 {
-        self.attractor + self.other + self.undecided
-    }
-}
-
 /// An impact: τ_imp/2π and |w_A Γ/(ωA)|.
 pub(super) type Spot = (f64, f64);
 
@@ -139,8 +132,6 @@ pub(super) struct Windows {
     pub(super) top_for_a: Option<f64>,
     /// The same for (b), the period-1 orbit alone.
     pub(super) top_for_b: Option<f64>,
-    /// The same for (b), everything that does not chatter.
-    pub(super) top_for_b_not_chattering: Option<f64>,
     /// Ranges of tops that give both printed numbers, the period-1 orbit alone in (b).
     pub(super) tops_for_both: Vec<(f64, f64)>,
     /// The same, everything that does not chatter in (b).

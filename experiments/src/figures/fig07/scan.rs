@@ -306,7 +306,6 @@ pub(super) fn windows(
         printed,
         top_for_a: top_for(&a, printed[0]),
         top_for_b: top_for(&b, printed[1]),
-        top_for_b_not_chattering: top_for(&b_all, printed[1]),
         tops_for_both: tops_for_both(&a, &b, printed),
         tops_for_both_not_chattering: tops_for_both(&a, &b_all, printed),
     })
