@@ -69,9 +69,6 @@ pub struct Claim {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) single_orbits: Option<SingleOrbits>,
     pub(crate) note: String,
-    /// The number behind the printed text; `None` for statements.
-    #[serde(skip)]
-    printed_value: Option<f64>,
     #[serde(skip)]
     pub(crate) source: Source,
 }
@@ -241,7 +238,6 @@ impl Claim {
             share: None,
             single_orbits: None,
             note: String::new(),
-            printed_value: PrintedNumber::read(printed).map(|number| number.value),
             source: Source::default(),
         }
     }

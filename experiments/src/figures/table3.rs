@@ -152,7 +152,6 @@ impl Experiment for Table3 {
             ))
             .cause("a fall with another gravitational acceleration"),
             drop_gravity(data),
-            stall(data),
         ]
     }
 
@@ -558,9 +557,6 @@ fn superscript(digit: char) -> char {
 
 const ID: &str = "table3";
 
-/// A difference of more than so many standard errors is one.
-const STANDARD_ERRORS: f64 = 3.0;
-
 /// The g that gives the printed speed. An inference from printed numbers; the text does not say which g was used.
 fn drop_gravity(data: &Table3Data) -> Claim {
     let drop = &data.drop;
@@ -580,19 +576,6 @@ fn drop_gravity(data: &Table3Data) -> Claim {
             drop.highest_varied_m_per_s2,
             data.gravity_m_per_s2,
         ),
-    )
-}
-
-/// The stall torque of the default motor.
-fn stall(data: &Table3Data) -> Claim {
-    let [printed, gravity] = &data.stalls;
-    let agrees = |stall: &Stall| stall.estimate_off.abs() <= STANDARD_ERRORS * stall.estimate_off_error;
-    Claim::statement(
-        ID,
-        "Sec. V C",
-        "α̇_ss/t_c of the default motor is the acceleration by the torque that stalls it",
-        agrees(gravity) && agrees(printed),
-        format!("with gravity it {}; with g as printed it {}", gravity.words(), printed.words(),),
     )
 }
 

@@ -11,7 +11,6 @@ use crate::claims::printed::PrintedNumber;
 use crate::claims::{self as claim, Claim};
 use crate::figures::shared::numbers;
 
-const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
 const LINEAR_LAGS: u32 = 8;
 /// An angle as a multiple of π.
@@ -42,7 +41,6 @@ fn described(data: &Fig04Data) -> String {
 
 pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
     let mut claims = optimum(data);
-    claims.push(hand_speed(data));
     claims.push(dependence(data));
     claims.push(separation(data));
     claims
@@ -267,21 +265,6 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
             ),
         ),
     ]
-}
-
-/// Whether the printed optimum fits Table I's hand.
-fn hand_speed(data: &Fig04Data) -> Claim {
-    let hand = &data.consistency.hand_speed;
-    Claim::statement(
-        ID,
-        "Sec. III B",
-        "printed φ_L, speed and speed ratio of the optimum fit Table I's c, ω and a_e",
-        hand.least_rad_per_s <= hand.most_rad_per_s,
-        format!(
-            "the hand's largest speed at the printed φ_L is at least {:.2} rad/s; the printed speed and ratio allow at most {:.2} rad/s, whatever μ and a_g",
-            hand.least_rad_per_s, hand.most_rad_per_s,
-        ),
-    )
 }
 
 /// How the optimum depends on friction.

@@ -5,7 +5,6 @@ use super::draw::forcing_text;
 use crate::claims::{self as claim, Claim};
 
 const ID: &str = "fig07";
-const SECTION: &str = "Sec. IV B";
 /// What was chosen so that both printed fractions come out.
 const FITTED: &str = "the window's top speed, 5, was chosen so that both printed fractions come out";
 /// Deep within a basin: no other start below this |w_A Γ/(ωA)|, a fiftieth of the window. What is found is far from it on either
@@ -47,10 +46,6 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
         "the window is not printed: stated for τ_imp/2π in [0, 1], |w_A Γ/(ωA)| in [0, {}]",
         data.window_top,
     );
-    let ranges = |tops: &[(f64, f64)]| {
-        let ranges: Vec<String> = tops.iter().map(|(low, high)| format!("{low:.3} to {high:.3}")).collect();
-        if ranges.is_empty() { "none".to_owned() } else { ranges.join(", ") }
-    };
     vec![
         Claim::printed("section4.share_at_fig7a", 100.0 * a.shares.attractor)
             .fitted(FITTED)
@@ -62,18 +57,6 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
             .note(&window)
             .note(accuracy(b.shares.attractor, b, data.cells))
         .note(format!("{} gives the printed number", top_text(windows.top_for_b))),
-        Claim::statement(
-            ID,
-            SECTION,
-            "one window [0, top] gives both 11.6 % and 39.1 %",
-            !windows.tops_for_both.is_empty(),
-            format!(
-                "tops up to 8 that give both to the last printed digit: {} with the period-1 orbit alone in (b), {} with \
-                 everything that does not chatter",
-                ranges(&windows.tops_for_both),
-                ranges(&windows.tops_for_both_not_chattering),
-            ),
-        ),
         Claim::printed_statement(
             "section4.basin_widens",
             claim::all(windows.curve.iter().filter(|point| point.a > 0.0), |point| point.b > point.a),
@@ -224,9 +207,6 @@ fn shapes(data: &Fig07Data, [a, b, d, e]: [&Panel; 4]) -> Vec<Claim> {
             panel.boundary_exponents.iter().map(|exponent| format!("{exponent:.2}")).collect();
         exponents.join(", ")
     };
-    let (_, last) = data.decay.last().copied().unwrap_or((0, f64::NAN));
-    let decay: Vec<String> =
-        data.decay.iter().map(|(count, share)| format!("{count}: {:.2} %", 100.0 * share)).collect();
     vec![
         Claim::printed_statement(
             "section4.rest_chatters",
@@ -252,20 +232,5 @@ fn shapes(data: &Fig07Data, [a, b, d, e]: [&Panel; 4]) -> Vec<Claim> {
             ),
         ),
         fills(data, e),
-        Claim::statement(
-            ID,
-            "Fig. 7(d)",
-            "the basin of the chaotic attractor does not depend on the number of impacts after which it is taken as reached",
-            claim::all(data.decay.iter().filter(|(count, _)| *count >= d.max_impacts), |(_, share)| {
-                // Half a unit of the digit to which the paper prints such shares.
-                (share - last).abs() < 5.0e-4
-            }),
-            format!(
-                "share of starts that have not come to rest after N impacts: {}; N = {} is used. A check of this work, not a \
-                 statement of the paper",
-                decay.join(", "),
-                d.max_impacts,
-            ),
-        ),
     ]
 }

@@ -9,7 +9,6 @@ use crate::figures::shared::numbers::median;
 pub(super) fn claims(data: &Fig10Data) -> Vec<Claim> {
     let mut claims = axial_forcings(data);
     claims.extend(transients(data));
-    claims.extend(perturbations(data));
     claims
 }
 
@@ -160,28 +159,3 @@ fn long_period_oscillates(data: &Fig10Data) -> Claim {
     .by_definition(&others.map(Cases::sampled))
 }
 
-/// Two speeds that differ by no more standard errors count as the same.
-const SAME_WITHIN: f64 = 3.0;
-
-/// That the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
-/// their standard errors.
-fn perturbations(data: &Fig10Data) -> Option<Claim> {
-    let speeds = || data.perturbations.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
-    let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean))?;
-    let most = speeds().max_by(|one, other| one.mean.total_cmp(&other.mean))?;
-    let difference = most.mean - least.mean;
-    let error =
-        (least.standard_error * least.standard_error + most.standard_error * most.standard_error).sqrt();
-    Some(Claim::statement(
-        "fig10",
-        "our ensemble",
-        "Table III's motor: the steady speed does not depend on the size of the relaunch perturbation",
-        difference <= SAME_WITHIN * error,
-        format!(
-            "of {} perturbations from none to {:e} g/ω the slowest and the fastest differ by {difference:.2} ± {error:.2} rad/s, {:.1} % of the speed",
-            data.perturbations.len(),
-            data.perturbations.iter().map(|effect| effect.relaunch_perturbation).fold(0.0, f64::max),
-            100.0 * difference / most.mean.abs(),
-        ),
-    ))
-}

@@ -141,8 +141,6 @@ pub(super) struct Holes {
     pub(super) one_flight_window: Option<f64>,
     /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
     pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
 /// What bouncing rotors do at Γ < 1/π.

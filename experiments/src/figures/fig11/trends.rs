@@ -78,13 +78,10 @@ impl Holes {
         let points: Vec<&Point> = curves.iter().flat_map(|curve| &curve.points).collect();
         let is_one_flight =
             |point: &Point| point.statistics.is_low_period() && point.statistics.cycle.is_one_flight();
-        let speeds = |wanted: &dyn Fn(&Point) -> bool| {
-            let chosen = points.iter().filter(|point| wanted(point)).map(|point| speed(point));
-            extent(&chosen.collect::<Vec<_>>())
-        };
         let one_flight: Vec<_> = points.iter().filter(|point| is_one_flight(point)).collect();
         let fractions: Vec<f64> =
             one_flight.iter().map(|point| point.axial_forcing.rem_euclid(1.0)).collect();
+        let speeds: Vec<f64> = one_flight.iter().map(|point| speed(point)).collect();
         let one_flight_fractions = extent(&fractions);
         Self {
             motors: points.len(),
@@ -92,9 +89,7 @@ impl Holes {
             one_flight: one_flight.len(),
             one_flight_fractions,
             one_flight_window: one_flight_fractions.map(|[least, most]| most - least),
-            one_flight_speeds_rad_per_s: speeds(&is_one_flight),
-            low_period_speeds_rad_per_s: speeds(&|point| point.statistics.is_low_period()),
-            other_speeds_rad_per_s: speeds(&|point| !point.statistics.is_low_period()),
+            one_flight_speeds_rad_per_s: extent(&speeds),
         }
     }
 }

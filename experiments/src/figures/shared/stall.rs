@@ -110,31 +110,6 @@ impl Stall {
             hold_share: grip * (1.0 + without_units.peak_acceleration()),
         })
     }
-
-    /// By how many standard errors load and balance differ.
-    pub(crate) fn balance_deviation(&self) -> f64 {
-        let (load, balance) = (self.load_rad_per_s2, self.balance_rad_per_s2);
-        let squares =
-            load.standard_error * load.standard_error + balance.standard_error * balance.standard_error;
-        (load.mean - balance.mean).abs() / squares.sqrt()
-    }
-
-    /// The numbers in one phrase.
-    pub(crate) fn words(&self) -> String {
-        format!(
-            "stalls at {:.2} ± {:.2} rad/s² (balance of the impulse {:.2} ± {:.2}), α̇_ss/t_c is {:.2} ± {:.2}, {:+.0} ± {:.0} % (of the speed that the \
-             balance predicts {:+.0} %)",
-            self.load_rad_per_s2.mean,
-            self.load_rad_per_s2.standard_error,
-            self.balance_rad_per_s2.mean,
-            self.balance_rad_per_s2.standard_error,
-            self.estimate_rad_per_s2.mean,
-            self.estimate_rad_per_s2.standard_error,
-            100.0 * self.estimate_off,
-            100.0 * self.estimate_off_error,
-            100.0 * self.predicted_off,
-        )
-    }
 }
 
 fn spread(shares: Vec<Result<f64, ExperimentError>>, limit: f64) -> Result<Spread, ExperimentError> {
@@ -208,7 +183,10 @@ mod tests {
         assert!(less > 0.0 && more < 0.0, "{less} {still} {more}");
         assert!(still.abs() < 0.25 * less.min(-more), "{less} {still} {more}");
         assert!(load < stall.limit_rad_per_s2, "{stall:?}");
-        assert!(stall.balance_deviation() < 4.0, "{stall:?}");
+        let (found, balance) = (stall.load_rad_per_s2, stall.balance_rad_per_s2);
+        let error_squared = found.standard_error * found.standard_error
+            + balance.standard_error * balance.standard_error;
+        assert!((found.mean - balance.mean).abs() < 4.0 * error_squared.sqrt(), "{stall:?}");
         assert!(stall.hold_share < 1e-2, "{stall:?}");
     }
 }
