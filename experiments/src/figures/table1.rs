@@ -178,9 +178,8 @@ struct Arc {
 }
 
 /// One line of the table.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Row {
-    symbol: String,
     /// The symbol as it is set in print.
     label: String,
     unit: String,
@@ -341,30 +340,30 @@ fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
 /// What a row computes from the hand and the dough of Table I.
 type Quantity = fn(&TossCase, &System) -> f64;
 
-/// Symbol, label, unit, decimals, origin and formula of the quantities that follow from Table I.
-type Following = (&'static str, &'static str, &'static str, usize, &'static str, Quantity);
+/// Label, unit, decimals, origin and formula of the quantities that follow from Table I.
+type Following = (&'static str, &'static str, usize, &'static str, Quantity);
 
 const FOLLOWING: [Following; 10] = [
-    ("A", "$A$", "m", 3, r"$c$ cos $\phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
-    ("a_e Φ", r"$a_e \Phi$", "m", 3, r"$c$ sin $\phi_L$, Eq. (13)", |case, system| {
+    ("$A$", "m", 3, r"$c$ cos $\phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
+    (r"$a_e \Phi$", "m", 3, r"$c$ sin $\phi_L$, Eq. (13)", |case, system| {
         case.contact_radius_m * system.platform().twist_amplitude()
     }),
-    ("L", "$L$", "", 2, r"tan $\phi_L$", |case, _| tan(case.amplitude_angle_rad)),
-    ("Φ", r"$\Phi$", "rad", 2, r"$c$ sin $\phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
-    ("ωΦ", r"$\omega \Phi$", "rad/s", 1, r"$c \omega$ sin $\phi_L/a_e$", |_, system| {
+    ("$L$", "", 2, r"tan $\phi_L$", |case, _| tan(case.amplitude_angle_rad)),
+    (r"$\Phi$", "rad", 2, r"$c$ sin $\phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
+    (r"$\omega \Phi$", "rad/s", 1, r"$c \omega$ sin $\phi_L/a_e$", |_, system| {
         system.platform().peak_angular_speed()
     }),
-    ("Aω", r"$A \omega$", "m/s", 2, r"$c \omega$ cos $\phi_L$", |_, system| {
+    (r"$A \omega$", "m/s", 2, r"$c \omega$ cos $\phi_L$", |_, system| {
         system.platform().amplitude() * system.platform().angular_frequency()
     }),
-    ("Γ", r"$\Gamma$", "", 2, r"$A \omega^2/\pi g$", |_, system| system.axial_forcing()),
-    ("Γ_T", r"$\Gamma_T$", "", 2, r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", |_, system| {
+    (r"$\Gamma$", "", 2, r"$A \omega^2/\pi g$", |_, system| system.axial_forcing()),
+    (r"$\Gamma_T$", "", 2, r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", |_, system| {
         system.angular_forcing().unwrap_or(f64::INFINITY)
     }),
-    ("τ_sep", r"$\tau_{sep}$", "rad", 3, r"$\arcsin(1/\pi \Gamma)$, Eq. (15)", |_, system| {
+    (r"$\tau_{sep}$", "rad", 3, r"$\arcsin(1/\pi \Gamma)$, Eq. (15)", |_, system| {
         asin(1.0 / system.peak_acceleration())
     }),
-    ("largest φ_L", r"largest $\phi_L$", "rad", 3, r"$\arccos(g/c \omega^2)$", |case, _| {
+    (r"largest $\phi_L$", "rad", 3, r"$\arccos(g/c \omega^2)$", |case, _| {
         acos(1.0 / case.stroke_acceleration())
     }),
 ];
@@ -374,81 +373,68 @@ fn rows(
     entries: &ComputedEntries,
     separation: &AtSeparation,
 ) -> Result<Vec<Row>, ExperimentError> {
-    let printed =
-        |symbol: &str, label: &str, unit: &str, name: &str, origin: &str| -> Result<Row, ExperimentError> {
-            Ok(Row {
-                symbol: symbol.to_owned(),
-                label: label.to_owned(),
-                unit: unit.to_owned(),
-                printed: Some(catalogue::text(&format!("table1.{name}"))?.to_owned()),
-                computed: None,
-                uncertainty: None,
-                decimals: 0,
-                origin: origin.to_owned(),
-            })
-        };
+    let printed = |label: &str, unit: &str, name: &str, origin: &str| -> Result<Row, ExperimentError> {
+        let printed = Some(catalogue::text(&format!("table1.{name}"))?.to_owned());
+        Ok(Row {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+            printed,
+            origin: origin.to_owned(),
+            ..Row::default()
+        })
+    };
     let with = |row: Row, computed: Propagated, decimals: usize| Row {
         computed: Some(computed.value),
         uncertainty: Some(computed),
         decimals,
         ..row
     };
+    let corrected = separation.corrected_angular_frequency_rad_per_s;
+    let at_separation = following(
+        r"$\omega$ with cos $\tau_{sep}$",
+        "rad/s",
+        2,
+        r"the same, speeds taken at $\tau_{sep}$",
+        corrected.value,
+    );
     let mut rows = vec![
-        printed("θ", r"$\theta$", "rad", "phase_lag", "video")?,
+        printed(r"$\theta$", "rad", "phase_lag", "video")?,
         with(
-            printed("φ_L", r"$\phi_L$", "rad", "amplitude_angle", r"launch speeds, $a_e$; Eq. (14)")?,
+            printed(r"$\phi_L$", "rad", "amplitude_angle", r"launch speeds, $a_e$; Eq. (14)")?,
             entries.amplitude_angle_rad,
             3,
         ),
-        printed("c", "$c$", "m", "stroke", "video")?,
+        printed("$c$", "m", "stroke", "video")?,
         with(
-            printed("ω", r"$\omega$", "rad/s", "angular_frequency", r"launch speeds, $c$, $a_e$; Eq. (14)")?,
+            printed(r"$\omega$", "rad/s", "angular_frequency", r"launch speeds, $c$, $a_e$; Eq. (14)")?,
             entries.angular_frequency_rad_per_s,
             2,
         ),
-        Row {
-            symbol: "ω with cos τ_sep".to_owned(),
-            label: r"$\omega$ with cos $\tau_{sep}$".to_owned(),
-            unit: "rad/s".to_owned(),
-            printed: None,
-            computed: Some(separation.corrected_angular_frequency_rad_per_s.value),
-            uncertainty: Some(separation.corrected_angular_frequency_rad_per_s),
-            decimals: 2,
-            origin: r"the same, speeds taken at $\tau_{sep}$".to_owned(),
-        },
-        printed("a_e", "$a_e$", "m", "contact_radius", "video")?,
-        printed("a_g", "$a_g$", "m", "gyration_radius", "video")?,
-        with(printed("μ", r"$\mu$", "", "friction", "tangent of the slope of slip")?, entries.friction, 2),
-        printed("g", "$g$", "m/s²", "preload_acceleration", "gravity")?,
+        with(at_separation, corrected, 2),
+        printed("$a_e$", "m", "contact_radius", "video")?,
+        printed("$a_g$", "m", "gyration_radius", "video")?,
+        with(printed(r"$\mu$", "", "friction", "tangent of the slope of slip")?, entries.friction, 2),
+        printed("$g$", "m/s²", "preload_acceleration", "gravity")?,
     ];
     let case = TossCase::from(table);
     let system = case.system()?;
-    for (symbol, label, unit, decimals, origin, quantity) in FOLLOWING {
-        rows.push(following(symbol, label, unit, decimals, origin, quantity(&case, &system)));
+    for (label, unit, decimals, origin, quantity) in FOLLOWING {
+        rows.push(following(label, unit, decimals, origin, quantity(&case, &system)));
     }
     let fastest = r"$\tau_{\mathit{max}|\dot{\beta}|}$";
     // Subtracted from zero: minus zero would be shown with its sign.
-    rows.push(following(
-        "τ_max",
-        fastest,
-        "rad",
-        0,
-        r"$-\theta + n\pi$, Eq. (15)",
-        0.0 - table.phase_lag_rad,
-    ));
+    rows.push(following(fastest, "rad", 0, r"$-\theta + n\pi$, Eq. (15)", 0.0 - table.phase_lag_rad));
     Ok(rows)
 }
 
-fn following(symbol: &str, label: &str, unit: &str, decimals: usize, origin: &str, computed: f64) -> Row {
+fn following(label: &str, unit: &str, decimals: usize, origin: &str, computed: f64) -> Row {
     Row {
-        symbol: symbol.to_owned(),
         label: label.to_owned(),
         unit: unit.to_owned(),
-        printed: None,
         computed: Some(computed),
-        uncertainty: None,
         decimals,
         origin: origin.to_owned(),
+        ..Row::default()
     }
 }
 

@@ -231,7 +231,6 @@ struct Input {
 /// A quantity that follows from the inputs, for both readings.
 #[derive(Debug, Serialize, Deserialize)]
 struct Following {
-    symbol: String,
     label: String,
     unit: String,
     values: [f64; 2],
@@ -360,8 +359,7 @@ fn derived(
 ) -> Result<Vec<Following>, ExperimentError> {
     let [printed, frequency] = cases;
     let systems = [printed.system()?, frequency.system()?];
-    let row = |symbol: &str, label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
-        symbol: symbol.to_owned(),
+    let row = |label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
         label: label.to_owned(),
         unit: unit.to_owned(),
         values,
@@ -373,49 +371,43 @@ fn derived(
     let axial_speeds =
         systems.map(|system| system.platform().amplitude() * system.platform().angular_frequency());
     Ok(vec![
-        row("ω", r"$\omega$", "rad/s", "", omega),
+        row(r"$\omega$", "rad/s", "", omega),
         row(
-            "Φ",
             r"$\Phi$",
             "rad",
             r"$\omega \Phi/\omega$",
             systems.map(|system| system.platform().twist_amplitude()),
         ),
-        row("Aω", r"$A \omega$", "m/s", "", axial_speeds),
-        row("P", "$P$", "", r"$A \omega^2/g$", peaks),
-        row("Γ", r"$\Gamma$", "", r"$A \omega^2/\pi g$", systems.map(|system| system.axial_forcing())),
-        row("Γ_T", r"$\Gamma_T$", "", r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", forcing),
+        row(r"$A \omega$", "m/s", "", axial_speeds),
+        row("$P$", "", r"$A \omega^2/g$", peaks),
+        row(r"$\Gamma$", "", r"$A \omega^2/\pi g$", systems.map(|system| system.axial_forcing())),
+        row(r"$\Gamma_T$", "", r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", forcing),
         row(
-            "Γ_T/Γ",
             r"$\Gamma_T/\Gamma$",
             "",
             r"$a_g^2 \Phi/(a_e \mu A)$",
             [0, 1].map(|index| forcing[index] * PI / peaks[index]),
         ),
-        row("mg", "$mg$", "N", "steel ball", cases.map(|case| mass * case.preload_acceleration_m_per_s2)),
+        row("$mg$", "N", "steel ball", cases.map(|case| mass * case.preload_acceleration_m_per_s2)),
         row(
-            "largest acceleration",
             r"largest $\ddot{\alpha}$",
             "rad/s²",
             r"$\mu a_e g/a_g^2$",
             cases.map(|case| case.largest_acceleration()),
         ),
         row(
-            "shortest rise time",
             "shortest rise",
             "s",
             r"$\omega \Phi$ over the largest $\ddot{\alpha}$",
             cases.map(|case| case.rise_time_s()),
         ),
         row(
-            "load that stalls the motor",
             r"stall $T/m a_g^2$",
             "rad/s²",
             "load torque $T$ with mean speed 0",
             stalls.map(|stall| stall.load_rad_per_s2.mean),
         ),
         row(
-            "stall torque",
             "stall $T$",
             "µN m",
             "",
@@ -425,47 +417,21 @@ fn derived(
             }),
         ),
         row(
-            "α̇_ss/t_c",
             r"$\dot{\alpha}_{ss}/t_c$",
             "rad/s²",
             "the paper's estimate of it",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
         ),
+        row("least stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0])),
+        row("largest stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1])),
         row(
-            "least stall",
-            "least stall",
-            "rad/s²",
-            WITHIN,
-            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0]),
-        ),
-        row(
-            "largest stall",
-            "largest stall",
-            "rad/s²",
-            WITHIN,
-            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1]),
-        ),
-        row(
-            "steady speed",
             r"$\dot{\alpha}_{ss}$",
             "rad/s",
             "mean over time, without load",
             speeds.map(|of| of.speed_rad_per_s),
         ),
-        row(
-            "least speed",
-            "least speed",
-            "rad/s",
-            WITHIN,
-            speeds.map(|of| of.over_inputs_rad_per_s.from_to[0]),
-        ),
-        row(
-            "largest speed",
-            "largest speed",
-            "rad/s",
-            WITHIN,
-            speeds.map(|of| of.over_inputs_rad_per_s.from_to[1]),
-        ),
+        row("least speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[0])),
+        row("largest speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[1])),
     ])
 }
 

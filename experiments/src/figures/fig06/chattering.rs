@@ -5,9 +5,7 @@ use std::ops::ControlFlow;
 
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::sweep::{SweepEvent, sweep};
-use bouncing_disk::core::{
-    ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Unobserved, Vibration,
-};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Unobserved, Vibration};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};

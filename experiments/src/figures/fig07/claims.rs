@@ -51,12 +51,12 @@ fn fractions(data: &Fig07Data, a: &Panel, b: &Panel) -> Vec<Claim> {
             .fitted(FITTED)
             .note(&window)
             .note(accuracy(a.shares.attractor, a, data.cells))
-        .note(format!("{} gives the printed number", top_text(windows.top_for_a))),
+            .note(format!("{} gives the printed number", top_text(windows.top_for_a))),
         Claim::printed("section4.share_at_fig7b", 100.0 * b.shares.attractor)
             .fitted(FITTED)
             .note(&window)
             .note(accuracy(b.shares.attractor, b, data.cells))
-        .note(format!("{} gives the printed number", top_text(windows.top_for_b))),
+            .note(format!("{} gives the printed number", top_text(windows.top_for_b))),
         Claim::printed_statement(
             "section4.basin_widens",
             claim::all(windows.curve.iter().filter(|point| point.a > 0.0), |point| point.b > point.a),

@@ -3,9 +3,7 @@
 use bouncing_disk::core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, UNDECIDED};
 use bouncing_disk::core::orbits::Multipliers;
 use bouncing_disk::core::sweep::survival_times;
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved,
-};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved};
 
 use super::data::{
     ATTRACTOR, CHATTERING, OTHER, Other, Panel, STILL_OPEN, Shares, Spot, boundary_share, exponent, kind,

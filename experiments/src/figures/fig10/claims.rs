@@ -158,4 +158,3 @@ fn long_period_oscillates(data: &Fig10Data) -> Claim {
     )
     .by_definition(&others.map(Cases::sampled))
 }
-

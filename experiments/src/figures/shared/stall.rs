@@ -184,8 +184,8 @@ mod tests {
         assert!(still.abs() < 0.25 * less.min(-more), "{less} {still} {more}");
         assert!(load < stall.limit_rad_per_s2, "{stall:?}");
         let (found, balance) = (stall.load_rad_per_s2, stall.balance_rad_per_s2);
-        let error_squared = found.standard_error * found.standard_error
-            + balance.standard_error * balance.standard_error;
+        let error_squared =
+            found.standard_error * found.standard_error + balance.standard_error * balance.standard_error;
         assert!((found.mean - balance.mean).abs() < 4.0 * error_squared.sqrt(), "{stall:?}");
         assert!(stall.hold_share < 1e-2, "{stall:?}");
     }
