@@ -5,7 +5,6 @@ mod draw;
 mod sprung;
 
 use bouncing_disk::core::ChatterPolicy;
-use bouncing_disk::motion::Transition;
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
 
