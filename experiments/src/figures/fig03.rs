@@ -129,6 +129,8 @@ fn cap(census: &Census) -> Claim {
 
 #[cfg(test)]
 mod tests {
+    use bouncing_disk::motion::Transition;
+
     use super::*;
     use crate::progress::Silent;
 
