@@ -32,8 +32,10 @@ pub struct ExtraEfficiencyData {
     /// Phase lags of the columns (rad), and loads of the rows, as shares of the largest torque μ m g a_e.
     phase_lags_rad: Vec<f64>,
     load_shares: Vec<f64>,
-    /// Row by row, where the motor has a steady speed.
-    operations: Vec<Vec<Option<OperatingPoint>>>,
+    /// Mechanical power over the power put in, row by row: negative where the load drives the motor back. `None` where no
+    /// power is put in.
+    power_ratios: Vec<Vec<Option<f64>>>,
+    speeds_rad_per_s: Vec<Vec<Option<f64>>>,
     /// Lag (rad), load and efficiency of the best motor of the map.
     best: (f64, f64, Estimate),
     /// Along the loads, at the best lag.
@@ -86,9 +88,13 @@ impl Experiment for ExtraEfficiency {
         let motors = cells.iter().map(|cell| at(&motor, *cell)).collect::<Result<Vec<_>, _>>()?;
         let map = operations(&motors, &settings, &Unobserved)?;
         progress.advance(1);
-        let points: Vec<Option<OperatingPoint>> = map.iter().map(|own| own.point().copied()).collect();
+        let points: Vec<Option<&OperatingPoint>> = map.iter().map(Operation::point).collect();
+        let matrix = |of: fn(&OperatingPoint) -> Option<f64>| -> Vec<Vec<Option<f64>>> {
+            let rows = points.chunks(phase_lags_rad.len());
+            rows.map(|row| row.iter().map(|point| point.and_then(of)).collect()).collect()
+        };
         let efficient =
-            cells.iter().zip(&points).filter_map(|(cell, point)| Some((*cell, point.as_ref()?.efficiency?)));
+            cells.iter().zip(&points).filter_map(|(cell, point)| Some((*cell, (*point)?.efficiency?)));
         let ((lag, load), efficiency) = efficient
             .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
             .ok_or_else(|| ExperimentError::NoData { quantity: "best efficiency".to_owned() })?;
@@ -96,7 +102,11 @@ impl Experiment for ExtraEfficiency {
         let along_load = at(&motor, (lag, 0.0))?.torque_speed_curve(&loads, &settings, &Unobserved)?;
         progress.advance(1);
         Ok(ExtraEfficiencyData {
-            operations: points.chunks(phase_lags_rad.len()).map(<[_]>::to_vec).collect(),
+            power_ratios: matrix(|point| {
+                let input = point.input_power.value;
+                (input > 0.0).then(|| point.mechanical_power.value / input)
+            }),
+            speeds_rad_per_s: matrix(|point| Some(point.speed.value)),
             best: (lag, load, efficiency),
             along_load: along_load.iter().filter_map(Operation::point).copied().collect(),
             motor,
@@ -133,12 +143,13 @@ fn palette(levels: usize) -> Vec<Colour> {
 
 fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
     let (columns, rows) = (data.phase_lags_rad.len(), data.load_shares.len());
-    let cells = data.operations.iter().flatten().map(|point| match point {
-        Some(point) if point.speed.value > 0.0 && point.input_power.value > 0.0 => {
-            let share = point.mechanical_power.value / point.input_power.value;
-            1 + ((100.0 * share).max(0.0) as usize).min(levels - 1) as u8
-        }
-        _ => 0,
+    let cells = data.power_ratios.iter().zip(&data.speeds_rad_per_s).flat_map(|(ratios, speeds)| {
+        ratios.iter().zip(speeds).map(|cell| match cell {
+            (Some(share), Some(speed)) if *speed > 0.0 => {
+                1 + ((100.0 * share).max(0.0) as usize).min(levels - 1) as u8
+            }
+            _ => 0,
+        })
     });
     // The cells lie around the lags and loads of their motors.
     let (half_lag, half_load) =
@@ -163,8 +174,8 @@ fn map(data: &ExtraEfficiencyData, area: Rect, levels: usize) -> Panel {
 fn stall_line(data: &ExtraEfficiencyData) -> Vec<(f64, f64)> {
     let crossing = |column: usize| {
         (1..data.load_shares.len()).find_map(|row| {
-            let speed = |row: usize| Some(data.operations[row][column]?.speed.value);
-            let (below, above) = (speed(row - 1)?, speed(row)?);
+            let [below, above] = [row - 1, row].map(|row| data.speeds_rad_per_s[row][column]);
+            let (below, above) = (below?, above?);
             let (from, to) = (data.load_shares[row - 1], data.load_shares[row]);
             (below > 0.0 && above <= 0.0).then(|| from + (to - from) * below / (below - above))
         })
