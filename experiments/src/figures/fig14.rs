@@ -123,7 +123,7 @@ impl Experiment for Fig14 {
         }
         if let Some(own) = &data.measured {
             let points = || own.time_s.iter().copied().zip(own.relative_diameter.iter().copied());
-            let ends = [points().next(), points().last()].into_iter().flatten();
+            let ends = [points().next(), points().next_back()].into_iter().flatten();
             let line = ends.map(|(time, _)| (time, 1.0 + own.slope_per_s * (time - own.time_s[0])));
             panel = panel
                 .layer(Scatter::new(points()).marker(Marker::Cross).colour(Colour::GREEN).name("measured"))
