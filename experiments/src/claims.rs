@@ -1,6 +1,6 @@
 //! What the paper prints, and how it is judged.
 //!
-//! [`printed`] reads numbers as the paper prints them, [`catalogue`] has all that it prints, and [`paper`] gives some of it to
+//! [`printed`] reads numbers as the paper prints them, [`catalogue`] has all that it prints, and `paper` gives some of it to
 //! experiments as typed inputs. [`judging`] has the rule of each kind; [`Claim`] compares one printed number or statement with
 //! ours, and [`answers`] says whether each entry of the catalogue is answered by one claim.
 
@@ -8,7 +8,7 @@ pub mod answers;
 pub mod catalogue;
 mod claim;
 pub mod judging;
-pub mod paper;
+pub(crate) mod paper;
 pub mod printed;
 
 pub use catalogue::Class;

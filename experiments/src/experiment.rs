@@ -16,7 +16,6 @@ use crate::json::{self, FiniteError};
 use crate::measured::{Layout, MeasuredError, Measurements, Series};
 use crate::progress::Progress;
 use crate::provenance;
-use crate::table::{Table, TableError};
 
 /// How finely an experiment samples its parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -83,9 +82,6 @@ pub enum ExperimentError {
     /// The figure could not be drawn.
     #[error("the figure could not be drawn")]
     Draw(#[from] DrawError),
-    /// The table is malformed.
-    #[error("the table could not be written")]
-    Table(#[from] TableError),
     /// The data cannot be stored: a number is infinite or not a number.
     #[error("the data cannot be stored")]
     Data(#[from] FiniteError),
@@ -219,11 +215,11 @@ pub trait Experiment: Sync + Send + 'static {
     fn parameters(_data: &Self::Data) -> Vec<(String, String)> {
         Vec::new()
     }
+}
 
-    /// The data as a table, where the paper prints a table.
-    fn table(_data: &Self::Data) -> Option<Table> {
-        None
-    }
+/// [`Experiment::parameters`] of known names.
+pub(crate) fn named<const N: usize>(parameters: [(&str, String); N]) -> Vec<(String, String)> {
+    parameters.map(|(name, value)| (name.to_owned(), value)).to_vec()
 }
 
 /// Data of an experiment, whatever their type, and all that is made from them.
@@ -237,8 +233,6 @@ pub struct Made {
     pub parameters: Vec<(String, String)>,
     /// See [`Experiment::claims`]; with those of entries that nothing can be computed for.
     pub claims: Vec<Claim>,
-    /// See [`Experiment::table`].
-    pub table: Option<Table>,
     /// See [`Experiment::draw`].
     pub figure: Figure,
     /// Faults of the user's measurements that are therefore not shown.
@@ -257,7 +251,6 @@ impl Made {
             caption: E::caption(data),
             parameters: E::parameters(data),
             claims,
-            table: E::table(data),
             figure: E::draw(data)?,
             warnings: Vec::new(),
         })
@@ -328,6 +321,11 @@ struct Record {
 }
 
 impl RegisteredExperiment {
+    /// Whether it is a figure beyond the paper, whose identifiers begin alike.
+    pub fn is_extra(&self) -> bool {
+        self.id.starts_with("extra-")
+    }
+
     /// Runs the experiment. Measurements that cannot be used are left out, with a warning.
     pub fn compute(
         &self,
@@ -354,28 +352,25 @@ impl RegisteredExperiment {
         Ok(provenance)
     }
 
-    /// Runs the experiment and makes its files: `ID.json`, `ID.svg`, `ID.png`, and `ID.csv` where it is a table, each of
-    /// which says where it comes from ([`provenance`]).
+    /// Runs the experiment and makes its files, `ID.json`, `ID.svg` and `ID.png`, each of which says where it comes from
+    /// ([`provenance`]).
     pub fn files(
         &self,
         quality: Quality,
         measurements: &Measurements,
         progress: &dyn Progress,
     ) -> Result<Vec<File>, ExperimentError> {
-        let Made { data, caption, parameters, table, figure, warnings, .. } =
+        let Made { data, caption, parameters, figure, warnings, .. } =
             self.compute(quality, measurements, progress)?;
         let provenance = self.provenance(provenance::FIGURE, quality)?.with("values", &parameters)?;
         let id = self.id;
-        let mut files = Vec::new();
-        if let Some(table) = table {
-            files.push((format!("{id}.csv"), provenance::in_csv(&provenance, &table.to_csv()?).into_bytes()));
-        }
-        files.push((format!("{id}.png"), provenance::in_png(&provenance, &figure.to_png()?)));
-        files.push((format!("{id}.svg"), provenance::in_svg(&provenance, &figure.to_svg()?).into_bytes()));
+        let png = provenance::in_png(&provenance, &figure.to_png()?);
+        let svg = provenance::in_svg(&provenance, &figure.to_svg()?).into_bytes();
         let (id, title) = (id.to_owned(), self.title.to_owned());
         let record = Record { provenance, id, title, quality, caption, parameters, warnings, data };
-        files.push((format!("{}.json", self.id), json::to_text(&json::to_value(&record)?).into_bytes()));
-        Ok(files)
+        let json = json::to_text(&json::to_value(&record)?).into_bytes();
+        let id = self.id;
+        Ok(vec![(format!("{id}.png"), png), (format!("{id}.svg"), svg), (format!("{id}.json"), json)])
     }
 
     /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
@@ -405,17 +400,15 @@ mod tests {
         let files = make();
         assert_eq!(files, make());
         let names: Vec<_> = files.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["demo.csv", "demo.png", "demo.svg", "demo.json"]);
-        let (made, quality, origin) = demo.read(&files[3].1).expect("fits");
+        assert_eq!(names, ["demo.png", "demo.svg", "demo.json"]);
+        let (made, quality, origin) = demo.read(&files[2].1).expect("fits");
         assert_eq!((quality, made.warnings.len(), made.claims.len()), (Quality::Draft, 0, 1));
         let parameters = origin.parameters();
         assert_eq!((&parameters["figure"], &parameters["quality"]), (&"demo".into(), &"draft".into()));
         assert_eq!(parameters["values"], serde_json::json!([["restitution ε", "0.5"]]));
         assert_eq!((origin.seed(), origin.chatter_policy()), (Some(3), Some(ChatterPolicy::Complete)));
         let svg = provenance::in_svg(&origin, &made.figure.to_svg().expect("draws"));
-        assert_eq!(svg.into_bytes(), files[2].1);
-        let csv = String::from_utf8(files[0].1.clone()).expect("text");
-        assert_eq!(provenance::from_csv(&csv), Some(serde_json::json!(origin)));
+        assert_eq!(svg.into_bytes(), files[1].1);
     }
 
     #[test]
@@ -462,7 +455,7 @@ mod tests {
             std::fs::write(folder.path().join("demo.csv"), content).expect("writable");
             let measurements = Measurements::read(folder.path(), demo.measurements).expect("readable");
             let files = demo.files(Quality::Draft, &measurements, &Silent).expect("works");
-            let (made, ..) = demo.read(&files[3].1).expect("fits");
+            let (made, ..) = demo.read(&files[2].1).expect("fits");
             (made.warnings, made.caption)
         };
         let (warnings, caption) = make("phase_rad\n0.1\n0.3\n");

@@ -3,11 +3,6 @@
 //!
 //! A new module is declared here and listed once in [`crate::registry::paper`] or [`crate::registry::extras`].
 
-mod alike;
-mod angle_grid;
-pub mod braking_record;
-mod cylinder;
-pub mod dough_record;
 pub mod extra_attractors;
 pub mod extra_branches;
 pub mod extra_cascade;
@@ -35,16 +30,7 @@ pub mod fig11;
 pub mod fig12;
 pub mod fig13;
 pub mod fig14;
-mod hand_path;
-mod manifold_lines;
-mod motor_case;
-mod numbers;
-mod printed_inputs;
-mod stall;
+mod shared;
 pub mod table1;
 pub mod table2;
 pub mod table3;
-mod toss_case;
-
-/// The range of Γ of the diagrams of Fig. 6, to whose end Fig. 7 looks for starts that do not come to rest.
-pub(crate) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);

@@ -22,7 +22,6 @@ pub mod progress;
 pub mod provenance;
 pub mod registry;
 pub mod report;
-pub mod table;
 #[cfg(test)]
 mod testing;
 pub mod visible;
@@ -32,7 +31,6 @@ pub use experiment::{Experiment, ExperimentError, Quality};
 pub use json::FiniteError;
 pub use measured::Measurements;
 pub use progress::{Progress, Silent};
-pub use table::Table;
 
 /// Compiles and runs the examples of the workspace's README, which no packaged crate may read.
 #[cfg(doctest)]

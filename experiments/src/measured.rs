@@ -13,9 +13,7 @@ use std::{fs, io};
 
 use bouncing_disk::csv_records::{self, NumberFault, RecordFault, fields, lines};
 use bouncing_disk::regular_file;
-use bouncing_disk::store::StorageError;
 
-use crate::provenance;
 use crate::visible::{excerpt, visible};
 
 /// The largest legal magnitude, in the unit of any column: more is a wrong unit, and no fit to it overflows.
@@ -154,70 +152,23 @@ impl Layout {
             (Some(column), "") => format!(", column {column}"),
             (Some(column), name) => format!(", column {column} ({name})"),
         };
-        MeasuredError::Line { file: self.file, line, column, fault }
+        format!("{}, line {line}{column}: {fault}", self.file).into()
     }
 }
 
-/// A fault in a file of measurements. Lines and columns are counted from 1.
+/// A fault in a file of measurements: the file, the place in it, what was found and what would be legal. Lines and columns are
+/// counted from 1.
 #[derive(Debug, thiserror::Error)]
-pub enum MeasuredError {
-    /// The system refuses to give the file.
-    #[error("{file} cannot be read")]
-    Unreadable {
-        /// The file.
-        file: &'static str,
-        /// What the system reported.
-        source: Arc<io::Error>,
-    },
-    /// No figure reads these files: one by its name, or how many more there are.
-    #[error("no figure reads {files}; legal names are {legal}")]
-    Unknown {
-        /// The files, in words.
-        files: String,
-        /// The names that are read.
-        legal: String,
-    },
-    /// The file is a table of a newer program.
-    #[error(transparent)]
-    Newer(Box<StorageError>),
-    /// The file has no records, whatever its columns.
-    #[error("{file}, {fault}")]
-    Form {
-        /// The file.
-        file: &'static str,
-        /// The fault, with its line.
-        fault: RecordFault,
-    },
-    /// There is no header.
-    #[error("{file} is empty; its first line must be {legal}")]
-    Empty {
-        /// The file.
-        file: &'static str,
-        /// The header.
-        legal: String,
-    },
-    /// A line is not what the layout says.
-    #[error("{file}, line {line}{column}: {fault}")]
-    Line {
-        /// The file.
-        file: &'static str,
-        /// The line.
-        line: usize,
-        /// The column, in words.
-        column: String,
-        /// What was found, and what would be legal.
-        fault: String,
-    },
-    /// The numbers are legal, but what the figure computes from them is not defined.
-    #[error("{file}: {what} cannot be evaluated")]
-    Unusable {
-        /// The file.
-        file: &'static str,
-        /// Which of its points.
-        what: String,
-        /// What was reported.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
+#[error("{fault}")]
+pub struct MeasuredError {
+    fault: String,
+    source: Option<Box<dyn std::error::Error + Send + Sync>>,
+}
+
+impl From<String> for MeasuredError {
+    fn from(fault: String) -> Self {
+        Self { fault, source: None }
+    }
 }
 
 /// The content of a user's files, read once, so that a figure and its cache key see the same bytes.
@@ -262,7 +213,10 @@ impl Measurements {
     pub fn series(&self, layout: &Layout) -> Option<Result<Series, MeasuredError>> {
         self.files.get(layout.file).map(|content| match content {
             Ok(bytes) => Series::read(layout, bytes),
-            Err(source) => Err(MeasuredError::Unreadable { file: layout.file, source: Arc::clone(source) }),
+            Err(error) => {
+                let fault = format!("{} cannot be read", layout.file);
+                Err(MeasuredError { fault, source: Some(Box::new(Arc::clone(error))) })
+            }
         })
     }
 
@@ -274,7 +228,8 @@ impl Measurements {
         let named = named.iter().map(|file| format!("a file called {}", visible(file)));
         let more = (!more.is_empty()).then(|| format!("{} more files", more.len()));
         let legal = self.legal.join(", ");
-        named.chain(more).map(|files| MeasuredError::Unknown { files, legal: legal.clone() }).collect()
+        let fault = |files| format!("no figure reads {files}; legal names are {legal}").into();
+        named.chain(more).map(fault).collect()
     }
 
     /// The digest of the files of these layouts; empty when there is none of them.
@@ -306,13 +261,10 @@ pub struct Series {
 impl Series {
     /// Reads a file's content.
     pub fn read(layout: &Layout, bytes: &[u8]) -> Result<Self, MeasuredError> {
-        let malformed = |fault| MeasuredError::Form { file: layout.file, fault };
+        let malformed = |fault: RecordFault| MeasuredError::from(format!("{}, {fault}", layout.file));
         let text = csv_records::text(bytes).map_err(malformed)?;
-        // A table that an experiment wrote is read like others, unless its form may be another one.
-        provenance::refuse_newer(provenance::FIGURE, provenance::from_csv(text).as_ref(), layout.file)
-            .map_err(|error| MeasuredError::Newer(Box::new(error)))?;
         let mut lines = lines(text);
-        let empty = || MeasuredError::Empty { file: layout.file, legal: layout.header() };
+        let empty = || format!("{} is empty; its first line must be {}", layout.file, layout.header());
         let first = lines.next().ok_or_else(empty)?;
         let mut line = first.0;
         let places = places(layout, line, &fields(first, ',').map_err(malformed)?)?;
@@ -425,7 +377,8 @@ impl Series {
         error: impl std::error::Error + Send + Sync + 'static,
     ) -> MeasuredError {
         let what = trial.map_or_else(|| "the points".to_owned(), |trial| format!("trial {trial}"));
-        MeasuredError::Unusable { file: self.layout.file, what, source: Box::new(error) }
+        let fault = format!("{}: {what} cannot be evaluated", self.layout.file);
+        MeasuredError { fault, source: Some(Box::new(error)) }
     }
 }
 
@@ -498,17 +451,6 @@ mod tests {
             let read = rows(&format!("{HEADER}1,0.3,0,{text}\n1,0.3,1,0\n"));
             assert!(read[0][3].is_sign_positive());
         }
-    }
-
-    #[test]
-    fn a_table_of_an_experiment_is_read_unless_its_format_is_newer() {
-        let origin = provenance::new(provenance::FIGURE).with("of", "a \"dough\", 'as' printed");
-        let body = format!("{HEADER}1,0.3,0,20.5\n1,0.3,0.1,1e-3\n");
-        let table = provenance::in_csv(&origin.expect("storable"), &body);
-        assert_eq!(rows(&table), rows(&body));
-        assert_eq!(Series::read(&LAYOUT, table.as_bytes()).expect("well formed").lines, [3, 4]);
-        let newer = fault(table.replace("\"format_version\":1", "\"format_version\":2"));
-        assert!(newer.starts_with("\"demo.csv\" has version 2 of the format \"bouncing-disk figure\""));
     }
 
     /// Each fault with its place and what would be legal; a number of fields, of lines, of characters is stated, not shown.

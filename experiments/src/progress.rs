@@ -39,15 +39,6 @@ pub(crate) fn advancing(progress: &dyn Progress) -> impl Observer {
     }
 }
 
-/// [`advancing`] for a call that is `units` of a stage, whatever its own items are.
-pub(crate) fn sharing(progress: &dyn Progress, units: u64) -> impl Observer {
-    let within = advancing(progress);
-    move |now: bouncing_disk::Progress| {
-        let done = (u128::from(units) * u128::from(now.done) / u128::from(now.total.max(1))) as u64;
-        within.observe(bouncing_disk::Progress { done: done.min(units), total: units })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -70,14 +61,5 @@ mod tests {
             assert!(observer.observe(bouncing_disk::Progress { done, total: 7 }).is_continue());
         }
         assert_eq!(sum.0.load(Ordering::Relaxed), 12);
-    }
-    #[test]
-    fn a_call_counts_as_its_units_whatever_its_items_are() {
-        let sum = Sum(AtomicU64::new(0));
-        let observer = sharing(&sum, 10);
-        for done in [0, 3, 1, 20, 40] {
-            assert!(observer.observe(bouncing_disk::Progress { done, total: 40 }).is_continue());
-        }
-        assert_eq!(sum.0.load(Ordering::Relaxed), 10);
     }
 }

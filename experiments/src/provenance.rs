@@ -8,7 +8,6 @@
 //! | file | place |
 //! | --- | --- |
 //! | JSON | the member `provenance` |
-//! | CSV | the first line, which begins with `# provenance: ` |
 //! | SVG | the first element, `<metadata id="provenance">` |
 //! | PNG | the `tEXt` chunks `provenance` and `Software`, in front of the image |
 //! | `claims.json`, an array | the member `provenance` of each claim |
@@ -19,7 +18,7 @@ use std::path::Path;
 pub use bouncing_disk::store::{Format, Provenance, StorageError};
 use serde_json::Value;
 
-/// The format of `ID.json`, `ID.csv`, `ID.svg` and `ID.png`.
+/// The format of `ID.json`, `ID.svg` and `ID.png`.
 pub const FIGURE: Format = Format { name: "bouncing-disk figure", version: 1, oldest: 1 };
 /// The format of the claims in `claims.json`.
 pub const CLAIM: Format = Format { name: "bouncing-disk claim", version: 1, oldest: 1 };
@@ -32,8 +31,6 @@ pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, 
 /// The format of the files in `data/performance`.
 pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };
 
-/// What the first line of a table begins with.
-const BEFORE_IN_CSV: &str = "# provenance: ";
 /// Where chunks of a PNG file may begin: after the signature (8 bytes) and the header (25 bytes).
 const AFTER_HEADER: usize = 33;
 
@@ -54,17 +51,6 @@ pub fn refuse_newer(format: Format, stored: Option<&Value>, file: &str) -> Resul
         Some(Err(error @ StorageError::NewerFormat { .. })) => Err(error),
         _ => Ok(()),
     }
-}
-
-/// A table that says where it comes from.
-pub fn in_csv(provenance: &Provenance, table: &str) -> String {
-    format!("{BEFORE_IN_CSV}{}\n{table}", text(provenance))
-}
-
-/// What a table says of its origin, if anything.
-pub fn from_csv(table: &str) -> Option<Value> {
-    let (line, _) = table.strip_prefix(BEFORE_IN_CSV)?.split_once('\n')?;
-    serde_json::from_str(line).ok()
 }
 
 /// A drawing that says where it comes from.
@@ -128,12 +114,8 @@ mod tests {
     }
 
     #[test]
-    fn tables_and_drawings_hold_it_and_only_a_newer_format_of_ours_is_refused() {
+    fn drawings_hold_it_and_only_a_newer_format_of_ours_is_refused() {
         let provenance = new(FIGURE).with("ε <of> & \"all\"", "0.5\n").expect("storable");
-        let table = in_csv(&provenance, "a,b\n1,2\n");
-        assert_eq!(from_csv(&table), Some(json!(provenance)));
-        assert_eq!(table.lines().skip(1).collect::<Vec<_>>(), ["a,b", "1,2"]);
-        assert_eq!(from_csv("a,b\n1,2\n"), None);
         let drawing = in_svg(&provenance, "<svg>\n<rect/>\n</svg>\n");
         assert!(
             drawing.starts_with("<svg>\n<metadata id=\"provenance\">{")

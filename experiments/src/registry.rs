@@ -33,9 +33,6 @@ pub fn paper() -> Vec<RegisteredExperiment> {
     ]
 }
 
-/// What the identifiers of the figures beyond the paper begin with.
-const EXTRA: &str = "extra-";
-
 /// The figures beyond the paper, made only when they are asked for.
 pub fn extras() -> Vec<RegisteredExperiment> {
     // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
@@ -59,11 +56,6 @@ pub fn extras() -> Vec<RegisteredExperiment> {
 /// All experiments: those of the paper, and behind them those beyond it.
 pub fn all() -> Vec<RegisteredExperiment> {
     paper().into_iter().chain(extras()).collect()
-}
-
-/// Whether a figure is one beyond the paper, by its identifier.
-pub fn is_extra(id: &str) -> bool {
-    id.starts_with(EXTRA)
 }
 
 /// The files of measurements that all experiments together can show.
@@ -115,12 +107,13 @@ mod tests {
         let expected: Vec<_> = figures.chain((1..=3).map(|table| format!("table{table}"))).collect();
         let ids: Vec<_> = paper().iter().map(|entry| entry.id).collect();
         assert_eq!(ids, expected);
-        assert!(ids.iter().all(|id| !is_extra(id)));
+        assert!(
+            paper().iter().all(|entry| !entry.is_extra()) && extras().iter().all(|entry| entry.is_extra())
+        );
         let mut ids: Vec<_> = extras().iter().map(|entry| entry.id).collect();
-        for id in &ids {
-            let words = id.strip_prefix(EXTRA).expect("the prefix");
+        for words in &ids {
             let legal = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_lowercase());
-            assert!(words.split('-').all(legal), "{id}");
+            assert!(words.split('-').all(legal), "{words}");
         }
         let count = ids.len();
         ids.sort_unstable();

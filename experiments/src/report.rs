@@ -13,7 +13,6 @@ use serde::Serialize;
 use crate::claims::printed::is_multiple_of_pi;
 use crate::claims::{Claim, Class, Computed, Source, Verdict};
 use crate::experiment::{Made, RegisteredExperiment};
-use crate::registry::is_extra;
 
 /// A template that needs what is not there, or a number of a discussion that no claim has.
 pub use minijinja::Error as TemplateError;
@@ -107,23 +106,19 @@ struct Section {
 impl Section {
     fn of(entry: &RegisteredExperiment, made: &Made) -> Result<Self, TemplateError> {
         let numbers = made.claims.iter().filter_map(|claim| match (&claim.source, &claim.computed) {
-            (Source::Entry(key) | Source::Reading(key), Computed::Number(number)) => {
+            (Source::Entry(key), Computed::Number(number)) => {
                 Some((key.clone(), like(&claim.printed, *number, 4)))
             }
             _ => None,
         });
-        // The first claim on an entry counts, which is its answer.
-        let mut claims = std::collections::BTreeMap::new();
-        numbers.for_each(|(key, number)| {
-            claims.entry(key).or_insert(number);
-        });
+        let claims: std::collections::BTreeMap<_, _> = numbers.collect();
         let discussion =
             environment().render_named_str(entry.id, entry.discussion.trim(), context! { claims })?;
         Ok(Self {
             id: entry.id,
             name: name(entry.id),
             title: entry.title,
-            is_extra: is_extra(entry.id),
+            is_extra: entry.is_extra(),
             caption: made.caption.clone(),
             discussion,
             parameters: made.parameters.clone(),

@@ -8,7 +8,6 @@ use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, RegisteredExperiment, entry};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// A small experiment that works.
 pub(crate) struct Demo;
@@ -85,14 +84,6 @@ impl Experiment for Demo {
 
     fn parameters(_: &DemoData) -> Vec<(String, String)> {
         vec![("restitution ε".to_owned(), "0.5".to_owned())]
-    }
-
-    fn table(data: &DemoData) -> Option<Table> {
-        let mut table = Table::new(["axial forcing Γ", "phase of impact (rad)"]);
-        for (forcing, phase) in data.axial_forcing.iter().zip(&data.impact_phase_rad) {
-            table.push([Cell::from(*forcing), Cell::from(*phase)]);
-        }
-        Some(table)
     }
 }
 

@@ -1,7 +1,7 @@
 //! Snapshots of every figure and table at draft quality.
 //!
 //! Every number and statement that the paper prints about a figure must be answered by exactly one of its claims. A
-//! snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
+//! snapshot holds caption, parameters, data and claims with their verdicts. Words, labels and integers are
 //! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
 //! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
 //! (`docs/numerics/solver.md`).
@@ -82,13 +82,12 @@ const LONGEST_TEXT: usize = 4000;
 fn product(entry: &RegisteredExperiment) -> Map<String, Value> {
     let made = || {
         let made = entry.compute(Quality::Draft, &Measurements::none(), &Silent)?;
-        let table = made.table.map(|table| table.to_csv()).transpose()?;
         // A figure that cannot be drawn is a failure, too.
         made.figure.to_svg()?;
         let faults = answers::faults(entry.id, &made.claims);
         assert!(faults.is_empty(), "claims of {} against data/paper: {}", entry.id, faults.join("; "));
         let product = json!({"title": entry.title, "caption": made.caption, "parameters": made.parameters,
-            "claims": made.claims, "table": table, "data": made.data});
+            "claims": made.claims, "data": made.data});
         Ok(product.as_object().cloned().unwrap_or_default())
     };
     made().unwrap_or_else(|error: bouncing_disk_experiments::ExperimentError| {
@@ -102,12 +101,6 @@ fn check(id: &str) {
     let mut product = product(entry);
     let data = product["data"].take();
     product.insert("data".to_owned(), summary(&data));
-    if let Some(Value::String(table)) = product.get("table") {
-        // The numbers are in the data already, where they are compared by tolerance.
-        let lines: Vec<_> = table.lines().collect();
-        let summary = json!({"header": lines.first(), "rows": lines.len().saturating_sub(1)});
-        product.insert("table".to_owned(), summary);
-    }
     let text = serde_json::to_string_pretty(&product).expect("plain data");
     let mut settings = Settings::clone_current();
     settings.set_prepend_module_to_snapshot(false);

@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -134,7 +134,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     let entries = registry::all();
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) if options.ids.is_empty() => {
-            selected.into_iter().filter(|entry| registry::is_extra(entry.id) == options.extras).collect()
+            selected.into_iter().filter(|entry| entry.is_extra() == options.extras).collect()
         }
         Ok(selected) => selected,
         Err(error) => {
@@ -143,22 +143,13 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         }
     };
     let folder = options.measured_folder();
-    let refuse = |words: String| {
-        complain!("error: {words}");
-        Ok(ExitCode::from(USAGE))
-    };
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
-        return refuse(format!("--measured {}: there is no such folder", visible_path(&folder)));
+        complain!("error: --measured {}: there is no such folder", visible_path(&folder));
+        return Ok(ExitCode::from(USAGE));
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
-    // Tables would be taken for measurements.
-    let real = |path: &Path| path.canonicalize().ok();
-    if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
-        let folder = visible_path(&folder);
-        return refuse(format!("{folder} is the folder of the measurements; --out must be another"));
-    }
     if options.list {
         return list(options, &selected, &measurements);
     }
@@ -293,7 +284,7 @@ fn check(
         let comparable: Vec<&RegisteredExperiment> = selected
             .iter()
             .copied()
-            .filter(|entry| registry::is_extra(entry.id) == (pictures == Pictures::Extras))
+            .filter(|entry| entry.is_extra() == (pictures == Pictures::Extras))
             .filter(|entry| measurements.digest(entry.measurements).is_empty())
             .collect();
         let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;

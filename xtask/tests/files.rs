@@ -146,12 +146,6 @@ fn a_folder_that_cannot_be_used_and_an_illegal_number_of_threads_are_refused() {
         assert!(!output.status.success() && named, "{text}");
         assert!(!text.contains('\u{1b}') && text.lines().count() == 1, "{text}");
     }
-    // Tables would be taken for measurements, and were they called alike, lost.
-    out.write("measured/fig10.csv", "mine");
-    let output = output(run(&out.join("measured/../measured"), &out.join("measured")).arg("table1"));
-    assert_eq!(output.status.code(), Some(2), "{}", text(&output));
-    assert_eq!(fs::read(out.join("measured/fig10.csv")).expect("still there"), b"mine");
-    assert_eq!(fs::read_dir(out.join("measured")).expect("readable").count(), 1);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //!
 //! An entry is named `file.name`. It says where it is printed, what it is, and which figure or table answers it. The
 //! claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]), and so do the
-//! experiments that need a printed number as an input ([`super::paper`]).
+//! experiments that need a printed number as an input (`paper`).
 //!
 //! [`Claim::printed`]: super::Claim::printed
 //! [`Claim::printed_statement`]: super::Claim::printed_statement
@@ -29,7 +29,7 @@ pub enum Class {
     Input,
     /// True by construction: a definition, an equation that the code implements, printed against printed.
     Identity,
-    /// A further reading of a printed number, or a finding that the paper does not have.
+    /// A finding that the paper does not have.
     ThisWork,
 }
 

@@ -69,9 +69,6 @@ pub struct Claim {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) single_orbits: Option<SingleOrbits>,
     pub(crate) note: String,
-    /// The number behind the printed text; `None` for statements.
-    #[serde(skip)]
-    printed_value: Option<f64>,
     #[serde(skip)]
     pub(crate) source: Source,
 }
@@ -93,8 +90,6 @@ pub enum Source {
     ThisWork,
     /// The answer to an entry of the [catalogue].
     Entry(String),
-    /// Another reading of an entry that is answered elsewhere.
-    Reading(String),
 }
 
 impl Claim {
@@ -205,21 +200,6 @@ impl Claim {
         Self { class: Class::Fitted, ..self }.note(note)
     }
 
-    /// Says that a statement of this work is true by construction.
-    pub fn identity(self) -> Self {
-        Self { class: Class::Identity, ..self }
-    }
-
-    /// A further comparison with the printed number of the entry `key`, by the figure or table `id`: another way to
-    /// compute it or another meaning of it. It does not answer the entry.
-    pub fn reading(id: &str, key: &str, quantity: &str, computed: f64) -> Self {
-        let claim = Self::of_entry(key, |entry| {
-            let printed = entry.printed.as_deref().unwrap_or_default();
-            Self::number([id, &entry.place, quantity, &entry.unit], printed, computed)
-        });
-        Self { source: Source::Reading(key.to_owned()), class: Class::ThisWork, kind: None, ..claim }
-    }
-
     fn of_entry(key: &str, make: impl FnOnce(&PrintedEntry) -> Self) -> Self {
         let claim = match catalogue::find(key) {
             Ok(entry) => Self { class: entry.class, kind: entry.kind, ..make(entry) },
@@ -258,7 +238,6 @@ impl Claim {
             share: None,
             single_orbits: None,
             note: String::new(),
-            printed_value: PrintedNumber::read(printed).map(|number| number.value),
             source: Source::default(),
         }
     }
@@ -398,9 +377,7 @@ mod tests {
     #[test]
     fn only_the_answer_to_an_entry_of_the_paper_counts_for_it() {
         assert_eq!(Claim::printed("section4.doubling_1", 0.486).class, Class::Paper);
-        assert_eq!(Claim::reading("fig06", "section4.doubling_1", "", 0.486).class, Class::ThisWork);
         assert_eq!(Claim::statement("fig06", "", "", true, "").class, Class::ThisWork);
-        assert_eq!(Claim::statement("fig06", "", "", true, "").identity().class, Class::Identity);
         let fitted = Claim::printed("section4.share_at_fig7a", 11.6).fitted("the window");
         assert_eq!((fitted.class, fitted.note.as_str()), (Class::Fitted, "fitted: the window"));
         assert_eq!(Claim::printed_statement("section3.stroke_components", true, "").class, Class::Identity);

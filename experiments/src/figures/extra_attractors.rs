@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::progress::{Progress, advancing, sharing};
+use crate::progress::{Progress, advancing};
 
 /// Γ of the two sweeps, and the restitution of the second.
 const FORCINGS: [[f64; 2]; 2] = [[0.3, 1.2], [0.1, 1.0]];
@@ -91,10 +91,10 @@ impl Experiment for ExtraAttractors {
     fn caption(data: &ExtraAttractorsData) -> String {
         let restitution = |index: usize| data.sweeps.get(index).map_or(f64::NAN, |sweep| sweep.restitution);
         format!(
-            "All attractors of a disk, found without being told, for the restitutions (a) {} and (b) {}: the share of the {} starts that \
-             end on each, spread evenly over the region of impacts that no attractor can leave (95 % intervals are in the data, and \
-             drawn where forcings are few). Colours: platform periods for each impact. (c) Basins at Γ = {} and restitution {RESTITUTION}, \
-             up to the proven bound of the impact speed; the key gives impacts and platform periods of each attractor.",
+            "All attractors of a disk, for the restitutions (a) {} and (b) {}: the share of the {} starts that end on each, spread evenly \
+             over the region of impacts that no attractor can leave (95 % intervals are in the data). Colours: platform periods for \
+             each impact. (c) Basins at Γ = {} and restitution {RESTITUTION}, up to the proven bound of the impact speed; the key gives \
+             impacts and platform periods of each attractor.",
             restitution(0),
             restitution(1),
             data.search.starts(),
@@ -106,7 +106,7 @@ impl Experiment for ExtraAttractors {
         let (starts, impacts) = quality.choose((256, (1_000, 20_000)), (2_048, (2_000, 100_000)));
         let search = AttractorSearch::default().with_starts(starts)?.with_impacts(impacts.0, impacts.1)?;
         let (columns, cells) = quality.choose((36, 150), (180, 600));
-        progress.start(2 * columns as u64 + cells as u64, "forcings and rows");
+        progress.start(2 * columns as u64, "forcings");
         let mut sweeps = Vec::new();
         for ([from, to], restitution) in
             FORCINGS.into_iter().zip([paper::section_four()?.restitution, RESTITUTION])
@@ -127,7 +127,9 @@ impl Experiment for ExtraAttractors {
             core::attractors::Axis::new(0.0, top, cells)?,
         )?;
         let settings = BasinSettings { max_impacts: BASINS.1, ..BasinSettings::default() };
-        let basins = attractors.basins(grid, settings, &sharing(progress, cells as u64))?;
+        // Every row counts twice: known by points, then by cells.
+        progress.start(2 * cells as u64, "rows");
+        let basins = attractors.basins(grid, settings, &advancing(progress))?;
         let letter = |label: &u8| char::from(b'a' + (*label).min(25));
         Ok(ExtraAttractorsData {
             sweeps,
@@ -188,7 +190,6 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
         .y(Axis::log(1.0e-5, 1.5).label("share of the starts"))
         .letter_in(letter, Corner::BottomRight)
         .legend(Legend::at(Corner::BottomLeft).without_frame());
-    let few = sweep.axial_forcings.len() < 100;
     for (kind, (name, colour)) in KINDS.into_iter().enumerate() {
         let all = sweep.found.iter().zip(&sweep.axial_forcings);
         let own = all.flat_map(|(found, forcing)| found.iter().map(move |found| (*forcing, *found)));
@@ -197,9 +198,7 @@ fn shares(sweep: &Sweep, area: Rect, letter: &str) -> Panel {
             continue;
         }
         let dots = Scatter::new(own.iter().map(|(forcing, found)| (*forcing, found.1)));
-        let dots = dots.marker(Marker::Dot).size(if few { 2.0 } else { 1.3 }).colour(colour).name(name);
-        let errors = own.iter().map(|(_, (_, _, (low, high)))| 0.5 * (high - low));
-        panel = panel.layer(if few { dots.errors_y(errors) } else { dots });
+        panel = panel.layer(dots.marker(Marker::Dot).size(1.3).colour(colour).name(name));
     }
     panel
 }

@@ -4,7 +4,7 @@ use bouncing_disk::core::orbits::{
     BifurcationKind, Branch, Continuation, ContinuationParameter, follow_attractor,
 };
 use bouncing_disk::core::sweep::orbit_diagram;
-use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, Orbit, Unobserved, Vibration};
+use bouncing_disk::core::{ChatterPolicy, Error, Launch, Orbit, Unobserved};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, DOUBLE_COLUMN, Dash, DensePoints, Figure, Grid, Legend, Line, Margins,
@@ -12,6 +12,7 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
+use super::shared::{distinct_phases, map};
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -127,7 +128,44 @@ impl Experiment for ExtraBranches {
     }
 
     fn draw(data: &ExtraBranchesData) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 300.0;
+        let margins = Margins { left: 46.0, right: 10.0, top: 12.0, bottom: 34.0 };
+        let cell = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 1).margins(margins).cell(0, 0);
+        let dense = |dots: &[Dot], colour| {
+            DensePoints::new(dots.iter().map(|dot| shown(*dot))).colour(colour).radius(0.3)
+        };
+        let mut panel = Panel::new(cell)
+            .x(Axis::linear(RANGE.0, RANGE.1).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
+            .y(Axis::linear(FIRST_PHASE, FIRST_PHASE + 1.0)
+                .label(r"$\tau_{imp}/2\pi$")
+                .ticks(Ticks::every(0.2).minor(4)))
+            .markers_on_top()
+            .layer(dense(&data.from_rest, Colour::LIGHT_GREY))
+            .layer(dense(&data.followed, Colour::GREY));
+        for (index, branch) in data.branches.iter().enumerate() {
+            let colour = if branch.doubled { Colour::BLUE } else { Colour::BLACK };
+            let first = index == 0 || branch.doubled && !data.branches[index - 1].doubled;
+            let solid = Line::new(parts(branch, true)).colour(colour).width(1.5);
+            let named = if branch.doubled { "doubled" } else { "one impact" };
+            panel = panel
+                .layer(Line::new(parts(branch, false)).colour(colour).width(0.7).dash(Dash::Dashed))
+                .layer(if first && index < 3 { solid.name(named) } else { solid });
+        }
+        let marks = [
+            (&data.folds, "fold", Marker::Square),
+            (&data.doublings, "doubling", Marker::Circle),
+            (&data.grazes, "graze", Marker::Cross),
+        ];
+        for (marks, name, marker) in marks {
+            let points = marks.iter().map(|mark| shown(*mark));
+            panel = panel
+                .layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
+        }
+        for k in 1..=MOST_PERIODS {
+            let place = Text::at_data(birth(data.restitution, k) + 0.015, 0.0, format!("$k = {k}$"));
+            panel = panel.layer(place.anchor(Anchor::LeftCentre).size(8.0).halo(Colour::WHITE));
+        }
+        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopRight))))
     }
 }
 
@@ -136,12 +174,8 @@ fn birth(restitution: f64, k: u64) -> f64 {
     k as f64 * (1.0 - restitution) / (1.0 + restitution)
 }
 
-fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Error> {
-    ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
-}
-
 /// Both ways along a pair of one impact every k periods, and what doubles from it, from branch to branch.
-fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, Error> {
+fn branches(restitution: f64, k: u64) -> Result<Vec<(bool, Branch)>, ExperimentError> {
     let way = |rising: bool| {
         Continuation::new(ContinuationParameter::Forcing, RANGE, rising)?
             .with_steps(STEPS.0, STEPS.1, STEPS.2)
@@ -179,14 +213,12 @@ fn line(doubled: bool, branch: &Branch) -> BranchLine {
 fn dots(orbits: Vec<(f64, Orbit)>, transient: usize, examined: usize) -> Result<Vec<Dot>, Error> {
     let (forcings, orbits): (Vec<f64>, Vec<Orbit>) = orbits.into_iter().unzip();
     let diagram = orbit_diagram(&orbits, transient, examined, &Unobserved)?;
-    let column = |(forcing, states): (f64, Vec<bouncing_disk::core::ImpactState>)| {
-        let mut phases: Vec<f64> =
-            states.iter().map(|state| (state.phase().cycles() * 1e6).round() / 1e6).collect();
-        phases.sort_by(f64::total_cmp);
-        phases.dedup();
-        phases.into_iter().map(move |phase| (forcing, phase))
-    };
-    Ok(forcings.into_iter().zip(diagram).flat_map(column).collect())
+    let columns = forcings.into_iter().zip(&diagram);
+    Ok(columns
+        .flat_map(|(forcing, impacts)| {
+            distinct_phases(impacts).into_iter().map(move |phase| (forcing, phase))
+        })
+        .collect())
 }
 
 fn shown((forcing, cycles): Dot) -> Dot {
@@ -205,45 +237,4 @@ fn parts(branch: &BranchLine, stable: bool) -> Vec<Dot> {
         }
     }
     points
-}
-
-fn draw(data: &ExtraBranchesData) -> Figure {
-    const HEIGHT: f64 = 300.0;
-    let margins = Margins { left: 46.0, right: 10.0, top: 12.0, bottom: 34.0 };
-    let cell = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 1).margins(margins).cell(0, 0);
-    let dense = |dots: &[Dot], colour| {
-        DensePoints::new(dots.iter().map(|dot| shown(*dot))).colour(colour).radius(0.3)
-    };
-    let mut panel = Panel::new(cell)
-        .x(Axis::linear(RANGE.0, RANGE.1).label(r"$\Gamma$").ticks(Ticks::every(0.2).minor(4)))
-        .y(Axis::linear(FIRST_PHASE, FIRST_PHASE + 1.0)
-            .label(r"$\tau_{imp}/2\pi$")
-            .ticks(Ticks::every(0.2).minor(4)))
-        .markers_on_top()
-        .layer(dense(&data.from_rest, Colour::LIGHT_GREY))
-        .layer(dense(&data.followed, Colour::GREY));
-    for (index, branch) in data.branches.iter().enumerate() {
-        let colour = if branch.doubled { Colour::BLUE } else { Colour::BLACK };
-        let first = index == 0 || branch.doubled && !data.branches[index - 1].doubled;
-        let solid = Line::new(parts(branch, true)).colour(colour).width(1.5);
-        let named = if branch.doubled { "doubled" } else { "one impact" };
-        panel = panel
-            .layer(Line::new(parts(branch, false)).colour(colour).width(0.7).dash(Dash::Dashed))
-            .layer(if first && index < 3 { solid.name(named) } else { solid });
-    }
-    let marks = [
-        (&data.folds, "fold", Marker::Square),
-        (&data.doublings, "doubling", Marker::Circle),
-        (&data.grazes, "graze", Marker::Cross),
-    ];
-    for (marks, name, marker) in marks {
-        let points = marks.iter().map(|mark| shown(*mark));
-        panel =
-            panel.layer(Scatter::new(points).marker(marker).size(3.6).width(0.7).filled_white().name(name));
-    }
-    for k in 1..=MOST_PERIODS {
-        let place = Text::at_data(birth(data.restitution, k) + 0.015, 0.0, format!("$k = {k}$"));
-        panel = panel.layer(place.anchor(Anchor::LeftCentre).size(8.0).halo(Colour::WHITE));
-    }
-    Figure::new(DOUBLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopRight)))
 }

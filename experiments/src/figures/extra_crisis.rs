@@ -10,7 +10,7 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::manifold_lines::lines;
+use super::shared::lines;
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -147,13 +147,13 @@ fn plane(
     let mut panel = Panel::new(area)
         .x(Axis::linear(x.0, x.1).label(r"$\tau_{imp}/2\pi$").ticks(Ticks::every(steps.0).minor(2)))
         .y(Axis::linear(y.0, y.1).label(r"$|w_A\Gamma/(\omega A)|$").ticks(Ticks::every(steps.1).minor(2)));
-    for piece in visible(&data.stable, x, y) {
-        panel = panel.layer(Line::new(piece).width(0.6).colour(Colour::BLUE));
+    for piece in &data.stable {
+        panel = panel.layer(Line::new(piece.iter().copied()).width(0.6).colour(Colour::BLUE));
     }
     panel = panel.layer(DensePoints::new(data.attractor.iter().copied()).colour(Colour::BLACK).radius(0.35));
     if both {
-        for piece in visible(&data.unstable, x, y) {
-            panel = panel.layer(Line::new(piece).width(0.6).colour(Colour::VERMILION));
+        for piece in &data.unstable {
+            panel = panel.layer(Line::new(piece.iter().copied()).width(0.6).colour(Colour::VERMILION));
         }
     }
     panel
@@ -187,23 +187,4 @@ fn lives(data: &ExtraCrisisData, area: Rect) -> Panel {
         }
     }
     panel
-}
-
-/// The parts of the pieces within a window: segments with an end in it.
-fn visible(pieces: &[Vec<Spot>], x: (f64, f64), y: (f64, f64)) -> Vec<Vec<Spot>> {
-    let inside = |spot: &Spot| spot.0 >= x.0 && spot.0 <= x.1 && spot.1 >= y.0 && spot.1 <= y.1;
-    let segment = |pair: &[Spot]| inside(&pair[0]) || inside(&pair[1]);
-    let mut shown: Vec<Vec<Spot>> = Vec::new();
-    for piece in pieces {
-        let mut goes_on = false;
-        for pair in piece.windows(2) {
-            match shown.last_mut() {
-                Some(current) if goes_on && segment(pair) => current.push(pair[1]),
-                _ if segment(pair) => shown.push(pair.to_vec()),
-                _ => {}
-            }
-            goes_on = segment(pair);
-        }
-    }
-    shown
 }

@@ -10,7 +10,7 @@ use bouncing_disk_plot::{
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::numbers::Noise;
+use super::shared::numbers::Noise;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 

@@ -11,7 +11,7 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::manifold_lines::lines;
+use super::shared::lines;
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::{Progress, advancing};

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::map::{Constant, KuwabaraKono, RestitutionLaw};
 use bouncing_disk::core::numerics::elementary::acos;
+use bouncing_disk::core::numerics::roots::bisection;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::{
@@ -141,19 +142,13 @@ fn followed<L: RestitutionLaw>(
         }
         dots.extend(column);
     }
-    let (mut low, mut high) = (0.4, 0.6);
-    for _ in 0..48 {
-        let middle = 0.5 * (low + high);
-        let (_, derivative) = map(middle, law)?.step_with_derivative(period_one(middle, restitution)?)?;
+    let first_doubling = bisection(0.4, 0.6, 48, |forcing| {
+        let (_, derivative) = map(forcing, law)?.step_with_derivative(period_one(forcing, restitution)?)?;
         let trace = derivative.x_axis.x + derivative.y_axis.y;
         // The sign of (1 + one multiplier)(1 + the other one).
-        if 1.0 + trace + derivative.determinant() > 0.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    Ok(Followed { dots, lost_at, first_doubling: 0.5 * (low + high) })
+        Ok::<_, ExperimentError>(1.0 + trace + derivative.determinant() > 0.0)
+    })?;
+    Ok(Followed { dots, lost_at, first_doubling })
 }
 
 fn diagram(followed: &Followed, area: Rect, from: f64, name: &str) -> Panel {

@@ -16,8 +16,8 @@ use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
 /// Γ and restitutions of the second map.
-const FORCINGS: [f64; 2] = [12.0, 14.0];
-const RESTITUTIONS: [f64; 2] = [0.02, 0.9];
+const FORCINGS: (f64, f64) = (12.0, 14.0);
+const RESTITUTIONS: (f64, f64) = (0.02, 0.9);
 
 /// Cycles of one, two, three, and more flights.
 const KINDS: usize = 4;
@@ -31,40 +31,16 @@ const PALE: f64 = 0.72;
 #[derive(Debug)]
 pub struct ExtraTraps;
 
-/// The data of the maps of traps.
+/// The data of the maps of traps. Of each motor of a row a digit: 0 where its cycle is not short, else 2 n − 1 for a cycle of n
+/// long flights, n up to 4, and 2 n where the perturbed motor repeats it.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct ExtraTrapsData {
-    /// The motor whose preload is changed.
-    motor: Motor,
-    /// Integer parts of Γ of the rows, and fractions of the columns.
-    whole_forcings: Vec<u32>,
-    forcing_fractions: Vec<f64>,
-    by_fraction: Map,
-    /// Γ of the columns and restitutions of the rows.
-    axial_forcings: Vec<f64>,
-    restitutions: Vec<f64>,
-    by_restitution: Map,
-    /// Preloads of Fig. 11 (m/s²) and the share of them that is trapped, at each amplitude (m).
-    share_of_fig11: Vec<TrappedShare>,
-}
-
-/// What the motors of a grid do, row by row.
-#[derive(Debug, Default, Serialize, Deserialize)]
-struct Map {
-    /// Long flights of the unperturbed cycle; 0 where it is not short.
-    long_flights: Vec<Vec<usize>>,
-    /// Whether the perturbed motor repeats it.
-    is_trap: Vec<Vec<bool>>,
-}
-
-/// How many of the preloads of a range are trapped.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct TrappedShare {
-    amplitude_m: f64,
-    preloads_m_per_s2: [f64; 2],
-    forcings: [f64; 2],
-    motors: usize,
-    trapped: usize,
+    restitution: f64,
+    /// By the integer part of Γ, from 1 on, and its fraction.
+    by_fraction: Vec<String>,
+    by_restitution: Vec<String>,
+    /// Amplitudes (m), and the share of the preloads of Fig. 11 that is trapped.
+    trapped_of_fig11: Vec<(f64, f64)>,
 }
 
 impl Experiment for ExtraTraps {
@@ -74,78 +50,83 @@ impl Experiment for ExtraTraps {
     const CHATTER_POLICY: Option<ChatterPolicy> = Some(ChatterPolicy::Complete);
 
     fn caption(data: &ExtraTrapsData) -> String {
-        let [from, to] = [data.whole_forcings.first(), data.whole_forcings.last()]
-            .map(|end| end.copied().unwrap_or_default());
-        let shares: Vec<String> = data
-            .share_of_fig11
-            .iter()
-            .map(|share| {
-                format!(
-                    "{:.1} % at A = {:e} m",
-                    100.0 * share.trapped as f64 / share.motors as f64,
-                    share.amplitude_m
-                )
-            })
-            .collect();
+        let shares = data.trapped_of_fig11.iter();
+        let shares =
+            shares.map(|(amplitude, share)| format!("{:.1} % at A = {amplitude:e} m", 100.0 * share));
         format!(
             "Preloads that trap a motor in a short cycle of flights and rest. (a) The restitution of Table III, {}: the integer part of \
-             Γ = Aω²/(πg), {from} to {to}, against its fraction. (b) Γ against the restitution. Full colours: the cycle survives the \
-             perturbation of its relaunches, and the motor has the speed of the cycle; pale: the unperturbed motor has a cycle of so many flights \
+             Γ = Aω²/(πg), 1 to {}, against its fraction. (b) Γ against the restitution. Full colours: the cycle survives the \
+             perturbation of 64 relaunches by up to 1e-3 g/ω, and the motor has the speed of the cycle; pale: the unperturbed motor has a cycle of so many flights \
              longer than half a period, which the perturbation ends; white: its cycle is longer. The preload enters by Γ alone: of the preloads \
              of Fig. 11, {} are trapped.",
-            data.motor.parameters().restitution,
-            shares.join(", "),
+            data.restitution,
+            data.by_fraction.len(),
+            shares.collect::<Vec<_>>().join(", "),
         )
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraTrapsData, ExperimentError> {
         let motor = Motor::paper_70_khz();
-        let (rows, columns) = quality.choose((24, 80), (64, 400));
-        let whole_forcings: Vec<u32> = (1..=rows).collect();
-        let forcing_fractions = middles([0.0, 1.0], columns);
+        let (rows, columns) = quality.choose((24_u32, 80), (64, 400));
         let (high, wide) = quality.choose((24, 80), (120, 400));
-        let (axial_forcings, restitutions) = (middles(FORCINGS, wide), middles(RESTITUTIONS, high));
         progress.start(u64::from(rows) + high as u64 + 1, "rows");
-        let by_fraction = map(progress, &whole_forcings, |whole| {
-            let forcings = forcing_fractions.iter().map(|fraction| f64::from(*whole) + fraction);
-            verdicts(&motor, forcings)
+        let wholes: Vec<f64> = (1..=rows).map(f64::from).collect();
+        let fractions = middles((0.0, 1.0), columns);
+        let by_fraction = map(progress, &wholes, |whole| {
+            verdicts(&motor, fractions.iter().map(|fraction| whole + fraction))
         })?;
-        let by_restitution = map(progress, &restitutions, |restitution| {
-            let motor = motor.with(|sheet| sheet.restitution = *restitution)?;
-            verdicts(&motor, axial_forcings.iter().copied())
+        let forcings = middles(FORCINGS, wide);
+        let by_restitution = map(progress, &middles(RESTITUTIONS, high), |restitution| {
+            let motor = motor.with(|sheet| sheet.restitution = restitution)?;
+            verdicts(&motor, forcings.iter().copied())
         })?;
-        let share_of_fig11 = shares(&motor, quality.choose(400, 4_000))?;
+        let [least, most] = paper::preloads()?.preload_accelerations_m_per_s2;
+        let preloads = middles((least, most), quality.choose(400, 4_000));
+        let trapped = |amplitude: f64| {
+            let motor = motor.with(|sheet| sheet.amplitude = amplitude)?;
+            let verdicts = low_period_traps(&motor, &preloads, &Unobserved)?;
+            let trapped = verdicts.iter().filter(|verdict| verdict.is_trap).count();
+            Ok::<_, ExperimentError>((amplitude, trapped as f64 / preloads.len() as f64))
+        };
+        let amplitudes = paper::section_five()?.amplitudes_of_fig10_m;
+        let trapped_of_fig11 = amplitudes.into_iter().map(trapped).collect::<Result<_, _>>()?;
         progress.advance(1);
-        Ok(ExtraTrapsData {
-            motor,
-            whole_forcings,
-            forcing_fractions,
-            by_fraction,
-            axial_forcings,
-            restitutions,
-            by_restitution,
-            share_of_fig11,
-        })
+        let restitution = motor.parameters().restitution;
+        Ok(ExtraTrapsData { restitution, by_fraction, by_restitution, trapped_of_fig11 })
     }
 
     fn draw(data: &ExtraTrapsData) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
-    }
-
-    fn parameters(data: &ExtraTrapsData) -> Vec<(String, String)> {
-        [
-            ("ε of (a)", data.motor.parameters().restitution.to_string()),
-            ("motors", format!("{} by {}", data.forcing_fractions.len(), data.whole_forcings.len())),
-            ("relaunch perturbation", "1e-3 g/ω".to_owned()),
-            ("relaunches", "64".to_owned()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .into()
+        let dotted = Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted);
+        let integers = (0.5, data.by_fraction.len() as f64 + 0.5);
+        let by_fraction = Panel::new(Rect::new(40.0, 12.0, 196.0, 188.0))
+            .x(Axis::linear(0.0, 1.0).label(r"fraction of $\Gamma$").ticks(Ticks::every(0.2).minor(2)))
+            .y(Axis::linear(integers.0, integers.1).label(r"integer part of $\Gamma$"))
+            .letter("a")
+            .layer(raster(&data.by_fraction, (0.0, 1.0), integers))
+            .layer(Rule::vertical(0.5).stroke(dotted));
+        let (x, y) = (FORCINGS, RESTITUTIONS);
+        let by_restitution = Panel::new(Rect::new(276.0, 12.0, 166.0, 188.0))
+            .x(Axis::linear(x.0, x.1).label(r"$\Gamma$").ticks(Ticks::every(0.5).minor(5)))
+            .y(Axis::linear(y.0, y.1).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(4)))
+            .letter("b")
+            .layer(raster(&data.by_restitution, x, y))
+            .layer(Rule::horizontal(data.restitution).stroke(dotted));
+        // Below each other, the pale colour on the left.
+        let squares: Vec<u8> = (0..KINDS as u8).rev().flat_map(|kind| [1 + 2 * kind, 2 + 2 * kind]).collect();
+        let ticks = (0..KINDS).map(|kind| ((KINDS - 1 - kind) as f64 + 0.5, NAMES[kind]));
+        let kinds = KINDS as f64;
+        let legend = Panel::new(Rect::new(460.0, 40.0, 24.0, 80.0))
+            .x(Axis::linear(0.0, 2.0).ticks(Ticks::none()))
+            .y(Axis::linear(0.0, kinds).ticks(Ticks::none()))
+            .right(Axis::linear(0.0, kinds).ticks(Ticks::at(ticks)))
+            .title("flights")
+            .layer(Raster::new(2, KINDS, squares, &palette(), (0.0, 2.0), (0.0, kinds)));
+        Ok(Figure::new(DOUBLE_COLUMN, 235.0).panels([by_fraction, by_restitution, legend]))
     }
 }
 
 /// The middles of equal parts of a range.
-fn middles([from, to]: [f64; 2], count: usize) -> Vec<f64> {
+fn middles((from, to): (f64, f64), count: usize) -> Vec<f64> {
     (0..count).map(|k| from + (to - from) * (k as f64 + 0.5) / count as f64).collect()
 }
 
@@ -157,50 +138,22 @@ fn verdicts(motor: &Motor, forcings: impl Iterator<Item = f64>) -> Result<Vec<Tr
 }
 
 /// The rows of a map, in parallel and in their order.
-fn map<T: Sync>(
+fn map(
     progress: &dyn Progress,
-    rows: &[T],
-    verdicts: impl Fn(&T) -> Result<Vec<TrapVerdict>, ExperimentError> + Sync,
-) -> Result<Map, ExperimentError> {
-    let rows: Vec<Result<Vec<TrapVerdict>, ExperimentError>> = rows
-        .par_iter()
-        .map(|row| {
-            let done = verdicts(row);
-            progress.advance(1);
-            done
-        })
-        .collect();
-    let mut map = Map::default();
-    for row in rows {
-        let row = row?;
-        map.long_flights
-            .push(row.iter().map(|verdict| verdict.cycle.map_or(0, |cycle| cycle.long_flights)).collect());
-        map.is_trap.push(row.iter().map(|verdict| verdict.is_trap).collect());
-    }
-    Ok(map)
-}
-
-/// How many of the preloads of Fig. 11, on a regular grid, are trapped.
-fn shares(motor: &Motor, motors: usize) -> Result<Vec<TrappedShare>, ExperimentError> {
-    let section = paper::section_five()?;
-    let ends = paper::preloads()?.preload_accelerations_m_per_s2;
-    let preloads = middles(ends, motors);
-    section
-        .amplitudes_of_fig10_m
-        .into_iter()
-        .map(|amplitude_m| {
-            let motor = motor.with(|sheet| sheet.amplitude = amplitude_m)?;
-            let peak = motor.system().platform().peak_acceleration();
-            let trapped = low_period_traps(&motor, &preloads, &Unobserved)?;
-            Ok(TrappedShare {
-                amplitude_m,
-                preloads_m_per_s2: ends,
-                forcings: [ends[1], ends[0]].map(|preload| peak / (PI * preload)),
-                motors,
-                trapped: trapped.iter().filter(|verdict| verdict.is_trap).count(),
-            })
-        })
-        .collect()
+    rows: &[f64],
+    verdicts: impl Fn(f64) -> Result<Vec<TrapVerdict>, ExperimentError> + Sync,
+) -> Result<Vec<String>, ExperimentError> {
+    let digit = |verdict: &TrapVerdict| {
+        let flights = verdict.cycle.map_or(0, |cycle| cycle.long_flights.min(KINDS)) as u8;
+        let kind = if flights == 0 { 0 } else { 2 * flights - 1 + u8::from(verdict.is_trap) };
+        char::from(b'0' + kind)
+    };
+    let row = |row: &f64| {
+        let done = verdicts(*row).map(|verdicts| verdicts.iter().map(digit).collect::<String>());
+        progress.advance(1);
+        done
+    };
+    rows.par_iter().map(row).collect::<Vec<_>>().into_iter().collect()
 }
 
 /// White, and of each kind the pale and the full colour.
@@ -209,62 +162,8 @@ fn palette() -> Vec<Colour> {
     std::iter::once(Colour::WHITE).chain(pairs).collect()
 }
 
-fn cells(map: &Map) -> Vec<u8> {
-    let flights = map.long_flights.iter().flatten();
-    flights
-        .zip(map.is_trap.iter().flatten())
-        .map(|(flights, is_trap)| match flights {
-            0 => 0,
-            count => 1 + 2 * ((*count).min(KINDS) - 1) as u8 + u8::from(*is_trap),
-        })
-        .collect()
-}
-
-fn draw(data: &ExtraTrapsData) -> Figure {
-    const HEIGHT: f64 = 235.0;
-    let left = Rect::new(40.0, 12.0, 196.0, 188.0);
-    let right = Rect::new(276.0, 12.0, 166.0, 188.0);
-    let key = Rect::new(460.0, 40.0, 24.0, 80.0);
-    let first = f64::from(data.whole_forcings.first().copied().unwrap_or(1));
-    let rows = data.whole_forcings.len();
-    let y = (first - 0.5, first + rows as f64 - 0.5);
-    let columns = data.forcing_fractions.len();
-    let by_fraction = Panel::new(left)
-        .x(Axis::linear(0.0, 1.0).label(r"fraction of $\Gamma$").ticks(Ticks::every(0.2).minor(2)))
-        .y(Axis::linear(y.0, y.1).label(r"integer part of $\Gamma$"))
-        .letter("a")
-        .layer(Raster::new(columns, rows, cells(&data.by_fraction), &palette(), (0.0, 1.0), y))
-        .layer(Rule::vertical(0.5).stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)));
-    let (wide, high) = (data.axial_forcings.len(), data.restitutions.len());
-    let (x, y) = (edges(&data.axial_forcings), edges(&data.restitutions));
-    let by_restitution = Panel::new(right)
-        .x(Axis::linear(x.0, x.1).label(r"$\Gamma$").ticks(Ticks::every(0.5).minor(5)))
-        .y(Axis::linear(y.0, y.1).label(r"restitution $\epsilon$").ticks(Ticks::every(0.2).minor(4)))
-        .letter("b")
-        .layer(Raster::new(wide, high, cells(&data.by_restitution), &palette(), x, y))
-        .layer(
-            Rule::horizontal(data.motor.parameters().restitution)
-                .stroke(Stroke::new(Colour::BLACK, 0.5).dashed(Dash::Dotted)),
-        );
-    // Below each other, the pale colour on the left.
-    let squares: Vec<u8> = (0..KINDS as u8).rev().flat_map(|kind| [1 + 2 * kind, 2 + 2 * kind]).collect();
-    let ticks = (0..KINDS).map(|kind| ((KINDS - 1 - kind) as f64 + 0.5, NAMES[kind]));
-    let legend = Panel::new(key)
-        .x(Axis::linear(0.0, 2.0).ticks(Ticks::none()))
-        .y(Axis::linear(0.0, KINDS as f64).ticks(Ticks::none()))
-        .right(Axis::linear(0.0, KINDS as f64).ticks(Ticks::at(ticks)))
-        .title("flights")
-        .layer(Raster::new(2, KINDS, squares, &palette(), (0.0, 2.0), (0.0, KINDS as f64)));
-    Figure::new(DOUBLE_COLUMN, HEIGHT).panels([by_fraction, by_restitution, legend])
-}
-
-/// The outer edges of equal cells with these middles.
-fn edges(middles: &[f64]) -> (f64, f64) {
-    match middles {
-        [first, second, .., last] => {
-            let half = 0.5 * (second - first);
-            (first - half, last + half)
-        }
-        _ => (0.0, 1.0),
-    }
+fn raster(rows: &[String], x: (f64, f64), y: (f64, f64)) -> Raster {
+    let cells = rows.iter().flat_map(|row| row.bytes().map(|digit| digit.saturating_sub(b'0').min(8)));
+    let columns = rows.first().map_or(0, String::len);
+    Raster::new(columns, rows.len(), cells.collect(), &palette(), x, y)
 }

@@ -12,11 +12,10 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, arc, circle, curve, faint, polar};
-use super::hand_path::HandPath;
-use super::toss_case::TossCase;
+use super::shared::cylinder::{Cylinder, HandPath, Look, arc, circle, curve, faint, polar};
+use super::shared::toss::TossCase;
 use crate::claims::paper::TableOne;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 1.
@@ -54,16 +53,49 @@ impl Experiment for Fig01 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
-        compute(quality, progress)
+        progress.start(1, "toss");
+        let table_i = crate::claims::paper::table_one()?;
+        let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
+        let system = case.system()?;
+        let scales = system.scales();
+        let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
+        let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
+        let Some(flight) = flight else {
+            let peak_acceleration = system.peak_acceleration();
+            return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
+        };
+        let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
+        let disk = scales.state(&instant.disk);
+        let platform = system.platform();
+        let path = HandPath::new(platform, quality.choose(120, 720))?;
+        progress.advance(1);
+        Ok(Fig01Data {
+            phase_lag_rad: PHASE_LAG,
+            contact_radius_m: case.contact_radius_m,
+            disk_radius_m: SQRT_2 * case.gyration_radius_m,
+            amplitude_m: platform.amplitude(),
+            twist_amplitude_rad: platform.twist_amplitude(),
+            phase_rad: instant.time.phase.angle(),
+            platform_height_m: platform.height(instant.time.phase),
+            platform_angle_rad: platform.angle(instant.time.phase),
+            disk_height_m: disk.height,
+            disk_angle_rad: disk.angle,
+            path,
+            table_i,
+        })
     }
 
     fn draw(data: &Fig01Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let high = HEIGHT - 8.0;
+        Ok(Figure::new(WIDTH, HEIGHT)
+            .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
+            .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
+            .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high))))
     }
 
     fn parameters(data: &Fig01Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        [
+        named([
             ("phase lag θ", format!("{:.2}π (Table I: {})", data.phase_lag_rad / PI, table.phase_lag_rad)),
             ("amplitude angle φ_L", format!("{} rad", table.amplitude_angle_rad.value)),
             ("stroke c", format!("{} m", table.stroke_m.value)),
@@ -72,9 +104,7 @@ impl Experiment for Fig01 {
             ("radius of gyration a_g", format!("{} m", table.gyration_radius_m.value)),
             ("friction μ", table.friction.value.to_string()),
             ("start", "lowest point of the hand, dough at rest".to_owned()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 
@@ -101,39 +131,6 @@ const PHASE_LAG: f64 = -FRAC_PI_4;
 
 /// The instant shown, as a share of the flight.
 const SHARE_OF_FLIGHT: f64 = 0.18;
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig01Data, ExperimentError> {
-    progress.start(1, "toss");
-    let table_i = crate::claims::paper::table_one()?;
-    let case = TossCase::from(&table_i).at_lag(PHASE_LAG);
-    let system = case.system()?;
-    let scales = system.scales();
-    let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
-    let flight = trajectory.records().iter().find(|record| matches!(record.event, Event::Impact { .. }));
-    let Some(flight) = flight else {
-        let peak_acceleration = system.peak_acceleration();
-        return Err(ExperimentError::model(bouncing_disk::Error::NeverLeaves { peak_acceleration }));
-    };
-    let instant = flight.evaluate(system.dimensionless(), SHARE_OF_FLIGHT);
-    let disk = scales.state(&instant.disk);
-    let platform = system.platform();
-    let path = HandPath::new(platform, quality.choose(120, 720))?;
-    progress.advance(1);
-    Ok(Fig01Data {
-        phase_lag_rad: PHASE_LAG,
-        contact_radius_m: case.contact_radius_m,
-        disk_radius_m: SQRT_2 * case.gyration_radius_m,
-        amplitude_m: platform.amplitude(),
-        twist_amplitude_rad: platform.twist_amplitude(),
-        phase_rad: instant.time.phase.angle(),
-        platform_height_m: platform.height(instant.time.phase),
-        platform_angle_rad: platform.angle(instant.time.phase),
-        disk_height_m: disk.height,
-        disk_angle_rad: disk.angle,
-        path,
-        table_i,
-    })
-}
 
 const WIDTH: f64 = DOUBLE_COLUMN;
 const HEIGHT: f64 = 236.0;
@@ -437,12 +434,4 @@ fn path(data: &Fig01Data, area: Rect) -> Drawing {
         r"$(a_e\beta, s)$",
     );
     letter(drawing, area, "(c)")
-}
-
-fn draw(data: &Fig01Data) -> Figure {
-    let high = HEIGHT - 8.0;
-    Figure::new(WIDTH, HEIGHT)
-        .drawing(system(data, Rect::new(4.0, 4.0, 172.0, high)))
-        .drawing(sketch(data, Rect::new(191.0, 4.0, 184.0, high)))
-        .drawing(path(data, Rect::new(380.0, 4.0, WIDTH - 384.0, high)))
 }

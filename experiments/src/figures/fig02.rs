@@ -10,10 +10,9 @@ use bouncing_disk_plot::{
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, curve, faint, polar};
-use super::hand_path::HandPath;
+use super::shared::cylinder::{Cylinder, HandPath, Look, curve, faint, polar};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 2.
@@ -42,11 +41,28 @@ impl Experiment for Fig02 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
-        compute(quality, progress)
+        let intervals = quality.choose(120, 720);
+        let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
+        let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
+        let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
+        let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
+        progress.start((lags.len() + ratios.len()) as u64, "trajectories");
+        let mut panels = Vec::new();
+        for (lag, angle) in lags.into_iter().chain(ratios) {
+            panels.push(Trajectory::new(lag, angle, intervals)?);
+            progress.advance(1);
+        }
+        Ok(Fig02Data { stroke_over_contact_radius: STROKE / CONTACT_RADIUS, panels })
     }
 
     fn draw(data: &Fig02Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
+        let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
+        let letters = ["a", "b", "c", "d", "e", "f"];
+        let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
+        Ok(panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
+            figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
+        }))
     }
 
     fn parameters(data: &Fig02Data) -> Vec<(String, String)> {
@@ -54,16 +70,14 @@ impl Experiment for Fig02 {
             values.map(|angle| format!("{:.2}π", angle / PI)).collect::<Vec<_>>().join(", ")
         };
         let panels = &data.panels;
-        [
+        named([
             ("phase lag θ of (a)–(f)", list(&mut panels.iter().map(|panel| panel.phase_lag_rad))),
             (
                 "amplitude angle φ_L of (a)–(f)",
                 list(&mut panels.iter().map(|panel| panel.amplitude_angle_rad)),
             ),
             ("stroke c", format!("{} a_e", data.stroke_over_contact_radius)),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 
@@ -107,21 +121,6 @@ impl Trajectory {
         let path = HandPath::new(&platform, intervals)?;
         Ok(Self { phase_lag_rad: phase_lag, amplitude_angle_rad: amplitude_angle, path })
     }
-}
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig02Data, ExperimentError> {
-    let intervals = quality.choose(120, 720);
-    let printed_angle = paper::value("section1.amplitude_angle_of_fig2_abc")?;
-    let printed_lag = paper::value("section1.phase_lag_of_fig2_def")?;
-    let lags = PHASE_LAGS.map(|lag| (lag, printed_angle));
-    let ratios = AMPLITUDE_ANGLES.map(|angle| (printed_lag, angle));
-    progress.start((lags.len() + ratios.len()) as u64, "trajectories");
-    let mut panels = Vec::new();
-    for (lag, angle) in lags.into_iter().chain(ratios) {
-        panels.push(Trajectory::new(lag, angle, intervals)?);
-        progress.advance(1);
-    }
-    Ok(Fig02Data { stroke_over_contact_radius: STROKE / CONTACT_RADIUS, panels })
 }
 
 const WIDTH: f64 = 340.0;
@@ -196,14 +195,4 @@ fn panel(data: &Trajectory, letter: &str, name: Name, area: Rect) -> Drawing {
     let corner = drawing.local((area.left + 2.0, area.top + 6.0));
     let foot = drawing.local((area.left + 0.5 * area.width, area.bottom() - 4.0));
     drawing.text(foot, Anchor::Middle, below).text(corner, Anchor::LeftCentre, format!("({letter})").as_str())
-}
-
-fn draw(data: &Fig02Data) -> Figure {
-    let margins = Margins { left: 2.0, right: 2.0, top: 4.0, bottom: 2.0 };
-    let grid = Grid::new(WIDTH, HEIGHT, 2, 3).margins(margins).gaps(2.0, 6.0);
-    let letters = ["a", "b", "c", "d", "e", "f"];
-    let panels = data.panels.iter().zip(letters.into_iter().zip(NAMES)).enumerate();
-    panels.fold(Figure::new(WIDTH, HEIGHT), |figure, (index, (trajectory, (letter, name)))| {
-        figure.drawing(panel(trajectory, letter, name, grid.cell(index / 3, index % 3)))
-    })
 }

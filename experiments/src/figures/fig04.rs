@@ -13,10 +13,10 @@ use bouncing_disk_plot::Figure;
 use self::consistency::consistency;
 pub use self::data::Fig04Data;
 use self::data::TossPoint;
-use super::toss_case::TossCase;
+use super::shared::toss::TossCase;
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 4.
@@ -51,7 +51,62 @@ impl Experiment for Fig04 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
-        compute(quality, progress)
+        let count = quality.choose(61, 481);
+        progress.start(6, "parts");
+        let done = || progress.advance(1);
+        let table_i = paper::table_one()?;
+        let printed = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        let angles = sweep::angles(&table, count);
+        let rest = InitialSpin::AbsoluteRest;
+        let families = sweep::INITIAL_STATES
+            .into_iter()
+            .map(|initial| sweep::family(&table, initial, &angles))
+            .collect::<Result<Vec<_>, _>>()?;
+        done();
+        let separation = sweep::separation(&table, count)?;
+        done();
+        let friction_curves = printed
+            .frictions_of_fig4e
+            .iter()
+            .map(|friction| sweep::friction_curve(&table, *friction, &angles))
+            .collect::<Result<Vec<_>, _>>()?;
+        let low_friction = sweep::low_friction(&table)?;
+        done();
+        let best = sweep::INITIAL_STATES
+            .into_iter()
+            .map(|initial| sweep::best(&table, initial))
+            .collect::<Result<Vec<_>, _>>()?;
+        done();
+        let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
+        let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
+        let kept = toss.energy.platform_work() - toss.energy.friction_loss;
+        done();
+        let at_printed_optimum = PrintedNumber::read(&printed.optimal_amplitude_angle_rad)
+            .map(|angle| {
+                Ok::<_, ExperimentError>(TossPoint::new(&table, &table.at_angle(angle.value).toss(rest)?))
+            })
+            .transpose()?;
+        let consistency = consistency(&table_i, &printed, count)?;
+        done();
+        Ok(Fig04Data {
+            largest_amplitude_angle_rad: table.largest_angle(),
+            table_i_toss: TossPoint::new(&table, &table.toss(rest)?),
+            speed_ratio_at_printed_optimum: at_printed_optimum
+                .and_then(|toss| toss.speed_ratio.map(f64::abs)),
+            lossless_efficiency_of_fastest: toss.rotary_energy_gain / kept,
+            amplitude_angle_rad: angles,
+            families,
+            separation,
+            friction_curves,
+            low_friction,
+            best,
+            held_to_separation_angle_rad: sweep::held_to_separation(&table),
+            compromise: sweep::compromise(&table)?,
+            consistency,
+            table_i,
+            printed,
+        })
     }
 
     fn draw(data: &Fig04Data) -> Result<Figure, ExperimentError> {
@@ -64,7 +119,7 @@ impl Experiment for Fig04 {
 
     fn parameters(data: &Fig04Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        [
+        named([
             ("phase lag θ", "nπ/8, n = 0 … 8".to_owned()),
             (
                 "amplitude angle φ_L",
@@ -81,71 +136,11 @@ impl Experiment for Fig04 {
                 "lowest point of the hand, τ = 3π/2; dough at rest, or turning with the hand".to_owned(),
             ),
             ("points of a curve", data.amplitude_angle_rad.len().to_string()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 
 fn frictions(data: &Fig04Data) -> String {
     let texts: Vec<_> = data.friction_curves.iter().map(|curve| curve.friction.to_string()).collect();
     texts.join(", ")
-}
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig04Data, ExperimentError> {
-    let count = quality.choose(61, 481);
-    progress.start(6, "parts");
-    let done = || progress.advance(1);
-    let table_i = paper::table_one()?;
-    let printed = paper::section_three()?;
-    let table = TossCase::from(&table_i);
-    let angles = sweep::angles(&table, count);
-    let rest = InitialSpin::AbsoluteRest;
-    let families = sweep::INITIAL_STATES
-        .into_iter()
-        .map(|initial| sweep::family(&table, initial, &angles))
-        .collect::<Result<Vec<_>, _>>()?;
-    done();
-    let separation = sweep::separation(&table, count)?;
-    done();
-    let friction_curves = printed
-        .frictions_of_fig4e
-        .iter()
-        .map(|friction| sweep::friction_curve(&table, *friction, &angles))
-        .collect::<Result<Vec<_>, _>>()?;
-    let low_friction = sweep::low_friction(&table)?;
-    done();
-    let best = sweep::INITIAL_STATES
-        .into_iter()
-        .map(|initial| sweep::best(&table, initial))
-        .collect::<Result<Vec<_>, _>>()?;
-    done();
-    let fastest = sweep::best_angle(&table, rest, sweep::speed)?;
-    let toss = table.at_angle(fastest.amplitude_angle_rad).toss(rest)?;
-    let kept = toss.energy.platform_work() - toss.energy.friction_loss;
-    done();
-    let at_printed_optimum = PrintedNumber::read(&printed.optimal_amplitude_angle_rad)
-        .map(|angle| {
-            Ok::<_, ExperimentError>(TossPoint::new(&table, &table.at_angle(angle.value).toss(rest)?))
-        })
-        .transpose()?;
-    let consistency = consistency(&table_i, &printed, count)?;
-    done();
-    Ok(Fig04Data {
-        largest_amplitude_angle_rad: table.largest_angle(),
-        table_i_toss: TossPoint::new(&table, &table.toss(rest)?),
-        speed_ratio_at_printed_optimum: at_printed_optimum.and_then(|toss| toss.speed_ratio.map(f64::abs)),
-        lossless_efficiency_of_fastest: toss.rotary_energy_gain / kept,
-        amplitude_angle_rad: angles,
-        families,
-        separation,
-        friction_curves,
-        low_friction,
-        best,
-        held_to_separation_angle_rad: sweep::held_to_separation(&table),
-        compromise: sweep::compromise(&table)?,
-        consistency,
-        table_i,
-        printed,
-    })
 }

@@ -12,16 +12,12 @@ use bouncing_disk_plot::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::angle_grid::{AngleGrid, launch_case, printed_angles, unreadable};
-use super::toss_case::TossCase;
-use crate::claims::{
-    self as claim, Claim,
-    paper::{self, SectionThree, TableOne},
-    printed::PrintedNumber,
-};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use super::shared::toss::{AngleGrid, TossCase, launch_case, printed_angles, unreadable};
+use crate::claims::paper::{self, SectionThree, TableOne};
+use crate::claims::printed::PrintedNumber;
+use crate::claims::{self as claim, Claim};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Fig. 5.
 #[derive(Debug)]
@@ -49,15 +45,67 @@ impl Experiment for Fig05 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
-        compute(quality, progress)
+        let points = quality.choose(60, 240);
+        let table_i = paper::table_one()?;
+        let printed = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        let angles = [
+            &printed.amplitude_angle_of_largest_speed_ratio_rad,
+            &printed.optimal_amplitude_angle_rad,
+            &printed.amplitude_angle_of_fig5c_rad,
+        ];
+        let phase_lags = [FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
+        progress.start(angles.len() as u64 + 1, "columns");
+        let mut columns = Vec::new();
+        let mut optimum = table;
+        for (index, text) in angles.into_iter().enumerate() {
+            let Some(angle) = PrintedNumber::read(text) else { continue };
+            let case = table.at_angle(angle.value);
+            if index == 1 {
+                optimum = case;
+            }
+            columns.push(Column::new(text, &case, phase_lags, points)?);
+            progress.advance(1);
+        }
+        let lags = PHASE_LAGS_NEAR_ZERO
+            .into_iter()
+            .map(|lag| {
+                let toss = Toss::new(&optimum.at_lag(lag), points)?;
+                Ok::<_, ExperimentError>(Dependence {
+                    phase_lag_rad: lag,
+                    lowest_speed_rad_per_s: toss.lowest_speed_rad_per_s,
+                    late_gain_rad_per_s: toss.late_gain_rad_per_s,
+                })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let firm_grip = FRICTION_FACTORS
+            .into_iter()
+            .map(|factor| Grip::new(&table, factor, &columns))
+            .collect::<Result<Vec<_>, _>>()?;
+        let grid_point = GridPoint::new(&table_i, &printed)?;
+        progress.advance(1);
+        Ok(Fig05Data { table_i, printed, columns, lags, firm_grip, grid_point })
     }
 
     fn draw(data: &Fig05Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
+            .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
+            .gaps(10.0, 36.0);
+        let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
+        for (index, row) in rows().iter().enumerate() {
+            for (letter, column) in data.columns.iter().enumerate() {
+                figure =
+                    figure.panel(panel(Panel::new(grid.cell(index, letter)), column, row, index, letter));
+            }
+        }
+        Ok(figure)
     }
 
     fn claims(data: &Fig05Data) -> Vec<Claim> {
-        claims(data)
+        let mut claims = amplitude_ratio(data);
+        claims.push(no_slip(data));
+        claims.extend(phase_lag(data));
+        claims
     }
 
     fn parameters(data: &Fig05Data) -> Vec<(String, String)> {
@@ -66,7 +114,7 @@ impl Experiment for Fig05 {
         let lags = data.columns.first().map_or(String::new(), |column| {
             column.tosses.iter().map(|toss| pi(toss.phase_lag_rad)).collect::<Vec<_>>().join(", ")
         });
-        [
+        named([
             ("amplitude angle φ_L", angles.join(", ")),
             ("phase lag θ", lags),
             ("stroke c", format!("{} m", table.stroke_m.value)),
@@ -76,41 +124,7 @@ impl Experiment for Fig05 {
             ("friction μ", table.friction.value.to_string()),
             ("gravity g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
             ("start", "lowest point of the hand, τ = 3π/2; dough at rest".to_owned()),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
-    }
-
-    fn table(data: &Fig05Data) -> Option<Table> {
-        let mut table = Table::new([
-            "phi_L (rad)",
-            "theta (rad)",
-            "separation phase (rad)",
-            "largest hand speed (rad/s)",
-            "hand speed at separation (rad/s)",
-            "airborne speed (rad/s)",
-            "slip at separation (rad/s)",
-            "sliding share of contact time",
-            "apex above mean height of hand (m)",
-            "landing time (s)",
-        ]);
-        for column in &data.columns {
-            for toss in &column.tosses {
-                table.push([
-                    Cell::from(column.amplitude_angle_rad),
-                    toss.phase_lag_rad.into(),
-                    toss.separation_phase_rad.into(),
-                    toss.largest_hand_speed_rad_per_s.into(),
-                    toss.hand_speed_at_separation_rad_per_s.into(),
-                    toss.airborne_speed_rad_per_s.into(),
-                    toss.slip_at_separation_rad_per_s.into(),
-                    toss.sliding_share_of_contact.into(),
-                    toss.apex_height_m.into(),
-                    toss.landing_time_s.into(),
-                ]);
-            }
-        }
-        Some(table)
+        ])
     }
 }
 
@@ -119,7 +133,6 @@ impl Experiment for Fig05 {
 pub struct Fig05Data {
     table_i: TableOne,
     printed: SectionThree,
-    initial_state: InitialSpin,
     columns: Vec<Column>,
     /// The toss at the printed optimal φ_L with phase lags about 0.
     lags: Vec<Dependence>,
@@ -144,19 +157,15 @@ struct Column {
     /// φ_L as printed.
     printed: String,
     amplitude_angle_rad: f64,
-    amplitude_m: f64,
     /// ωΦ.
     largest_hand_speed_rad_per_s: f64,
-    /// A ω²/g: the contact force lies between 1 + this, at the lowest point, and 0, at the separation (in m
-    /// g).
-    peak_acceleration: f64,
     /// One per phase lag of the caption.
     tosses: Vec<Toss>,
 }
 
 /// One toss, from the lowest point of the hand until the dough lands. Time runs from the start, heights from
 /// the hand's mean height.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Toss {
     phase_lag_rad: f64,
     time_s: Vec<f64>,
@@ -167,18 +176,13 @@ struct Toss {
     hand_speed_rad_per_s: Vec<f64>,
     dough_speed_rad_per_s: Vec<f64>,
     separation_time_s: f64,
-    separation_phase_rad: f64,
-    landing_time_s: f64,
     /// The highest point of the flight.
     apex_height_m: f64,
     airborne_speed_rad_per_s: f64,
     hand_speed_at_separation_rad_per_s: f64,
-    largest_hand_speed_rad_per_s: f64,
     /// Hand minus dough at the separation.
     slip_at_separation_rad_per_s: f64,
     sliding_at_separation: bool,
-    /// Share of the time in contact during which the dough slides.
-    sliding_share_of_contact: f64,
     /// The dough's lowest speed in contact.
     lowest_speed_rad_per_s: f64,
     /// What the speed gains in the second half of the time in contact.
@@ -189,7 +193,6 @@ struct Toss {
 #[derive(Debug, Serialize, Deserialize)]
 struct Dependence {
     phase_lag_rad: f64,
-    airborne_speed_rad_per_s: f64,
     lowest_speed_rad_per_s: f64,
     late_gain_rad_per_s: f64,
 }
@@ -210,50 +213,6 @@ const PHASE_LAGS_NEAR_ZERO: [f64; 5] = [-FRAC_PI_4, -FRAC_PI_8, 0.0, FRAC_PI_8, 
 
 /// Multiples of Table I's friction for the limit of sufficient friction.
 const FRICTION_FACTORS: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig05Data, ExperimentError> {
-    let points = quality.choose(60, 240);
-    let table_i = paper::table_one()?;
-    let printed = paper::section_three()?;
-    let table = TossCase::from(&table_i);
-    let angles = [
-        &printed.amplitude_angle_of_largest_speed_ratio_rad,
-        &printed.optimal_amplitude_angle_rad,
-        &printed.amplitude_angle_of_fig5c_rad,
-    ];
-    let phase_lags = [FIRST_PHASE_LAG, paper::value("section3.second_phase_lag_of_fig5")?];
-    progress.start(angles.len() as u64 + 1, "columns");
-    let mut columns = Vec::new();
-    let mut optimum = table;
-    for (index, text) in angles.into_iter().enumerate() {
-        let Some(angle) = PrintedNumber::read(text) else { continue };
-        let case = table.at_angle(angle.value);
-        if index == 1 {
-            optimum = case;
-        }
-        columns.push(Column::new(text, &case, phase_lags, points)?);
-        progress.advance(1);
-    }
-    let lags = PHASE_LAGS_NEAR_ZERO
-        .into_iter()
-        .map(|lag| Toss::new(&optimum.at_lag(lag), points).map(|toss| Dependence::new(&toss)))
-        .collect::<Result<Vec<_>, _>>()?;
-    let firm_grip = FRICTION_FACTORS
-        .into_iter()
-        .map(|factor| Grip::new(&table, factor, &columns))
-        .collect::<Result<Vec<_>, _>>()?;
-    let grid_point = GridPoint::new(&table_i, &printed)?;
-    progress.advance(1);
-    Ok(Fig05Data {
-        table_i,
-        printed,
-        initial_state: InitialSpin::AbsoluteRest,
-        columns,
-        lags,
-        firm_grip,
-        grid_point,
-    })
-}
 
 impl GridPoint {
     fn new(table: &TableOne, section: &SectionThree) -> Result<Self, ExperimentError> {
@@ -277,14 +236,11 @@ impl Column {
         phase_lags: [f64; 2],
         points: u32,
     ) -> Result<Self, ExperimentError> {
-        let system = case.system()?;
         let tosses = phase_lags.into_iter().map(|lag| Toss::new(&case.at_lag(lag), points));
         Ok(Self {
             printed: printed.to_owned(),
             amplitude_angle_rad: case.amplitude_angle_rad,
-            amplitude_m: system.platform().amplitude(),
-            largest_hand_speed_rad_per_s: system.platform().peak_angular_speed(),
-            peak_acceleration: system.peak_acceleration(),
+            largest_hand_speed_rad_per_s: case.system()?.platform().peak_angular_speed(),
             tosses: tosses.collect::<Result<_, _>>()?,
         })
     }
@@ -295,10 +251,8 @@ impl Toss {
         let system = case.system()?;
         let trajectory = toss_trajectory(&system, InitialSpin::AbsoluteRest)?;
         let scales = system.scales();
-        let mut toss = Self::empty(case.phase_lag_rad);
-        toss.largest_hand_speed_rad_per_s = system.platform().peak_angular_speed();
-        let mut sliding_time = 0.0;
-        let mut contact_speeds = Vec::new();
+        let mut toss = Self { phase_lag_rad: case.phase_lag_rad, ..Self::default() };
+        let mut lowest = f64::INFINITY;
         for record in trajectory.records() {
             let flies = record.before.mode == Mode::Flight;
             for step in 0..=points {
@@ -310,35 +264,23 @@ impl Toss {
                 toss.dough_angle_rad.push(state.angle);
                 toss.dough_speed_rad_per_s.push(state.angular_speed);
                 if !flies {
-                    contact_speeds.push((time, state.angular_speed));
+                    lowest = lowest.min(state.angular_speed);
                 }
             }
-            let time = scales.span_seconds(record.time.since(&trajectory.start()));
-            if matches!(record.before.mode, Mode::Sliding(_)) {
-                sliding_time += scales.span_seconds(record.span);
-            }
-            match record.event.kind() {
-                EventKind::Separation => {
-                    let state = scales.state(&record.after);
-                    toss.separation_time_s = time;
-                    toss.separation_phase_rad = record.time.phase.angle();
-                    toss.airborne_speed_rad_per_s = state.angular_speed;
-                    toss.hand_speed_at_separation_rad_per_s =
-                        system.platform().angular_speed(record.time.phase);
-                    toss.slip_at_separation_rad_per_s =
-                        toss.hand_speed_at_separation_rad_per_s - state.angular_speed;
-                    toss.sliding_at_separation = matches!(record.before.mode, Mode::Sliding(_));
-                    let rise = state.axial_velocity * state.axial_velocity
-                        / (2.0 * case.preload_acceleration_m_per_s2);
-                    toss.apex_height_m = state.height + rise;
-                }
-                EventKind::Impact => toss.landing_time_s = time,
-                _ => {}
+            if record.event.kind() == EventKind::Separation {
+                let state = scales.state(&record.after);
+                toss.separation_time_s = scales.span_seconds(record.time.since(&trajectory.start()));
+                toss.airborne_speed_rad_per_s = state.angular_speed;
+                toss.hand_speed_at_separation_rad_per_s = system.platform().angular_speed(record.time.phase);
+                toss.slip_at_separation_rad_per_s =
+                    toss.hand_speed_at_separation_rad_per_s - state.angular_speed;
+                toss.sliding_at_separation = matches!(record.before.mode, Mode::Sliding(_));
+                let rise =
+                    state.axial_velocity * state.axial_velocity / (2.0 * case.preload_acceleration_m_per_s2);
+                toss.apex_height_m = state.height + rise;
             }
         }
-        toss.sliding_share_of_contact = sliding_time / toss.separation_time_s;
-        toss.lowest_speed_rad_per_s =
-            contact_speeds.iter().map(|(_, speed)| *speed).fold(f64::INFINITY, f64::min);
+        toss.lowest_speed_rad_per_s = lowest;
         let middle = trajectory.start().after(bouncing_disk::motion::PhaseSpan::from_radians(
             0.5 * toss.separation_time_s * case.angular_frequency_rad_per_s,
         ));
@@ -348,48 +290,12 @@ impl Toss {
         Ok(toss)
     }
 
-    fn empty(phase_lag_rad: f64) -> Self {
-        Self {
-            phase_lag_rad,
-            time_s: Vec::new(),
-            hand_height_m: Vec::new(),
-            dough_height_m: Vec::new(),
-            hand_angle_rad: Vec::new(),
-            dough_angle_rad: Vec::new(),
-            hand_speed_rad_per_s: Vec::new(),
-            dough_speed_rad_per_s: Vec::new(),
-            separation_time_s: 0.0,
-            separation_phase_rad: 0.0,
-            landing_time_s: 0.0,
-            apex_height_m: 0.0,
-            airborne_speed_rad_per_s: 0.0,
-            hand_speed_at_separation_rad_per_s: 0.0,
-            largest_hand_speed_rad_per_s: 0.0,
-            slip_at_separation_rad_per_s: 0.0,
-            sliding_at_separation: false,
-            sliding_share_of_contact: 0.0,
-            lowest_speed_rad_per_s: 0.0,
-            late_gain_rad_per_s: 0.0,
-        }
-    }
-
     fn push(&mut self, system: &System, phase: Phase, time: f64) {
         let hand = system.platform();
         self.time_s.push(time);
         self.hand_height_m.push(hand.height(phase));
         self.hand_angle_rad.push(hand.angle(phase));
         self.hand_speed_rad_per_s.push(hand.angular_speed(phase));
-    }
-}
-
-impl Dependence {
-    fn new(toss: &Toss) -> Self {
-        Self {
-            phase_lag_rad: toss.phase_lag_rad,
-            airborne_speed_rad_per_s: toss.airborne_speed_rad_per_s,
-            lowest_speed_rad_per_s: toss.lowest_speed_rad_per_s,
-            late_gain_rad_per_s: toss.late_gain_rad_per_s,
-        }
     }
 }
 
@@ -502,19 +408,6 @@ fn panel(mut panel: Panel, column: &Column, row: &Row, index: usize, letter: usi
     panel
 }
 
-fn draw(data: &Fig05Data) -> Figure {
-    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 3, 3)
-        .margins(Margins { left: 40.0, right: 10.0, top: 18.0, bottom: 30.0 })
-        .gaps(10.0, 36.0);
-    let mut figure = Figure::new(DOUBLE_COLUMN, HEIGHT);
-    for (index, row) in rows().iter().enumerate() {
-        for (letter, column) in data.columns.iter().enumerate() {
-            figure = figure.panel(panel(Panel::new(grid.cell(index, letter)), column, row, index, letter));
-        }
-    }
-    figure
-}
-
 /// The share of the hand's speed that a dough in a firm grip may lack.
 const NEARLY_NOTHING: f64 = 0.01;
 /// The hand's speed at the lowest point, cos(3π/2 + θ), is known to this share of the largest one.
@@ -553,13 +446,6 @@ fn both<const N: usize>(statements: [Option<bool>; N]) -> Option<bool> {
     statements.into_iter().try_fold(true, |so_far, holds| Some(so_far && holds?))
 }
 
-fn claims(data: &Fig05Data) -> Vec<Claim> {
-    let mut claims = amplitude_ratio(data);
-    claims.extend(limits(data));
-    claims.extend(phase_lag(data));
-    claims
-}
-
 /// What φ_L does.
 fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
     let slip_share =
@@ -575,13 +461,7 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
                 data.columns.last().and_then(first).map(|toss| toss.sliding_at_separation),
                 rises(&slips),
             ]),
-            listed(data, |column, toss| {
-                format!(
-                    "{} at the separation, {:.1} % behind the hand",
-                    if toss.sliding_at_separation { "slides" } else { "sticks" },
-                    100.0 * slip_share(column, toss),
-                )
-            }),
+            listed(data, |column, toss| format!("{:.1} % behind the hand", 100.0 * slip_share(column, toss))),
         )
         .note("θ = 0; at low φ_L the dough slides in the last moments only, where N falls to zero"),
         Claim::printed_statement(
@@ -612,34 +492,25 @@ fn amplitude_ratio(data: &Fig05Data) -> Vec<Claim> {
 }
 
 /// Enough force and friction.
-fn limits(data: &Fig05Data) -> Vec<Claim> {
-    let shares =
-        |missing: &[f64]| missing.iter().map(|share| format!("{share:.1e}")).collect::<Vec<_>>().join(", ");
-    let grips: Vec<_> = data
-        .firm_grip
-        .iter()
-        .map(|grip| format!("μ = {}: {}", grip.friction, shares(&grip.missing_share)))
-        .collect();
+fn no_slip(data: &Fig05Data) -> Claim {
+    let missing = |grip: &Grip, column: usize| grip.missing_share.get(column).map(|share| share.abs());
     let converges = claim::all(0..data.columns.len(), |column| {
-        let missing: Vec<f64> = data
-            .firm_grip
-            .iter()
-            .filter_map(|grip| grip.missing_share.get(column))
-            .map(|share| share.abs())
-            .collect();
+        let missing: Vec<f64> = data.firm_grip.iter().filter_map(|grip| missing(grip, column)).collect();
         // At Table I's friction a dough that is behind the hand may cross its speed as the friction grows.
         falls(missing.get(1..).unwrap_or_default()) == Some(true)
             && missing.last().is_some_and(|last| *last < NEARLY_NOTHING)
     });
-    vec![Claim::printed_statement(
+    let firmest = data.firm_grip.last();
+    let most =
+        firmest.map_or(f64::NAN, |grip| grip.missing_share.iter().fold(0.0, |most, own| own.abs().max(most)));
+    Claim::printed_statement(
         "section3.no_slip_at_separation",
         converges,
         format!(
-            "share of the hand's speed at τ_sep that the dough lacks (negative: it is ahead), for the three φ_L at \
-             θ = 0: {}; it vanishes as μ grows",
-            grips.join("; ")
+            "the share of the hand's speed at τ_sep that the dough lacks, θ = 0, vanishes as μ grows: at most {most:.1e} at μ = {}",
+            firmest.map_or(f64::NAN, |grip| grip.friction),
         ),
-    )]
+    )
 }
 
 /// What θ does.
@@ -654,28 +525,22 @@ fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
         ROUNDING * data.columns.iter().map(|own| own.largest_hand_speed_rad_per_s).fold(0.0, f64::max);
     let reversed =
         claim::all(lags, |lag| (lag.phase_lag_rad < 0.0) == (lag.lowest_speed_rad_per_s < -at_rest));
-    let described = |value: fn(&Dependence) -> f64| {
-        // No minus sign before a zero.
-        let shown = |number: f64| if number.abs() < at_rest { 0.0 } else { number };
-        let parts = lags.iter().map(|lag| format!("θ = {}: {:.2}", pi(lag.phase_lag_rad), shown(value(lag))));
-        parts.collect::<Vec<_>>().join("; ")
-    };
-    let angle = &data.printed.optimal_amplitude_angle_rad;
+    let places = format!(
+        "φ_L = {}, θ = {}",
+        data.printed.optimal_amplitude_angle_rad,
+        lags.iter().map(|lag| pi(lag.phase_lag_rad)).collect::<Vec<_>>().join(", ")
+    );
     vec![
         Claim::printed_statement(
             "section3.positive_lag_torque",
             reduced,
-            format!(
-                "speed gained in the second half of the contact (rad/s), φ_L = {angle}: {}",
-                described(|lag| lag.late_gain_rad_per_s)
-            ),
+            format!("a positive lag gains less speed in the second half of the contact; {places}"),
         ),
         Claim::printed_statement(
             "section3.negative_lag_torque",
             reversed,
             format!(
-                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest; its lowest speed in contact (rad/s), φ_L = {angle}: {}",
-                described(|lag| lag.lowest_speed_rad_per_s)
+                "judged by the torque; the phase of the fastest hand is −θ. The dough starts at rest and turns backwards where θ is negative alone; {places}"
             ),
         ),
     ]

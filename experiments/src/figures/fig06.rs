@@ -5,11 +5,8 @@ mod claims;
 mod compute;
 mod contact;
 mod data;
-mod dimension;
 mod draw;
 mod explored;
-mod inputs;
-mod merging;
 mod period_one;
 mod regimes;
 mod rotation;
@@ -23,7 +20,7 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig06Data;
 use crate::claims::Claim;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 6.
@@ -74,19 +71,15 @@ impl Experiment for Fig06 {
     }
 
     fn parameters(data: &Fig06Data) -> Vec<(String, String)> {
-        let pair = |name: &str, value: String| (name.to_owned(), value);
-        vec![
-            pair("restitution ε", data.restitution.to_string()),
-            pair(
-                "axial forcing Γ",
-                format!("{} to {}", data.axial_forcing_range.0, data.axial_forcing_range.1),
-            ),
-            pair("values of Γ", data.axial_forcing_values.to_string()),
-            pair("transient", format!("{} impacts", data.transient_impacts)),
-            pair("examined", format!("{} impacts", data.examined_impacts)),
-            pair("(c) θ, Γ_T", format!("{}, {}", data.linear.phase_lag_rad, data.linear.angular_forcing)),
-            pair("(d) θ, Γ_T", format!("{}, {}", lag(data), data.semielliptical.angular_forcing)),
-            pair(
+        named([
+            ("restitution ε", data.restitution.to_string()),
+            ("axial forcing Γ", format!("{} to {}", data.axial_forcing_range.0, data.axial_forcing_range.1)),
+            ("values of Γ", data.axial_forcing_values.to_string()),
+            ("transient", format!("{} impacts", data.transient_impacts)),
+            ("examined", format!("{} impacts", data.examined_impacts)),
+            ("(c) θ, Γ_T", format!("{}, {}", data.linear.phase_lag_rad, data.linear.angular_forcing)),
+            ("(d) θ, Γ_T", format!("{}, {}", lag(data), data.semielliptical.angular_forcing)),
+            (
                 "chattering",
                 format!(
                     "cut at |w_A Γ/(ωA)| < {:e} or after {} flights shorter than {:e} of a period",
@@ -95,7 +88,7 @@ impl Experiment for Fig06 {
                     PAPER_CUT.short_flight()
                 ),
             ),
-        ]
+        ])
     }
 }
 

@@ -5,7 +5,6 @@ mod data;
 mod draw;
 mod panels;
 mod scan;
-mod windows;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
@@ -13,9 +12,10 @@ use rayon::prelude::*;
 
 pub use self::data::Fig07Data;
 use self::data::Panel;
-use self::{panels::WINDOW_TOP, windows::windows};
+use self::{panels::WINDOW_TOP, scan::windows};
+use super::shared::map;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 7.
@@ -52,7 +52,47 @@ impl Experiment for Fig07 {
     }
 
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
-        compute(quality, progress)
+        let printed = paper::section_four()?;
+        let forcings = printed.axial_forcings_of_fig7;
+        let cells = quality.choose(150, 1_000);
+        let (rows, columns) = quality.choose((320, 100), (1_600, 400));
+        progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
+        // Side by side, for each has parts in which one thing follows from another.
+        let panels = || {
+            forcings
+                .into_par_iter()
+                .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
+                .collect::<Vec<_>>()
+        };
+        let decay = || {
+            let chaotic = map(forcings[3], printed.restitution)?;
+            panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
+        };
+        let windows = || windows(&printed, (rows, columns), progress);
+        let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
+        // The first error in the order of the panels, whichever comes first in time.
+        let panels = panels.into_iter().collect::<Result<_, _>>()?;
+        let (windows, decay) = (windows?, decay?);
+        let panels: Vec<Panel> = panels;
+        let [_, b, ..] = &panels[..] else {
+            return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
+        };
+        let traced = match b.others.first() {
+            Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
+            None => None,
+        };
+        Ok(Fig07Data {
+            restitution: printed.restitution,
+            window_top: WINDOW_TOP,
+            cells,
+            panels,
+            windows,
+            decay,
+            along_window: scan::along_window(&printed, quality)?,
+            beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
+            rest: scan::rest(&forcings, printed.restitution)?,
+            traced,
+        })
     }
 
     fn draw(data: &Fig07Data) -> Result<Figure, ExperimentError> {
@@ -64,64 +104,19 @@ impl Experiment for Fig07 {
     }
 
     fn parameters(data: &Fig07Data) -> Vec<(String, String)> {
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let forcings: Vec<String> =
             data.panels.iter().map(|panel| draw::forcing_text(panel.axial_forcing)).collect();
         let longest: Vec<String> = data.panels.iter().map(|panel| panel.max_impacts.to_string()).collect();
-        vec![
-            pair("restitution ε", data.restitution.to_string()),
-            pair("axial forcing Γ", forcings.join(", ")),
-            pair("τ_imp/2π", "0 to 1".to_owned()),
-            pair("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
-            pair("cells a panel", format!("{} × {}", data.cells, data.cells)),
-            pair("impacts followed", longest.join(", ")),
-            pair("chattering", "summed in closed form (complete)".to_owned()),
-        ]
+        named([
+            ("restitution ε", data.restitution.to_string()),
+            ("axial forcing Γ", forcings.join(", ")),
+            ("τ_imp/2π", "0 to 1".to_owned()),
+            ("|w_A Γ/(ωA)|", format!("0 to {}", data.window_top)),
+            ("cells a panel", format!("{} × {}", data.cells, data.cells)),
+            ("impacts followed", longest.join(", ")),
+            ("chattering", "summed in closed form (complete)".to_owned()),
+        ])
     }
-}
-
-fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig07Data, ExperimentError> {
-    let printed = paper::section_four()?;
-    let forcings = printed.axial_forcings_of_fig7;
-    let cells = quality.choose(150, 1_000);
-    let (rows, columns) = quality.choose((320, 100), (1_600, 400));
-    progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
-    // Side by side, for each has parts in which one thing follows from another.
-    let panels = || {
-        forcings
-            .into_par_iter()
-            .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
-            .collect::<Vec<_>>()
-    };
-    let decay = || {
-        let chaotic = panels::map(forcings[3], printed.restitution)?;
-        panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
-    };
-    let windows = || windows(&printed, (rows, columns), progress);
-    let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
-    // The first error in the order of the panels, whichever comes first in time.
-    let panels = panels.into_iter().collect::<Result<_, _>>()?;
-    let (windows, decay) = (windows?, decay?);
-    let panels: Vec<Panel> = panels;
-    let [_, b, ..] = &panels[..] else {
-        return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
-    };
-    let traced = match b.others.first() {
-        Some(other) => scan::traced(b.axial_forcing, other, printed.restitution)?,
-        None => None,
-    };
-    Ok(Fig07Data {
-        restitution: printed.restitution,
-        window_top: WINDOW_TOP,
-        cells,
-        panels,
-        windows,
-        decay,
-        along_window: scan::along_window(&printed, quality)?,
-        beyond: scan::beyond(&printed, WINDOW_TOP, quality)?,
-        rest: scan::rest(&forcings, printed.restitution)?,
-        traced,
-    })
 }
 
 #[cfg(test)]

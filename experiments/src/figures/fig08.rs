@@ -2,16 +2,16 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use bouncing_disk::core::numerics::elementary::{asin, sin_cos};
+use bouncing_disk::core::numerics::elementary::sin_cos;
 use bouncing_disk_plot::{
     Anchor, Camera, Colour, Dash, Drawing, Figure, Fill, Path, Rect, SINGLE_COLUMN, Stroke, Style, TextStyle,
 };
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::cylinder::{Cylinder, Look, arc, polar};
-use crate::claims::paper::{self, STEEL_DENSITY, TableThree};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use super::shared::cylinder::{Cylinder, Look, arc, polar};
+use crate::claims::paper::{self, TableThree};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 8.
@@ -40,23 +40,26 @@ impl Experiment for Fig08 {
     }
 
     fn compute(_quality: Quality, progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
-        compute(progress)
+        progress.start(1, "dimensions");
+        let table_iii = paper::table_three()?;
+        let ball_diameter_mm = 1e3 * paper::section_five()?.rotor_diameter_m;
+        let (radius, contact) = (0.5 * ball_diameter_mm, table_iii.contact_radius_mm);
+        let contact_depth_mm = radius - (radius * radius - contact * contact).sqrt();
+        progress.advance(1);
+        Ok(Fig08Data { table_iii, ball_diameter_mm, contact_depth_mm })
     }
 
     fn draw(data: &Fig08Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
+        Ok(Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT)))
     }
 
     fn parameters(data: &Fig08Data) -> Vec<(String, String)> {
-        [
+        named([
             ("ball diameter", format!("{} mm", data.ball_diameter_mm)),
             ("contact radius a_e", format!("{} mm", data.table_iii.contact_radius_mm)),
             ("radius of gyration a_g", format!("{} mm", data.table_iii.gyration_radius_mm)),
-            ("density of steel (assumed)", format!("{} kg/m³", data.steel_density_kg_per_m3)),
-            ("gravity g", format!("{} m/s²", data.gravity_m_per_s2)),
-        ]
-        .map(|(name, value)| (name.to_owned(), value))
-        .to_vec()
+        ])
     }
 }
 
@@ -65,55 +68,8 @@ impl Experiment for Fig08 {
 pub struct Fig08Data {
     table_iii: TableThree,
     ball_diameter_mm: f64,
-    steel_density_kg_per_m3: f64,
-    steel_densities_kg_per_m3: [f64; 2],
-    gravity_m_per_s2: f64,
-    ball_mass_kg: f64,
-    ball_weight_n: f64,
-    /// For the two ends of the range of densities.
-    ball_weights_n: [f64; 2],
-    /// sqrt(2/5) of the radius: a homogeneous sphere.
-    gyration_radius_mm: f64,
-    /// Between the axis and the normal of the ball where it touches the stator.
-    contact_angle_rad: f64,
     /// How far the ball reaches into the circle of contact.
     contact_depth_mm: f64,
-    preloads_n: [f64; 2],
-    /// Preload over mass.
-    preload_accelerations_m_per_s2: [f64; 2],
-    preload_acceleration_range_m_per_s2: [f64; 2],
-}
-
-/// Carbon and stainless steels lie between these densities (kg/m³; handbook values, not in the paper).
-const STEEL_DENSITIES: [f64; 2] = [7700.0, 8000.0];
-
-fn compute(progress: &dyn Progress) -> Result<Fig08Data, ExperimentError> {
-    progress.start(1, "checks");
-    let table_iii = paper::table_three()?;
-    let section = paper::section_five()?;
-    let preloads = paper::preloads()?;
-    let gravity = section.gravity_m_per_s2;
-    let mass = section.rotor_mass_kg();
-    let radius_mm = 500.0 * section.rotor_diameter_m;
-    let volume_m3 = mass / STEEL_DENSITY;
-    let contact = table_iii.contact_radius_mm;
-    progress.advance(1);
-    Ok(Fig08Data {
-        ball_diameter_mm: 2.0 * radius_mm,
-        steel_density_kg_per_m3: STEEL_DENSITY,
-        steel_densities_kg_per_m3: STEEL_DENSITIES,
-        gravity_m_per_s2: gravity,
-        ball_mass_kg: mass,
-        ball_weight_n: gravity * mass,
-        ball_weights_n: STEEL_DENSITIES.map(|density| gravity * density * volume_m3),
-        gyration_radius_mm: 0.4_f64.sqrt() * radius_mm,
-        contact_angle_rad: asin(contact / radius_mm),
-        contact_depth_mm: radius_mm - (radius_mm * radius_mm - contact * contact).sqrt(),
-        preloads_n: preloads.measured_range_n,
-        preload_accelerations_m_per_s2: preloads.measured_range_n.map(|preload| preload / mass),
-        preload_acceleration_range_m_per_s2: preloads.preload_accelerations_m_per_s2,
-        table_iii,
-    })
 }
 
 /// A beam of rectangular cross-section whose section turns uniformly with height.
@@ -387,9 +343,4 @@ fn contact(data: &Fig08Data, area: Rect) -> Drawing {
         .double_arrow((0.0, -1.17), (touch, -1.17), black())
         .text((0.0, -1.65), small(Anchor::Centre), label.as_str())
         .text((0.0, 1.55), small(Anchor::Centre), "contact")
-}
-
-fn draw(data: &Fig08Data) -> Figure {
-    let shown = Rect::new(2.0, 2.0, SINGLE_COLUMN - 4.0, HEIGHT - 4.0);
-    Figure::new(SINGLE_COLUMN, HEIGHT).drawing(motor(data, shown)).drawing(contact(data, CONTACT))
 }

@@ -2,23 +2,18 @@
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::estimate::{BrakingRotor, Spread};
-use bouncing_disk::{
-    DiskParameters, Engine, Event, InitialCondition, PlatformParameters, System, Trajectory,
-};
+use bouncing_disk::{Engine, Event, InitialCondition, Trajectory};
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel, Rect,
     Rule, Scatter, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
-use super::braking_record::{
-    DECELERATIONS, Deceleration, FRICTIONS, decelerations, friction_layers, friction_words,
-};
-use super::motor_case::MotorCase;
-use super::numbers::{Noise, StraightLine};
+use super::shared::motor::MotorCase;
+use super::shared::numbers::{Noise, StraightLine};
 use crate::claims::paper;
-use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::measured::{Layout, Series};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
+use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
 /// Fig. 9.
@@ -57,34 +52,76 @@ impl Experiment for Fig09 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-        compute(progress)
+        progress.start(u64::from(PRELOADS), "preloads");
+        let section = paper::section_five()?;
+        let case = MotorCase::table_three()?;
+        let [lowest, highest] = paper::preloads()?.measured_range_n;
+        let rotor_mass_kg = section.rotor_mass_kg();
+        let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
+        let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
+        let curves = (0..PRELOADS)
+            .map(|k| {
+                let preload = lowest + share(k, PRELOADS) * (highest - lowest);
+                progress.advance(1);
+                curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        let printed_mean = paper::value("section5.mean_friction")?;
+        let printed_deviation = paper::value("section5.friction_deviation")?;
+        let mut noise = Noise::new(SEED);
+        let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
+            .map(|k| {
+                let friction = noise.log_normal(printed_mean, printed_deviation);
+                (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
+            })
+            .collect();
+        let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
+        let line = StraightLine::through(&synthetic);
+        Ok(Fig09Data {
+            case,
+            rotor_mass_kg,
+            first_speed_rad_per_s,
+            curves,
+            printed_mean,
+            printed_deviation,
+            synthetic_spread: Spread::of(&frictions)?,
+            synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
+            synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
+            synthetic,
+            measured_decelerations: Vec::new(),
+            measured_frictions: Vec::new(),
+            measured_words: String::new(),
+        })
     }
 
     fn overlay(data: &mut Fig09Data, series: &Series) -> Result<(), ExperimentError> {
         if series.layout().file == DECELERATIONS.file {
-            let case = &data.case;
-            let inertia = data.rotor_mass_kg * case.gyration_radius_m * case.gyration_radius_m;
-            data.measured_decelerations = decelerations(series, inertia, case.contact_radius_m)?;
+            data.measured_decelerations = decelerations(series, &data.case, data.rotor_mass_kg)?;
         } else {
-            data.measured_frictions =
-                series.rows::<2>().map(|[preload, friction]| (preload, friction)).collect();
-            data.measured_words = friction_words(series)?;
+            let points: Vec<_> = series.rows::<2>().map(<(f64, f64)>::from).collect();
+            data.measured_words = friction_words(&points)?;
+            data.measured_frictions = points;
         }
         Ok(())
     }
 
     fn draw(data: &Fig09Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 200.0;
+        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+        let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
+        Ok(Figure::new(DOUBLE_COLUMN, HEIGHT)
+            .panel(speeds(grid.cell(0, 0), data))
+            .panel(frictions(grid.cell(0, 1), data)))
     }
 
     fn parameters(data: &Fig09Data) -> Vec<(String, String)> {
-        vec![
-            ("coefficient of friction μ of the model".to_owned(), data.case.friction.to_string()),
-            ("contact radius a_e".to_owned(), format!("{} m", data.case.contact_radius_m)),
-            ("radius of gyration a_g".to_owned(), format!("{} m", data.case.gyration_radius_m)),
-            ("mass of the rotor".to_owned(), format!("{:.4} kg", data.rotor_mass_kg)),
+        named([
+            ("coefficient of friction μ of the model", data.case.friction.to_string()),
+            ("contact radius a_e", format!("{} m", data.case.contact_radius_m)),
+            ("radius of gyration a_g", format!("{} m", data.case.gyration_radius_m)),
+            ("mass of the rotor", format!("{:.4} kg", data.rotor_mass_kg)),
             (
-                "synthetic record".to_owned(),
+                "synthetic record",
                 format!(
                     "mean {:.3}, standard deviation {:.3}, slope {:.2} ± {:.2} 1/N",
                     data.synthetic_spread.mean,
@@ -93,7 +130,7 @@ impl Experiment for Fig09 {
                     data.synthetic_slope_error_per_n
                 ),
             ),
-        ]
+        ])
     }
 }
 
@@ -122,7 +159,7 @@ pub struct Fig09Data {
     measured_words: String,
 }
 
-/// A braking curve and its straight line.
+/// A braking curve and its straight line, α̇ = −α̈_brake (t − t_c).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Curve {
     preload_n: f64,
@@ -135,6 +172,14 @@ struct Curve {
     friction: f64,
 }
 
+/// A trial of a user's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Deceleration {
+    trial: u32,
+    #[serde(flatten)]
+    curve: Curve,
+}
+
 /// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
 const PRELOADS: u32 = 9;
 const SYNTHETIC: u32 = 25;
@@ -143,71 +188,11 @@ const SEED: u64 = 9;
 /// Speeds of a curve that the line is fitted to.
 const SAMPLES: usize = 60;
 
-fn compute(progress: &dyn Progress) -> Result<Fig09Data, ExperimentError> {
-    progress.start(u64::from(PRELOADS), "preloads");
-    let section = paper::section_five()?;
-    let case = MotorCase::default_of(&paper::table_three()?, &section);
-    let [lowest, highest] = paper::preloads()?.measured_range_n;
-    let rotor_mass_kg = section.rotor_mass_kg();
-    let first_speed_rad_per_s = case.peak_angular_speed_rad_per_s;
-    let share = |k: u32, count: u32| f64::from(k) / f64::from(count - 1);
-    let curves = (0..PRELOADS)
-        .map(|k| {
-            let preload = lowest + share(k, PRELOADS) * (highest - lowest);
-            progress.advance(1);
-            curve(&case, rotor_mass_kg, preload, first_speed_rad_per_s)
-        })
-        .collect::<Result<Vec<_>, _>>()?;
-    let printed_mean = paper::value("section5.mean_friction")?;
-    let printed_deviation = paper::value("section5.friction_deviation")?;
-    let mut noise = Noise::new(SEED);
-    let synthetic: Vec<(f64, f64)> = (0..SYNTHETIC)
-        .map(|k| {
-            let friction = noise.log_normal(printed_mean, printed_deviation);
-            (lowest + share(k, SYNTHETIC) * (highest - lowest), friction)
-        })
-        .collect();
-    let frictions: Vec<f64> = synthetic.iter().map(|point| point.1).collect();
-    let line = StraightLine::through(&synthetic);
-    Ok(Fig09Data {
-        case,
-        rotor_mass_kg,
-        first_speed_rad_per_s,
-        curves,
-        printed_mean,
-        printed_deviation,
-        synthetic_spread: Spread::of(&frictions)?,
-        synthetic_slope_per_n: line.map_or(0.0, |line| line.slope),
-        synthetic_slope_error_per_n: line.map_or(0.0, |line| line.slope_error),
-        synthetic,
-        measured_decelerations: Vec::new(),
-        measured_frictions: Vec::new(),
-        measured_words: String::new(),
-    })
-}
-
-fn still_system(case: &MotorCase, preload_acceleration: f64) -> Result<System, ExperimentError> {
-    let platform = PlatformParameters {
-        amplitude: 0.0,
-        twist_amplitude: 0.0,
-        angular_frequency: std::f64::consts::TAU * case.frequency_hz,
-        phase_lag: 0.0,
-    };
-    let disk = DiskParameters {
-        contact_radius: case.contact_radius_m,
-        gyration_radius: case.gyration_radius_m,
-        friction: case.friction,
-        restitution: case.restitution,
-        preload_acceleration,
-        load_acceleration: 0.0,
-    };
-    let platform = platform.build()?;
-    Ok(System::new(platform, disk.build()?)?)
-}
-
 /// The rotor on the still stator from `first_speed` to rest.
 fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Result<Curve, ExperimentError> {
-    let system = still_system(case, preload_n / mass)?;
+    let still =
+        MotorCase { amplitude_m: 0.0, peak_angular_speed_rad_per_s: 0.0, phase_lag_rad: 0.0, ..*case };
+    let system = MotorCase { preload_acceleration_m_per_s2: preload_n / mass, ..still }.system()?;
     let scales = system.scales();
     let phase = Phase::new(0.0)?;
     let start = InitialCondition::Contact { phase, angular_speed: first_speed / scales.angular_speed };
@@ -217,32 +202,113 @@ fn curve(case: &MotorCase, mass: f64, preload_n: f64, first_speed: f64) -> Resul
         .uniform(SAMPLES)
         .map(|snapshot| (scales.time_seconds(snapshot.time), scales.state(&snapshot.disk).angular_speed))
         .collect();
-    let line = StraightLine::through(&points);
-    let (slope, intercept) = line.map_or((f64::NAN, f64::NAN), |line| (line.slope, line.intercept));
-    let rotor = BrakingRotor {
-        normal_force: preload_n,
-        mass,
-        contact_radius: case.contact_radius_m,
-        gyration_radius: case.gyration_radius_m,
-    };
-    let friction = rotor.friction(slope)?;
+    fitted(&rotor(case, mass, preload_n), &points, |_| true).map_err(ExperimentError::model)
+}
+
+fn rotor(case: &MotorCase, mass: f64, normal_force: f64) -> BrakingRotor {
+    let (contact_radius, gyration_radius) = (case.contact_radius_m, case.gyration_radius_m);
+    BrakingRotor { normal_force, mass, contact_radius, gyration_radius }
+}
+
+/// A curve that no straight line to rest can be fitted to.
+#[derive(Debug, thiserror::Error)]
+enum BrakingError {
+    #[error("{found} speeds above 0; legal is 3 or more")]
+    TooFew { found: usize },
+    #[error("the slope of the line is {slope:e} rad/s²; legal is a number below 0")]
+    NotBraking { slope: f64 },
+    #[error(transparent)]
+    Rotor(#[from] bouncing_disk::Error),
+}
+
+/// A curve with the line through the points in which the rotor slides.
+fn fitted(
+    rotor: &BrakingRotor,
+    points: &[(f64, f64)],
+    slides: fn(&(f64, f64)) -> bool,
+) -> Result<Curve, BrakingError> {
+    let sliding: Vec<(f64, f64)> = points.iter().copied().filter(slides).collect();
+    let too_few = BrakingError::TooFew { found: sliding.len() };
+    let line = StraightLine::through(&sliding).ok_or(too_few)?;
+    let stop_s = -line.intercept / line.slope;
+    if line.slope >= 0.0 || !stop_s.is_finite() {
+        return Err(BrakingError::NotBraking { slope: line.slope });
+    }
     Ok(Curve {
-        preload_n,
+        preload_n: rotor.normal_force,
         time_s: points.iter().map(|point| point.0).collect(),
         angular_speed_rad_per_s: points.iter().map(|point| point.1).collect(),
-        brake_rad_per_s2: slope,
-        stop_s: -intercept / slope,
-        friction,
+        brake_rad_per_s2: line.slope,
+        stop_s,
+        friction: rotor.friction(line.slope)?,
     })
 }
 
-fn draw(data: &Fig09Data) -> Figure {
-    const HEIGHT: f64 = 200.0;
-    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-    let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 1, 2).margins(margins).gaps(52.0, 20.0);
-    Figure::new(DOUBLE_COLUMN, HEIGHT)
-        .panel(speeds(grid.cell(0, 0), data))
-        .panel(frictions(grid.cell(0, 1), data))
+/// Speeds of the rotor after the motor is switched off.
+const DECELERATIONS: Layout = Layout {
+    file: "fig09_deceleration.csv",
+    columns: &[
+        Column::trial(99),
+        Column::constant("preload_n", Range::Positive),
+        Column::time(),
+        Column::value("angular_speed_rad_per_s", Range::NotNegative),
+    ],
+    least_rows: 3,
+};
+
+/// Coefficients of friction against preload.
+const FRICTIONS: Layout = Layout {
+    file: "fig09_friction.csv",
+    columns: &[Column::value("preload_n", Range::Positive), Column::value("friction", Range::NotNegative)],
+    least_rows: 2,
+};
+
+/// Fits every trial of a user's; a speed of 0 is not fitted.
+fn decelerations(series: &Series, case: &MotorCase, mass: f64) -> Result<Vec<Deceleration>, ExperimentError> {
+    let trials = series.trials::<4>().into_iter().map(|(trial, rows)| {
+        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row[2], row[3])).collect();
+        let rotor = rotor(case, mass, rows.first().map_or(f64::NAN, |row| row[1]));
+        let curve = fitted(&rotor, &points, |point| point.1 > 0.0);
+        let curve = curve.map_err(|error| series.unusable(Some(trial), error))?;
+        Ok(Deceleration { trial, curve })
+    });
+    trials.collect()
+}
+
+/// Mean, standard deviation and slope of a user's coefficients of friction.
+fn friction_words(points: &[(f64, f64)]) -> Result<String, ExperimentError> {
+    let frictions: Vec<f64> = points.iter().map(|point| point.1).collect();
+    let spread = Spread::of(&frictions)?;
+    let slope = StraightLine::through(points).map_or_else(String::new, |line| {
+        format!("; slope against preload {:.3} ± {:.3} 1/N", line.slope, line.slope_error)
+    });
+    Ok(format!("μ = {:.3} ± {:.3} of {} points{slope}", spread.mean, spread.deviation, points.len()))
+}
+
+impl Deceleration {
+    fn words(&self) -> String {
+        let Self { trial, curve } = self;
+        format!(
+            "trial {trial} at {} N: α̈_brake = {:.3} rad/s², t_c = {:.4} s, μ = {:.4} by Eq. (17)",
+            curve.preload_n, curve.brake_rad_per_s2, curve.stop_s, curve.friction
+        )
+    }
+}
+
+impl Curve {
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.time_s.iter().copied().zip(self.angular_speed_rad_per_s.iter().copied())
+    }
+
+    /// The line from `start` until it reaches 0.
+    fn line(&self, start: f64) -> Line {
+        let first = self.brake_rad_per_s2 * (start - self.stop_s);
+        Line::new([(start, first), (self.stop_s, 0.0)]).dash(Dash::Dashed)
+    }
+}
+
+fn measured(points: impl IntoIterator<Item = (f64, f64)>) -> Scatter {
+    Scatter::new(points).marker(Marker::Cross).colour(Colour::GREEN).name("measured")
 }
 
 fn speeds(area: Rect, data: &Fig09Data) -> Panel {
@@ -257,17 +323,16 @@ fn speeds(area: Rect, data: &Fig09Data) -> Panel {
     let mut lines = Vec::new();
     for (index, colour) in shown.into_iter().zip(colours) {
         let Some(curve) = data.curves.get(index) else { continue };
-        let points = curve.time_s.iter().copied().zip(curve.angular_speed_rad_per_s.iter().copied());
-        let fitted = [(0.0, -curve.brake_rad_per_s2 * curve.stop_s), (curve.stop_s, 0.0)];
         let name = format!("{:.0} mN", 1e3 * curve.preload_n);
-        panel = panel.layer(Line::new(points).colour(colour).width(2.4).name(name));
-        lines.push(Line::new(fitted).dash(Dash::Dashed));
+        panel = panel.layer(Line::new(curve.points()).colour(colour).width(2.4).name(name));
+        lines.push(curve.line(0.0));
     }
     if let Some(line) = lines.pop() {
         panel = panel.layers(lines).layer(line.name("straight line"));
     }
-    for measured in &data.measured_decelerations {
-        panel = panel.layers(measured.layers());
+    for Deceleration { curve, .. } in &data.measured_decelerations {
+        let start = curve.time_s.first().copied().unwrap_or_default();
+        panel = panel.layer(measured(curve.points())).layer(curve.line(start).colour(Colour::GREEN));
     }
     panel.legend(Legend::at(Corner::TopRight))
 }
@@ -287,10 +352,46 @@ fn frictions(area: Rect, data: &Fig09Data) -> Panel {
                 .name("synthetic, not measured"),
         )
         .layer(Scatter::new(recovered).marker(Marker::Circle).colour(Colour::BLUE).name("model, Eq. (17)"));
-    let panel = if data.measured_frictions.is_empty() {
-        panel
-    } else {
-        panel.layers(friction_layers(&milli(&data.measured_frictions)))
-    };
+    let own = milli(&data.measured_frictions);
+    let panel = panel.layers((!own.is_empty()).then(|| measured(own)));
     panel.legend(Legend::at(Corner::TopLeft))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::chain;
+
+    fn read(body: &str) -> Result<Vec<Deceleration>, ExperimentError> {
+        let text = format!("{}\n{body}", DECELERATIONS.header());
+        let series = Series::read(&DECELERATIONS, text.as_bytes()).expect("well formed");
+        let case = MotorCase::table_three().expect("reads");
+        decelerations(&series, &MotorCase { contact_radius_m: 5e-3, gyration_radius_m: 1e-2, ..case }, 1e-2)
+    }
+
+    #[test]
+    fn the_slope_gives_the_friction() {
+        // Synthetic: 20 − 100 t; the speed at rest is not fitted.
+        let trials = read("4,0.2,0,20\n4,0.2,0.1,10\n4,0.2,0.15,5\n4,0.2,0.3,0\n").expect("brakes");
+        let [trial] = &trials[..] else { panic!("one trial") };
+        let curve = &trial.curve;
+        assert!((curve.brake_rad_per_s2 + 100.0).abs() < 1e-9 && (curve.stop_s - 0.2).abs() < 1e-12);
+        // 1e-6 · 100/(5e-3 · 0.2)
+        assert!((curve.friction - 0.1).abs() < 1e-12);
+        assert!(trial.words().contains("μ = 0.1000"));
+    }
+
+    #[test]
+    fn a_rotor_that_does_not_brake_is_refused() {
+        let error = chain(&read("1,0.2,0,1\n1,0.2,1,2\n1,0.2,2,3\n").expect_err("speeds up"));
+        assert!(error.contains("trial 1 cannot be evaluated: the slope of the line is 1e0"), "{error}");
+        let error = chain(&read("1,0.2,0,1\n1,0.2,1,0\n1,0.2,2,0\n").expect_err("one speed"));
+        assert!(error.contains("1 speeds above 0; legal is 3 or more"), "{error}");
+    }
+
+    #[test]
+    fn frictions_are_summarised() {
+        let words = friction_words(&[(0.1, 0.1), (0.2, 0.1), (0.3, 0.1)]).expect("finite");
+        assert!(words.starts_with("μ = 0.100 ± 0.000 of 3 points; slope"));
+    }
 }

@@ -14,9 +14,8 @@ use bouncing_disk_plot::Figure;
 use self::compute::MEMBER_INTERVALS;
 pub use self::data::Fig10Data;
 use self::data::Trial;
-use super::motor_case::MotorCase;
 use crate::claims::Claim;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
@@ -81,20 +80,16 @@ impl Experiment for Fig10 {
     }
 
     fn parameters(data: &Fig10Data) -> Vec<(String, String)> {
-        let table = &data.table_iii;
-        let value = |name: &str, value: f64, unit: &str| {
-            (name.to_owned(), format!("{value} {unit}").trim().to_owned())
-        };
+        let motor = &data.motor;
         let own = [
-            value("a_e", table.contact_radius_mm, "mm"),
-            value("a_g", table.gyration_radius_mm, "mm"),
-            value("ω/2π", data.section.default_frequency_hz, "Hz"),
-            value("members", data.members as f64, ""),
-            value("relaunch perturbation", data.relaunch_perturbation, "g/ω"),
-            ("inputs that print alike".to_owned(), data.alike.inputs.clone()),
+            ("a_e", format!("{} m", motor.contact_radius_m)),
+            ("a_g", format!("{} m", motor.gyration_radius_m)),
+            ("ω/2π", format!("{} Hz", motor.frequency_hz)),
+            ("members", data.members.to_string()),
+            ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
+            ("inputs that print alike", data.alike.inputs.clone()),
         ];
-        let motor = MotorCase::default_of(table, &data.section);
-        motor.shared_inputs().into_iter().chain(own).collect()
+        [motor.shared_inputs(), named(own)].concat()
     }
 }
 

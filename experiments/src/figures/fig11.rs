@@ -1,6 +1,5 @@
 //! Fig. 11: steady-state speed and stall torque of the motor against preload.
 
-mod bouncing;
 mod claims;
 mod compute;
 mod data;
@@ -13,12 +12,10 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig11Data;
 use self::data::{LAYOUT, read};
-use super::motor_case::Form;
 use crate::claims::Claim;
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Fig. 11.
 #[derive(Debug)]
@@ -36,8 +33,8 @@ impl Experiment for Fig11 {
         vec![
             ("preloads", compute::PRELOAD_SEED),
             ("ensembles", TransientSettings::default().seed),
-            ("bouncing motors that print alike", bouncing::SEED),
-            ("runs to stall", super::stall::SEED),
+            ("bouncing motors that print alike", compute::BOUNCING_SEED),
+            ("runs to stall", super::shared::stall::SEED),
         ]
     }
 
@@ -88,61 +85,16 @@ impl Experiment for Fig11 {
 
     fn parameters(data: &Fig11Data) -> Vec<(String, String)> {
         let motor = &data.motor;
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let own = [
-            pair("a_e", format!("{} m", motor.contact_radius_m)),
-            pair("a_g", format!("{} m", motor.gyration_radius_m)),
-            pair("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
-            pair("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
-            pair("seed of the preloads", data.preload_seed.to_string()),
-            pair("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
-            pair("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
-            pair("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
+            ("a_e", format!("{} m", motor.contact_radius_m)),
+            ("a_g", format!("{} m", motor.gyration_radius_m)),
+            ("rotor mass", format!("{:.5} kg", data.rotor_mass_kg)),
+            ("preloads", data.curves.first().map_or(0, |curve| curve.points.len()).to_string()),
+            ("seed of the preloads", data.preload_seed.to_string()),
+            ("members by amplitude", data.members.map(|count| count.to_string()).join(", ")),
+            ("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
+            ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
         ];
-        motor.shared_inputs().into_iter().chain(own).collect()
-    }
-
-    fn table(data: &Fig11Data) -> Option<Table> {
-        let mut table = Table::new([
-            "frequency (Hz)",
-            "A (m)",
-            "g (m/s^2)",
-            "preload (mN)",
-            "Gamma",
-            "steady speed (rad/s)",
-            "its standard deviation (rad/s)",
-            "stall acceleration (rad/s^2)",
-            "its standard deviation (rad/s^2)",
-            "read from",
-            "members without fit",
-            "S(0)",
-            "low-period cycle",
-        ]);
-        for curve in &data.curves {
-            for point in &curve.points {
-                let statistics = &point.statistics;
-                let stall = statistics.stall_acceleration_rad_per_s2;
-                table.push([
-                    curve.frequency_hz.into(),
-                    curve.amplitude_m.into(),
-                    point.preload_acceleration_m_per_s2.into(),
-                    point.preload_mn.into(),
-                    point.axial_forcing.into(),
-                    statistics.steady_speed_rad_per_s.mean.into(),
-                    statistics.steady_speed_rad_per_s.deviation.into(),
-                    stall.map(|spread| spread.mean).into(),
-                    stall.map(|spread| spread.deviation).into(),
-                    match statistics.form {
-                        Form::Exponential => "exponential",
-                        Form::Ramp => "ramp",
-                    }
-                    .into(),
-                    Cell::Integer(statistics.unfitted as i64),
-                    point.net_share_at_rest.into(),
-                    if statistics.is_low_period() { "low period".into() } else { Cell::Empty },
-                ]);
-            }
-        }
-        Some(table)
+        [motor.shared_inputs(), named(own)].concat()
     }
 }

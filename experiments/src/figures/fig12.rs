@@ -9,10 +9,10 @@ use bouncing_disk_plot::Figure;
 
 pub use self::data::Fig12Data;
 use self::data::{Lines, LowPeriod};
-use super::alike::AlikeMotor;
-use super::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
+use super::shared::alike::AlikeMotor;
+use super::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, RobustCycle, by_definition_words};
 use crate::claims::{Cases, Claim, Verdict};
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
 
 /// Fig. 12.
@@ -56,47 +56,39 @@ impl Experiment for Fig12 {
     }
 
     fn claims(data: &Fig12Data) -> Vec<Claim> {
-        claims(data)
+        vec![
+            case(data, 0, "section5.long_period_case"),
+            case(data, 1, "section5.low_period_case"),
+            exponential(data),
+            linear(data),
+            abrupt(data),
+            lines(data),
+        ]
     }
 
     fn parameters(data: &Fig12Data) -> Vec<(String, String)> {
         let motor = &data.long_period.motor;
-        let pair = |name: &str, value: String| (name.to_owned(), value);
         let own = [
-            pair("ω/2π", format!("{} Hz", motor.frequency_hz)),
-            pair("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
-            pair("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
-            pair("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
-            pair("relaunch perturbation", "none".to_owned()),
-            pair("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
-            pair("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
+            ("ω/2π", format!("{} Hz", motor.frequency_hz)),
+            ("Γ of (a)–(c)", format!("{:.2}", data.long_period.axial_forcing)),
+            ("Γ of (d)–(f)", format!("{:.2}", data.low_period.axial_forcing)),
+            ("low period", format!("at most {} long flights from rest to rest", data.low_period_flights)),
+            ("relaunch perturbation", "none".to_owned()),
+            ("orbits judged for (a)–(c)", data.alike[0].inputs.clone()),
+            ("orbits judged for (d)–(f)", data.alike[1].inputs.clone()),
         ];
-        motor.shared_inputs().into_iter().chain(own).collect()
+        [motor.shared_inputs(), named(own)].concat()
     }
 }
 
 /// So many orbits are enough for a verdict under another definition.
 const ENOUGH: usize = 20;
 
-fn is_low(motor: &AlikeMotor, most: usize) -> bool {
-    motor.cycle.chattering_flights().is_some_and(|flights| flights <= most)
-}
-
-fn claims(data: &Fig12Data) -> Vec<Claim> {
-    vec![
-        case(data, 0, "section5.long_period_case"),
-        case(data, 1, "section5.low_period_case"),
-        exponential(data),
-        linear(data),
-        abrupt(data),
-        lines(data),
-    ]
-}
-
 /// That the orbits of a case are of long period (the first), or of low period.
 fn case(data: &Fig12Data, case: usize, key: &str) -> Claim {
     let alike = &data.alike[case];
-    let cases = |most: usize| Cases::of(alike.motors.iter().map(|motor| is_low(motor, most) == (case == 1)));
+    let cases =
+        |most: usize| Cases::of(alike.motors.iter().map(|motor| motor.cycle.is_low(most) == (case == 1)));
     let others = DEFINITIONS.map(cases);
     Claim::printed_statement(
         key,
@@ -112,8 +104,9 @@ fn case(data: &Fig12Data, case: usize, key: &str) -> Claim {
 
 /// The verdicts on the orbits of a case that are of low period, or not, under the other definitions.
 fn under_definitions(data: &Fig12Data, case: usize, holds: fn(&AlikeMotor) -> bool) -> Vec<Verdict> {
-    let orbits =
-        |most: usize| data.alike[case].motors.iter().filter(move |motor| is_low(motor, most) == (case == 1));
+    let orbits = |most: usize| {
+        data.alike[case].motors.iter().filter(move |motor| motor.cycle.is_low(most) == (case == 1))
+    };
     let cases = DEFINITIONS.map(|most| Cases::of(orbits(most).map(holds)));
     cases.into_iter().filter(|cases| cases.tried >= ENOUGH).map(Cases::sampled).collect()
 }
@@ -127,7 +120,7 @@ fn exponential(data: &Fig12Data) -> Claim {
         format!(
             "whether the exponential fits better than a linear rise to a constant, for the orbits of long period. Of the \
              motor drawn the root mean square deviation from the exponential is {:.3} rad/s, from the other {:.3} rad/s",
-            fits.exponential_residual_rad_per_s, fits.ramp_residual_rad_per_s
+            fits.exponential.residual, fits.ramp_residual_rad_per_s
         ),
     )
     .by_definition(&under_definitions(data, 0, AlikeMotor::is_exponential))

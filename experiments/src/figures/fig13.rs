@@ -5,7 +5,6 @@ mod data;
 mod draw;
 mod orbits;
 mod sensitivity;
-mod sweeps;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::motor::TransientSettings;
@@ -16,7 +15,6 @@ use self::data::Parameter;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Fig. 13.
 #[derive(Debug)]
@@ -34,8 +32,8 @@ impl Experiment for Fig13 {
     }
 
     fn caption(data: &Fig13Data) -> String {
-        let left_out: usize = sweeps::sweep_points(data).filter(|point| point.stall().is_none()).count();
-        let low: usize = sweeps::sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
+        let left_out: usize = data::sweep_points(data).filter(|point| point.stall().is_none()).count();
+        let low: usize = data::sweep_points(data).filter(|point| point.statistics.is_low_period()).count();
         format!(
             "Effect of varying (a) μ, (b) ε, (c) θ, (d) A and (e) ωΦ about the default values (μ = {}, ε = {}, θ = {}, A = {:e} m, \
              ωΦ = {} rad/s, g = {} m/s², {} kHz). Crosses, left scales: steady-state speed over ωΦ; dots, right scales: stall torque \
@@ -67,7 +65,37 @@ impl Experiment for Fig13 {
     }
 
     fn claims(data: &Fig13Data) -> Vec<Claim> {
-        claims(data)
+        let mut claims = vec![
+            sensitivity::cosine(data),
+            sensitivity::amplitude(data),
+            sensitivity::twist(data),
+            sensitivity::friction(data),
+            sensitivity::both(data),
+            sensitivity::torque_limit(data),
+            sensitivity::only_reduce(data),
+            orbits::slower_collisions(data),
+            orbits::intervals(data),
+            orbits::restitution_lowers_both(data),
+            orbits::simplistic(data),
+            orbits::form(data),
+        ];
+        claims.push(orbits::prevalent(data));
+        claims.extend(orbits::commonness(data));
+        claims.push(orbits::reduced_restitution(data));
+        claims.extend(orbits::phases_of_impulse(data));
+        claims.push(sensitivity::most_sensitive(
+            data,
+            "section5.speed_sensitivity",
+            sensitivity::speed_change,
+            [Parameter::PhaseLag, Parameter::Restitution, Parameter::PeakAngularSpeed],
+        ));
+        claims.push(sensitivity::most_sensitive(
+            data,
+            "section5.torque_sensitivity",
+            sensitivity::stall_change,
+            [Parameter::PhaseLag, Parameter::Restitution, Parameter::Friction],
+        ));
+        claims
     }
 
     fn parameters(data: &Fig13Data) -> Vec<(String, String)> {
@@ -93,73 +121,4 @@ impl Experiment for Fig13 {
         rows.push(("inputs that print alike, but for ε".to_owned(), data.alike.inputs.clone()));
         rows
     }
-
-    fn table(data: &Fig13Data) -> Option<Table> {
-        let mut table = Table::new([
-            "parameter",
-            "value (SI)",
-            "steady speed / (omega Phi)",
-            "its standard deviation",
-            "stall acceleration (rad/s^2)",
-            "its standard deviation (rad/s^2)",
-            "members without fit",
-            "low-period cycle",
-            "predicted speed ratio",
-            "predicted stall acceleration (rad/s^2)",
-        ]);
-        for sweep in &data.sweeps {
-            for point in &sweep.points {
-                let (statistics, top) = (&point.statistics, point.peak_angular_speed_rad_per_s);
-                let stall = statistics.stall_acceleration_rad_per_s2;
-                table.push([
-                    sweep.parameter.symbol().into(),
-                    point.value.into(),
-                    point.speed_ratio().into(),
-                    (statistics.steady_speed_rad_per_s.deviation / top).into(),
-                    stall.map(|spread| spread.mean).into(),
-                    stall.map(|spread| spread.deviation).into(),
-                    Cell::Integer(statistics.unfitted as i64),
-                    if statistics.is_low_period() { "low period".into() } else { Cell::Empty },
-                    point.predicted_speed_ratio.into(),
-                    point.predicted_stall_acceleration_rad_per_s2.into(),
-                ]);
-            }
-        }
-        Some(table)
-    }
-}
-
-fn claims(data: &Fig13Data) -> Vec<Claim> {
-    let mut claims = vec![
-        sensitivity::cosine(data),
-        sensitivity::amplitude(data),
-        sensitivity::twist(data),
-        sensitivity::friction(data),
-        sensitivity::both(data),
-        sensitivity::speed_limit(data),
-        sensitivity::torque_limit(data),
-        sensitivity::only_reduce(data),
-        orbits::slower_collisions(data),
-        orbits::intervals(data),
-        orbits::restitution_lowers_both(data),
-        orbits::simplistic(data),
-        orbits::form(data),
-    ];
-    claims.push(orbits::prevalent(data));
-    claims.extend(orbits::commonness(data));
-    claims.push(orbits::reduced_restitution(data));
-    claims.extend(orbits::phases_of_impulse(data));
-    claims.push(sensitivity::most_sensitive(
-        data,
-        "section5.speed_sensitivity",
-        sensitivity::speed_change,
-        [Parameter::PhaseLag, Parameter::Restitution, Parameter::PeakAngularSpeed],
-    ));
-    claims.push(sensitivity::most_sensitive(
-        data,
-        "section5.torque_sensitivity",
-        sensitivity::stall_change,
-        [Parameter::PhaseLag, Parameter::Restitution, Parameter::Friction],
-    ));
-    claims
 }

@@ -1,17 +1,16 @@
 //! Fig. 14: growth of the dough over multiple tosses.
 
 use bouncing_disk_plot::{
-    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Panel, SINGLE_COLUMN,
-    Scatter, Text, Ticks,
+    Anchor, Arrow, Axis, Colour, Corner, Dash, Figure, Grid, Legend, Line, Margins, Marker, Panel,
+    SINGLE_COLUMN, Scatter, Text, Ticks,
 };
 use serde::{Deserialize, Serialize};
 
-use super::dough_record::{DIAMETERS, Growth};
-use super::numbers::{Noise, StraightLine};
-use super::toss_case::TossCase;
+use super::shared::numbers::{Noise, StraightLine};
+use super::shared::toss::TossCase;
 use crate::claims::{Claim, paper};
-use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::measured::{Layout, Series};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
+use crate::measured::{Column, Layout, Range, SMALLEST, Series};
 use crate::progress::Progress;
 
 /// Fig. 14.
@@ -51,7 +50,42 @@ impl Experiment for Fig14 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-        compute(progress)
+        progress.start(1, "records");
+        let printed = paper::dough_growth()?;
+        let duration_s = printed.growth / printed.fit_slope_per_s;
+        let [first, last] = printed.tosses.map(|toss| toss as u32);
+        let tosses_between = last - first;
+        let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
+        let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
+        progress.advance(1);
+        let toss = TossCase::from(&paper::table_one()?);
+        let larger = 1.0 + printed.growth / f64::from(tosses_between);
+        Ok(Fig14Data {
+            start_s: printed.fit_start_s,
+            slope_per_s: printed.fit_slope_per_s,
+            growth: printed.growth,
+            duration_s,
+            tosses_between,
+            growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
+            growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
+            toss_start_s: (0..=tosses_between)
+                .map(|k| {
+                    let share = f64::from(k) / f64::from(tosses_between);
+                    (first + k, printed.fit_start_s + share * duration_s)
+                })
+                .collect(),
+            synthetic,
+            synthetic_slope_per_s: slope,
+            synthetic_slope_error_per_s: error,
+            airborne_speed_change_rad_per_s: TossCase {
+                gyration_radius_m: larger * toss.gyration_radius_m,
+                ..toss
+            }
+            .airborne_speed()?
+                - toss.airborne_speed()?,
+            flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
+            measured: None,
+        })
     }
 
     fn overlay(data: &mut Fig14Data, series: &Series) -> Result<(), ExperimentError> {
@@ -60,7 +94,42 @@ impl Experiment for Fig14 {
     }
 
     fn draw(data: &Fig14Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        const HEIGHT: f64 = 190.0;
+        let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
+        let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
+        let end = data.start_s + data.duration_s;
+        let ends = (data.start_s - 0.4, end + 0.4);
+        let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
+        let scale = data.synthetic_slope_per_s;
+        let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
+        let mut panel = Panel::new(grid.cell(0, 0))
+            .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
+            .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
+            .layer(
+                Scatter::new(data.synthetic.iter().copied())
+                    .size(1.6)
+                    .colour(Colour::GREY)
+                    .name("synthetic, not measured"),
+            )
+            .layer(Line::new(straight).name("printed line"))
+            .layer(
+                Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"),
+            );
+        for (toss, start) in &data.toss_start_s {
+            let at = data.on_line(*start);
+            panel = panel
+                .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
+                .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
+        }
+        if let Some(own) = &data.measured {
+            let points = || own.time_s.iter().copied().zip(own.relative_diameter.iter().copied());
+            let ends = [points().next(), points().next_back()].into_iter().flatten();
+            let line = ends.map(|(time, _)| (time, 1.0 + own.slope_per_s * (time - own.time_s[0])));
+            panel = panel
+                .layer(Scatter::new(points()).marker(Marker::Cross).colour(Colour::GREEN).name("measured"))
+                .layer(Line::new(line).colour(Colour::GREEN).dash(Dash::Dashed).name("its fit"));
+        }
+        Ok(Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft))))
     }
 
     fn claims(data: &Fig14Data) -> Vec<Claim> {
@@ -73,51 +142,42 @@ impl Experiment for Fig14 {
     }
 
     fn parameters(data: &Fig14Data) -> Vec<(String, String)> {
-        vec![
-            ("start of the line".to_owned(), format!("{} s", data.start_s)),
-            ("slope of d/d₀".to_owned(), format!("{} 1/s", data.slope_per_s)),
-            ("synthetic scatter of d".to_owned(), format!("{SCATTER}, {FRAMES_PER_S} frames a second")),
-        ]
+        named([
+            ("start of the line", format!("{} s", data.start_s)),
+            ("slope of d/d₀", format!("{} 1/s", data.slope_per_s)),
+            ("synthetic scatter of d", format!("{SCATTER}, {FRAMES_PER_S} frames a second")),
+        ])
     }
 }
 
 /// The printed line, what follows from it, and the estimator on synthetic diameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig14Data {
-    /// Time of the start of the line (s), the end of the second toss.
-    pub start_s: f64,
-    /// Slope of d/d_0 (1/s).
-    pub slope_per_s: f64,
-    /// Growth between the first and the last toss, as a share.
-    pub growth: f64,
-    /// Duration of that growth on the printed line (s).
-    pub duration_s: f64,
-    /// The growth taken from the start of the first toss to the start of the last: number of tosses.
-    pub tosses_between: u32,
-    /// The growth taken from the start of the first toss to the end of the last: number of tosses.
-    pub tosses_inclusive: u32,
-    /// Growth per toss by the first of both readings, in per cent.
-    pub growth_per_toss_percent: f64,
-    /// By the second.
-    pub growth_per_toss_inclusive_percent: f64,
-    /// Number and start (s) of each toss, evenly spaced, by the first of both readings.
-    pub toss_start_s: Vec<(u32, f64)>,
+    /// The end of the second toss, where the line starts.
+    start_s: f64,
+    /// Slope of d/d_0.
+    slope_per_s: f64,
+    /// Growth between the first and the last toss, as a share, and how long it takes on the printed line.
+    growth: f64,
+    duration_s: f64,
+    /// Tosses from the start of the first to the start of the last.
+    tosses_between: u32,
+    /// Growth per toss, from start to start and with the last toss counted.
+    growth_per_toss_percent: f64,
+    growth_per_toss_inclusive_percent: f64,
+    /// Number and start (s) of each toss, evenly spaced from start to start.
+    toss_start_s: Vec<(u32, f64)>,
     /// Synthetic diameters, not measured: times (s) and d/d_0.
-    pub synthetic: Vec<(f64, f64)>,
-    /// Slope (1/s) of the least-squares line through them over its value at the start, and its standard
-    /// error.
-    pub synthetic_slope_per_s: f64,
-    /// Standard error of that slope (1/s).
-    pub synthetic_slope_error_per_s: f64,
-    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth
-    /// of one toss (rad/s).
-    pub airborne_speed_change_rad_per_s: f64,
-    /// Share of its rotation, in per cent, that a dough loses which grows so much while it flies: its angular
-    /// momentum does not change.
-    pub flight_spin_loss_percent: f64,
-    /// A user's own diameters.
+    synthetic: Vec<(f64, f64)>,
+    /// Slope of the least-squares line through them over its value at the start, and its standard error.
+    synthetic_slope_per_s: f64,
+    synthetic_slope_error_per_s: f64,
+    /// Change of the airborne speed of Table I's toss if the dough is larger, in all its radii, by the growth of one toss.
+    airborne_speed_change_rad_per_s: f64,
+    /// Share of its rotation that a dough loses which grows so much while it flies: its angular momentum does not change.
+    flight_spin_loss_percent: f64,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub measured: Option<Growth>,
+    measured: Option<Growth>,
 }
 
 impl Fig14Data {
@@ -130,46 +190,6 @@ impl Fig14Data {
 const FRAMES_PER_S: f64 = 25.0;
 const SCATTER: f64 = 0.012;
 const SEED: u64 = 14;
-
-fn compute(progress: &dyn Progress) -> Result<Fig14Data, ExperimentError> {
-    progress.start(1, "records");
-    let printed = paper::dough_growth()?;
-    let duration_s = printed.growth / printed.fit_slope_per_s;
-    let [first, last] = printed.tosses.map(|toss| toss as u32);
-    let tosses_between = last - first;
-    let line = (printed.fit_start_s, printed.fit_slope_per_s, duration_s);
-    let (synthetic, slope, error) = record(line, SEED).unwrap_or_default();
-    progress.advance(1);
-    let toss = TossCase::from(&paper::table_one()?);
-    let larger = 1.0 + printed.growth / f64::from(tosses_between);
-    Ok(Fig14Data {
-        start_s: printed.fit_start_s,
-        slope_per_s: printed.fit_slope_per_s,
-        growth: printed.growth,
-        duration_s,
-        tosses_between,
-        tosses_inclusive: tosses_between + 1,
-        growth_per_toss_percent: 100.0 * printed.growth / f64::from(tosses_between),
-        growth_per_toss_inclusive_percent: 100.0 * printed.growth / f64::from(tosses_between + 1),
-        toss_start_s: (0..=tosses_between)
-            .map(|k| {
-                let share = f64::from(k) / f64::from(tosses_between);
-                (first + k, printed.fit_start_s + share * duration_s)
-            })
-            .collect(),
-        synthetic,
-        synthetic_slope_per_s: slope,
-        synthetic_slope_error_per_s: error,
-        airborne_speed_change_rad_per_s: TossCase {
-            gyration_radius_m: larger * toss.gyration_radius_m,
-            ..toss
-        }
-        .airborne_speed()?
-            - toss.airborne_speed()?,
-        flight_spin_loss_percent: 100.0 * (1.0 - 1.0 / (larger * larger)),
-        measured: None,
-    })
-}
 
 /// A synthetic record, and the slope of the line through it over its value at the start, with its standard
 /// error.
@@ -188,34 +208,85 @@ fn record((start, slope, duration): (f64, f64, f64), seed: u64) -> Option<Record
     Some((points, slope, error))
 }
 
-fn draw(data: &Fig14Data) -> Figure {
-    const HEIGHT: f64 = 190.0;
-    let margins = Margins { left: 40.0, right: 10.0, top: 8.0, bottom: 34.0 };
-    let grid = Grid::new(SINGLE_COLUMN, HEIGHT, 1, 1).margins(margins);
-    let end = data.start_s + data.duration_s;
-    let ends = (data.start_s - 0.4, end + 0.4);
-    let straight = [(data.start_s, 1.0), (end, data.on_line(end))];
-    let scale = data.synthetic_slope_per_s;
-    let fitted = [(data.start_s, 1.0), (end, 1.0 + scale * data.duration_s)];
-    let mut panel = Panel::new(grid.cell(0, 0))
-        .x(Axis::linear(ends.0, ends.1).label(r"$t$ (s)").ticks(Ticks::every(1.0)))
-        .y(Axis::linear(0.86, 1.42).label(r"$d/d_0$").ticks(Ticks::every(0.1)))
-        .layer(
-            Scatter::new(data.synthetic.iter().copied())
-                .size(1.6)
-                .colour(Colour::GREY)
-                .name("synthetic, not measured"),
+/// Diameters against time.
+const DIAMETERS: Layout = Layout {
+    file: "fig14.csv",
+    columns: &[Column::time(), Column::value("diameter", Range::Positive)],
+    least_rows: 3,
+};
+
+/// Diameters over that of their straight line at the first time, d/d_0 = 1 + slope (t − t_0).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct Growth {
+    time_s: Vec<f64>,
+    relative_diameter: Vec<f64>,
+    slope_per_s: f64,
+    slope_error_per_s: f64,
+}
+
+/// The line has no diameter at the first time that others can be divided by.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("the line gives a first diameter of {diameter:e}; legal is {SMALLEST:e} or more")]
+struct GrowthError {
+    /// In the unit of the file.
+    diameter: f64,
+}
+
+impl Growth {
+    /// Fits the line to all points of a file.
+    fn of(series: &Series) -> Result<Self, ExperimentError> {
+        let points: Vec<(f64, f64)> = series.rows::<2>().map(|[time, diameter]| (time, diameter)).collect();
+        let first = points.first().map_or(f64::NAN, |point| point.0);
+        let line = StraightLine::through(&points);
+        let diameter = line.map_or(f64::NAN, |line| line.intercept + line.slope * first);
+        match line {
+            Some(line) if diameter >= SMALLEST => {
+                let (slope_per_s, slope_error_per_s) = line.slope_over_value_at(first);
+                Ok(Self {
+                    time_s: points.iter().map(|point| point.0).collect(),
+                    relative_diameter: points.iter().map(|point| point.1 / diameter).collect(),
+                    slope_per_s,
+                    slope_error_per_s,
+                })
+            }
+            _ => Err(series.unusable(None, GrowthError { diameter }).into()),
+        }
+    }
+
+    /// The equation of the line.
+    fn words(&self) -> String {
+        format!(
+            "d/d₀ = 1 + ({:.4} ± {:.4}) (t − {}), {} points",
+            self.slope_per_s,
+            self.slope_error_per_s,
+            self.time_s.first().copied().unwrap_or_default(),
+            self.time_s.len()
         )
-        .layer(Line::new(straight).name("printed line"))
-        .layer(Line::new(fitted).colour(Colour::VERMILION).dash(Dash::Dashed).name("fit to the synthetic"));
-    for (toss, start) in &data.toss_start_s {
-        let at = data.on_line(*start);
-        panel = panel
-            .layer(Arrow::at_data((*start, at - 0.075), (*start, at - 0.03)).head(4.0))
-            .layer(Text::at_data(*start, at - 0.11, toss.to_string()).anchor(Anchor::Middle));
     }
-    if let Some(growth) = &data.measured {
-        panel = panel.layers(growth.layers());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(body: &str) -> Result<Growth, ExperimentError> {
+        let text = format!("{}\n{body}", DIAMETERS.header());
+        Growth::of(&Series::read(&DIAMETERS, text.as_bytes()).expect("well formed"))
     }
-    Figure::new(SINGLE_COLUMN, HEIGHT).panel(panel.legend(Legend::at(Corner::TopLeft)))
+
+    #[test]
+    fn the_line_is_normalised_at_the_first_time() {
+        // Synthetic: 200 + 10 (t − 2).
+        let growth = read("2,200\n3,210\n6,240\n").expect("a line");
+        assert!(
+            (growth.slope_per_s - 0.05).abs() < 1e-12 && (growth.relative_diameter[2] - 1.2).abs() < 1e-12
+        );
+        assert!(growth.words().starts_with("d/d₀ = 1 + (0.0500 ± 0.0000) (t − 2), 3 points"));
+    }
+
+    #[test]
+    fn a_line_without_a_first_diameter_is_refused() {
+        let error = read("0,1\n1,1\n2,1\n2.5,1\n3,100\n").expect_err("starts below 0");
+        assert!(crate::experiment::chain(&error).contains("legal is 1e-12 or more"));
+    }
 }

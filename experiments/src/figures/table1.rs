@@ -9,17 +9,16 @@ use bouncing_disk::{Platform, System};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::hand_path::HandPath;
-use super::numbers::Propagated;
-use super::printed_inputs::{DRAWN, agreement, draws};
-use super::toss_case::TossCase;
+use super::shared::alike::{DRAWN, agreement, draws};
+use super::shared::cylinder::HandPath;
+use super::shared::numbers::Propagated;
+use super::shared::toss::TossCase;
 use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, SectionThree, TableOne, Uncertain},
 };
-use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::experiment::{Experiment, ExperimentError, Quality, named};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Table I.
 #[derive(Debug)]
@@ -47,56 +46,100 @@ impl Experiment for Table1 {
     }
 
     fn compute(_: Quality, _: &dyn Progress) -> Result<Table1Data, ExperimentError> {
-        compute()
+        let table_i = paper::table_one()?;
+        let section = paper::section_three()?;
+        let slip_slope_deg = slip_slope()?;
+        let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
+        let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
+        let separation = at_separation(&table_i, &section, uncorrected)?;
+        let rows = rows(&table_i, &computed_entries, &separation)?;
+        let case = TossCase::from(&table_i);
+        let system = case.system()?;
+        let platform = system.platform();
+        Ok(Table1Data {
+            arc: arc(&case, platform)?,
+            alike: alike(slip_slope_deg.uncertainty)?,
+            table_i,
+            section,
+            slip_slope_deg,
+            rows,
+            computed_entries,
+            separation,
+        })
     }
 
     fn draw(data: &Table1Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let header = ["", "printed", "computed", "from"].map(Label::new);
+        let rows: Vec<Vec<Label>> = data
+            .rows
+            .iter()
+            .map(|row| {
+                let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
+                let digits = row.decimals;
+                let uncertainty = row
+                    .uncertainty
+                    .as_ref()
+                    .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
+                let computed = row
+                    .computed
+                    .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
+                let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
+                vec![
+                    Label::new(&row.label),
+                    Label::plain(&printed),
+                    Label::plain(&computed),
+                    Label::new(&row.origin),
+                ]
+            })
+            .collect();
+        Ok(ruled_table(&header, &rows))
     }
 
     fn claims(data: &Table1Data) -> Vec<Claim> {
-        claims(data)
+        let entries = &data.computed_entries;
+        let arc = &data.arc;
+        let (frequency, angle, friction) =
+            ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
+        vec![
+            over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
+            combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
+                .note("the effects of a_e and the launch speeds"),
+            over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
+            combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
+                .note("the effects of c, a_e and the launch speeds"),
+            over_alike(friction, entries.friction.value, data.alike.friction)
+                .note(format!("tan({}°)", data.slip_slope_deg.value)),
+            over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
+                .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
+            Claim::printed_statement(
+                "section3.arc_length",
+                (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
+                format!(
+                    "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
+                     sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
+                     c is half of the arc",
+                    arc.length_m,
+                    arc.length_m / arc.half_m,
+                    arc.half_m,
+                    arc.per_period_m
+                ),
+            )
+            .cause("half of the arc called the arc"),
+            launch_without_slip(data),
+        ]
     }
 
     fn parameters(data: &Table1Data) -> Vec<(String, String)> {
         let table = &data.table_i;
-        vec![
-            ("launch speed".to_owned(), format!("{} m/s", data.section.launch_speed_m_per_s)),
-            (
-                "launch angular speed".to_owned(),
-                format!("{} rad/s", data.section.launch_angular_speed_rad_per_s),
-            ),
-            ("slope of slip".to_owned(), format!("{}°", data.slip_slope_deg)),
-            ("c".to_owned(), format!("{} m", table.stroke_m)),
-            ("a_e".to_owned(), format!("{} m", table.contact_radius_m)),
-            ("a_g".to_owned(), format!("{} m", table.gyration_radius_m)),
-            ("g".to_owned(), format!("{} m/s²", table.preload_acceleration_m_per_s2)),
-        ]
-    }
-
-    fn table(data: &Table1Data) -> Option<Table> {
-        let mut table = Table::new([
-            "quantity",
-            "unit",
-            "printed",
-            "computed",
-            "uncertainty, sum of effects",
-            "uncertainty, root sum of squares",
-        ]);
-        for row in &data.rows {
-            let uncertainty = |of: fn(&super::numbers::Propagated) -> f64| {
-                row.uncertainty.as_ref().map_or(Cell::Empty, |uncertainty| of(uncertainty).into())
-            };
-            table.push([
-                Cell::from(row.symbol.as_str()),
-                Cell::from(row.unit.as_str()),
-                row.printed.as_deref().map_or(Cell::Empty, Cell::from),
-                row.computed.map_or(Cell::Empty, Cell::from),
-                uncertainty(|uncertainty| uncertainty.sum),
-                uncertainty(|uncertainty| uncertainty.root_sum_of_squares),
-            ]);
-        }
-        Some(table)
+        named([
+            ("launch speed", format!("{} m/s", data.section.launch_speed_m_per_s)),
+            ("launch angular speed", format!("{} rad/s", data.section.launch_angular_speed_rad_per_s)),
+            ("slope of slip", format!("{}°", data.slip_slope_deg)),
+            ("c", format!("{} m", table.stroke_m)),
+            ("a_e", format!("{} m", table.contact_radius_m)),
+            ("a_g", format!("{} m", table.gyration_radius_m)),
+            ("g", format!("{} m/s²", table.preload_acceleration_m_per_s2)),
+        ])
     }
 }
 
@@ -135,9 +178,8 @@ struct Arc {
 }
 
 /// One line of the table.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, Default, Serialize, Deserialize)]
 struct Row {
-    symbol: String,
     /// The symbol as it is set in print.
     label: String,
     unit: String,
@@ -176,28 +218,6 @@ struct AtSeparation {
 
 /// Pieces of a period of the hand's path; its ends are among their ends.
 const PIECES: u32 = 400;
-fn compute() -> Result<Table1Data, ExperimentError> {
-    let table_i = paper::table_one()?;
-    let section = paper::section_three()?;
-    let slip_slope_deg = slip_slope()?;
-    let computed_entries = computed_entries(&table_i, &section, slip_slope_deg)?;
-    let uncorrected = computed_entries.angular_frequency_rad_per_s.value;
-    let separation = at_separation(&table_i, &section, uncorrected)?;
-    let rows = rows(&table_i, &computed_entries, &separation)?;
-    let case = TossCase::from(&table_i);
-    let system = case.system()?;
-    let platform = system.platform();
-    Ok(Table1Data {
-        arc: arc(&case, platform)?,
-        alike: alike(slip_slope_deg.uncertainty)?,
-        table_i,
-        section,
-        slip_slope_deg,
-        rows,
-        computed_entries,
-        separation,
-    })
-}
 
 fn slip_slope() -> Result<Uncertain, ExperimentError> {
     let key = "section3.slip_slope";
@@ -320,30 +340,30 @@ fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
 /// What a row computes from the hand and the dough of Table I.
 type Quantity = fn(&TossCase, &System) -> f64;
 
-/// Symbol, label, unit, decimals, origin and formula of the quantities that follow from Table I.
-type Following = (&'static str, &'static str, &'static str, usize, &'static str, Quantity);
+/// Label, unit, decimals, origin and formula of the quantities that follow from Table I.
+type Following = (&'static str, &'static str, usize, &'static str, Quantity);
 
 const FOLLOWING: [Following; 10] = [
-    ("A", "$A$", "m", 3, r"$c$ cos $\phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
-    ("a_e Φ", r"$a_e \Phi$", "m", 3, r"$c$ sin $\phi_L$, Eq. (13)", |case, system| {
+    ("$A$", "m", 3, r"$c$ cos $\phi_L$, Eq. (13)", |_, system| system.platform().amplitude()),
+    (r"$a_e \Phi$", "m", 3, r"$c$ sin $\phi_L$, Eq. (13)", |case, system| {
         case.contact_radius_m * system.platform().twist_amplitude()
     }),
-    ("L", "$L$", "", 2, r"tan $\phi_L$", |case, _| tan(case.amplitude_angle_rad)),
-    ("Φ", r"$\Phi$", "rad", 2, r"$c$ sin $\phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
-    ("ωΦ", r"$\omega \Phi$", "rad/s", 1, r"$c \omega$ sin $\phi_L/a_e$", |_, system| {
+    ("$L$", "", 2, r"tan $\phi_L$", |case, _| tan(case.amplitude_angle_rad)),
+    (r"$\Phi$", "rad", 2, r"$c$ sin $\phi_L/a_e$", |_, system| system.platform().twist_amplitude()),
+    (r"$\omega \Phi$", "rad/s", 1, r"$c \omega$ sin $\phi_L/a_e$", |_, system| {
         system.platform().peak_angular_speed()
     }),
-    ("Aω", r"$A \omega$", "m/s", 2, r"$c \omega$ cos $\phi_L$", |_, system| {
+    (r"$A \omega$", "m/s", 2, r"$c \omega$ cos $\phi_L$", |_, system| {
         system.platform().amplitude() * system.platform().angular_frequency()
     }),
-    ("Γ", r"$\Gamma$", "", 2, r"$A \omega^2/\pi g$", |_, system| system.axial_forcing()),
-    ("Γ_T", r"$\Gamma_T$", "", 2, r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", |_, system| {
+    (r"$\Gamma$", "", 2, r"$A \omega^2/\pi g$", |_, system| system.axial_forcing()),
+    (r"$\Gamma_T$", "", 2, r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", |_, system| {
         system.angular_forcing().unwrap_or(f64::INFINITY)
     }),
-    ("τ_sep", r"$\tau_{sep}$", "rad", 3, r"$\arcsin(1/\pi \Gamma)$, Eq. (15)", |_, system| {
+    (r"$\tau_{sep}$", "rad", 3, r"$\arcsin(1/\pi \Gamma)$, Eq. (15)", |_, system| {
         asin(1.0 / system.peak_acceleration())
     }),
-    ("largest φ_L", r"largest $\phi_L$", "rad", 3, r"$\arccos(g/c \omega^2)$", |case, _| {
+    (r"largest $\phi_L$", "rad", 3, r"$\arccos(g/c \omega^2)$", |case, _| {
         acos(1.0 / case.stroke_acceleration())
     }),
 ];
@@ -353,149 +373,75 @@ fn rows(
     entries: &ComputedEntries,
     separation: &AtSeparation,
 ) -> Result<Vec<Row>, ExperimentError> {
-    let printed =
-        |symbol: &str, label: &str, unit: &str, name: &str, origin: &str| -> Result<Row, ExperimentError> {
-            Ok(Row {
-                symbol: symbol.to_owned(),
-                label: label.to_owned(),
-                unit: unit.to_owned(),
-                printed: Some(catalogue::text(&format!("table1.{name}"))?.to_owned()),
-                computed: None,
-                uncertainty: None,
-                decimals: 0,
-                origin: origin.to_owned(),
-            })
-        };
+    let printed = |label: &str, unit: &str, name: &str, origin: &str| -> Result<Row, ExperimentError> {
+        let printed = Some(catalogue::text(&format!("table1.{name}"))?.to_owned());
+        Ok(Row {
+            label: label.to_owned(),
+            unit: unit.to_owned(),
+            printed,
+            origin: origin.to_owned(),
+            ..Row::default()
+        })
+    };
     let with = |row: Row, computed: Propagated, decimals: usize| Row {
         computed: Some(computed.value),
         uncertainty: Some(computed),
         decimals,
         ..row
     };
+    let corrected = separation.corrected_angular_frequency_rad_per_s;
+    let at_separation = following(
+        r"$\omega$ with cos $\tau_{sep}$",
+        "rad/s",
+        2,
+        r"the same, speeds taken at $\tau_{sep}$",
+        corrected.value,
+    );
     let mut rows = vec![
-        printed("θ", r"$\theta$", "rad", "phase_lag", "video")?,
+        printed(r"$\theta$", "rad", "phase_lag", "video")?,
         with(
-            printed("φ_L", r"$\phi_L$", "rad", "amplitude_angle", r"launch speeds, $a_e$; Eq. (14)")?,
+            printed(r"$\phi_L$", "rad", "amplitude_angle", r"launch speeds, $a_e$; Eq. (14)")?,
             entries.amplitude_angle_rad,
             3,
         ),
-        printed("c", "$c$", "m", "stroke", "video")?,
+        printed("$c$", "m", "stroke", "video")?,
         with(
-            printed("ω", r"$\omega$", "rad/s", "angular_frequency", r"launch speeds, $c$, $a_e$; Eq. (14)")?,
+            printed(r"$\omega$", "rad/s", "angular_frequency", r"launch speeds, $c$, $a_e$; Eq. (14)")?,
             entries.angular_frequency_rad_per_s,
             2,
         ),
-        Row {
-            symbol: "ω with cos τ_sep".to_owned(),
-            label: r"$\omega$ with cos $\tau_{sep}$".to_owned(),
-            unit: "rad/s".to_owned(),
-            printed: None,
-            computed: Some(separation.corrected_angular_frequency_rad_per_s.value),
-            uncertainty: Some(separation.corrected_angular_frequency_rad_per_s),
-            decimals: 2,
-            origin: r"the same, speeds taken at $\tau_{sep}$".to_owned(),
-        },
-        printed("a_e", "$a_e$", "m", "contact_radius", "video")?,
-        printed("a_g", "$a_g$", "m", "gyration_radius", "video")?,
-        with(printed("μ", r"$\mu$", "", "friction", "tangent of the slope of slip")?, entries.friction, 2),
-        printed("g", "$g$", "m/s²", "preload_acceleration", "gravity")?,
+        with(at_separation, corrected, 2),
+        printed("$a_e$", "m", "contact_radius", "video")?,
+        printed("$a_g$", "m", "gyration_radius", "video")?,
+        with(printed(r"$\mu$", "", "friction", "tangent of the slope of slip")?, entries.friction, 2),
+        printed("$g$", "m/s²", "preload_acceleration", "gravity")?,
     ];
     let case = TossCase::from(table);
     let system = case.system()?;
-    for (symbol, label, unit, decimals, origin, quantity) in FOLLOWING {
-        rows.push(following(symbol, label, unit, decimals, origin, quantity(&case, &system)));
+    for (label, unit, decimals, origin, quantity) in FOLLOWING {
+        rows.push(following(label, unit, decimals, origin, quantity(&case, &system)));
     }
     let fastest = r"$\tau_{\mathit{max}|\dot{\beta}|}$";
     // Subtracted from zero: minus zero would be shown with its sign.
-    rows.push(following(
-        "τ_max",
-        fastest,
-        "rad",
-        0,
-        r"$-\theta + n\pi$, Eq. (15)",
-        0.0 - table.phase_lag_rad,
-    ));
+    rows.push(following(fastest, "rad", 0, r"$-\theta + n\pi$, Eq. (15)", 0.0 - table.phase_lag_rad));
     Ok(rows)
 }
 
-fn following(symbol: &str, label: &str, unit: &str, decimals: usize, origin: &str, computed: f64) -> Row {
+fn following(label: &str, unit: &str, decimals: usize, origin: &str, computed: f64) -> Row {
     Row {
-        symbol: symbol.to_owned(),
         label: label.to_owned(),
         unit: unit.to_owned(),
-        printed: None,
         computed: Some(computed),
-        uncertainty: None,
         decimals,
         origin: origin.to_owned(),
+        ..Row::default()
     }
-}
-
-fn draw(data: &Table1Data) -> Figure {
-    let header = ["", "printed", "computed", "from"].map(Label::new);
-    let rows: Vec<Vec<Label>> = data
-        .rows
-        .iter()
-        .map(|row| {
-            let unit = if row.unit.is_empty() { String::new() } else { format!(" {}", row.unit) };
-            let digits = row.decimals;
-            let uncertainty = row
-                .uncertainty
-                .as_ref()
-                .map_or_else(String::new, |uncertainty| format!(" ± {:.digits$}", uncertainty.sum));
-            let computed = row
-                .computed
-                .map_or_else(String::new, |computed| format!("{computed:.digits$}{uncertainty}{unit}"));
-            let printed = row.printed.as_ref().map_or_else(String::new, |text| format!("{text}{unit}"));
-            vec![
-                Label::new(&row.label),
-                Label::plain(&printed),
-                Label::plain(&computed),
-                Label::new(&row.origin),
-            ]
-        })
-        .collect();
-    ruled_table(&header, &rows)
 }
 
 /// Two speeds that are the same differ by no more than this share: rounding.
 const ROUNDING: f64 = 1e-14;
 /// A length along a polygon of hundreds of points of a straight line adds as many roundings.
 const LENGTH: f64 = 1e-12;
-
-fn claims(data: &Table1Data) -> Vec<Claim> {
-    let entries = &data.computed_entries;
-    let arc = &data.arc;
-    let (frequency, angle, friction) =
-        ("table1.angular_frequency", "table1.amplitude_angle", "table1.friction");
-    vec![
-        over_alike(angle, entries.amplitude_angle_rad.value, data.alike.amplitude_angle),
-        combined("table1.amplitude_angle_uncertainty", &entries.amplitude_angle_rad)
-            .note("the effects of a_e and the launch speeds"),
-        over_alike(frequency, entries.angular_frequency_rad_per_s.value, data.alike.angular_frequency),
-        combined("table1.angular_frequency_uncertainty", &entries.angular_frequency_rad_per_s)
-            .note("the effects of c, a_e and the launch speeds"),
-        over_alike(friction, entries.friction.value, data.alike.friction)
-            .note(format!("tan({}°)", data.slip_slope_deg.value)),
-        over_alike("table1.friction_uncertainty", entries.friction.sum, data.alike.friction_uncertainty)
-            .note(format!("half the difference of the tangents at the ends of {}°", data.slip_slope_deg)),
-        Claim::printed_statement(
-            "section3.arc_length",
-            (arc.length_m / arc.half_m - 1.0).abs() <= LENGTH,
-            format!(
-                "the path of Table I's toss, a straight line on the unrolled cylinder, is {:.4} m long from end to end, {:.4} times \
-                 sqrt(A² + (a_e Φ)²) = {:.4} m, which is the distance from its middle to an end; in a period the hand moves {:.4} m. \
-                 c is half of the arc",
-                arc.length_m,
-                arc.length_m / arc.half_m,
-                arc.half_m,
-                arc.per_period_m
-            ),
-        )
-        .cause("half of the arc called the arc"),
-        launch_without_slip(data),
-    ]
-}
 
 /// A printed uncertainty that several inputs share in: the paper does not say how their effects add up.
 fn combined(key: &str, computed: &Propagated) -> Claim {

@@ -5,15 +5,14 @@ use bouncing_disk::parameters::{LaunchSpeeds, Stroke};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::numbers::Propagated;
-use super::toss_case::TossCase;
+use super::shared::numbers::Propagated;
+use super::shared::toss::TossCase;
 use crate::claims::{
     Claim,
-    paper::{self, SectionThree, TableOne, TableTwo, Uncertain},
+    paper::{self, SectionThree, TableOne, Uncertain},
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Table II.
 #[derive(Debug)]
@@ -36,15 +35,74 @@ impl Experiment for Table2 {
     }
 
     fn compute(_: Quality, progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-        compute(progress)
+        let table_i = paper::table_one()?;
+        let section = paper::section_three()?;
+        let table = TossCase::from(&table_i);
+        progress.start(INPUTS.len() as u64, "inputs");
+        let mut effects = Vec::new();
+        for input in INPUTS {
+            effects.push(effect(&table_i, input)?);
+            progress.advance(1);
+        }
+        Ok(Table2Data {
+            airborne_speed_rad_per_s: table.airborne_speed()?,
+            combined: combined(&effects),
+            uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
+            effects,
+            table_i,
+            section,
+        })
     }
 
     fn draw(data: &Table2Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let header = [
+            "input",
+            "value",
+            r"effect on $\dot{\alpha}_f$ (rad/s)",
+            "at the upper end",
+            "at the lower end",
+            "printed",
+        ]
+        .map(Label::new);
+        let mut rows: Vec<Vec<Label>> = Vec::new();
+        for effect in &data.effects {
+            // As many decimals as the printed entry, and one or two more.
+            let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
+            let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
+            rows.push(vec![
+                Label::new(&effect.label),
+                Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
+                Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
+                Label::plain(&signed(effect.upper_rad_per_s, decimals)),
+                Label::plain(&signed(effect.lower_rad_per_s, decimals)),
+                Label::plain(&format!("± {}", effect.printed_rad_per_s)),
+            ]);
+        }
+        rows.push(vec![
+            Label::new(r"$\dot{\alpha}_f$"),
+            Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
+            Label::plain(&format!(
+                "± {:.2} (root sum of squares)",
+                data.combined.root_sum_of_squares_rad_per_s
+            )),
+            Label::plain(""),
+            Label::plain(""),
+            Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
+        ]);
+        Ok(ruled_table(&header, &rows))
     }
 
     fn claims(data: &Table2Data) -> Vec<Claim> {
-        claims(data)
+        let mut claims = Vec::new();
+        for effect in &data.effects {
+            let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
+            claims.push(claim.note(format!(
+                "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
+                effect.upper_rad_per_s, effect.lower_rad_per_s
+            )));
+        }
+        claims.push(together(data));
+        claims
     }
 
     fn parameters(data: &Table2Data) -> Vec<(String, String)> {
@@ -55,34 +113,6 @@ impl Experiment for Table2 {
         }));
         parameters.push(("g".to_owned(), format!("{} m/s²", data.table_i.preload_acceleration_m_per_s2)));
         parameters
-    }
-
-    fn table(data: &Table2Data) -> Option<Table> {
-        let mut table = Table::new([
-            "input",
-            "unit",
-            "value",
-            "uncertainty",
-            "half difference (rad/s)",
-            "upper end (rad/s)",
-            "lower end (rad/s)",
-            "slope times uncertainty (rad/s)",
-            "printed (rad/s)",
-        ]);
-        for effect in &data.effects {
-            table.push([
-                Cell::from(effect.input.as_str()),
-                Cell::from(effect.unit.as_str()),
-                effect.value.into(),
-                effect.uncertainty.into(),
-                effect.central_rad_per_s.abs().into(),
-                effect.upper_rad_per_s.into(),
-                effect.lower_rad_per_s.into(),
-                effect.linear_rad_per_s.into(),
-                effect.printed_rad_per_s.into(),
-            ]);
-        }
-        Some(table)
     }
 }
 
@@ -114,8 +144,6 @@ struct Effect {
     lower_rad_per_s: f64,
     /// Half the difference of the two.
     central_rad_per_s: f64,
-    /// Slope times uncertainty.
-    linear_rad_per_s: f64,
     printed_rad_per_s: f64,
     /// The symbol as it is set in print.
     label: String,
@@ -131,100 +159,77 @@ struct Combined {
     without_largest_rad_per_s: f64,
 }
 
-/// Share of an uncertainty over which a slope is taken.
-const SLOPE_STEP: f64 = 1e-4;
+/// An input of the toss: symbol, name in the catalogue, label, unit, what Table I prints, and how it is changed.
+type Input = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+    fn(&TableOne) -> Uncertain,
+    fn(&mut TossCase, f64),
+);
 
-/// An input of the toss: how the paper names it and how it is changed.
-struct Input {
-    symbol: &'static str,
-    name: &'static str,
-    label: &'static str,
-    unit: &'static str,
-    printed_value: Uncertain,
-    printed: f64,
-    set: fn(&mut TossCase, f64),
-}
+const INPUTS: [Input; 6] = [
+    ("c", "stroke", "$c$", "m", |table| table.stroke_m, |case, value| case.stroke_m = value),
+    (
+        "ω",
+        "angular_frequency",
+        r"$\omega$",
+        "rad/s",
+        |table| table.angular_frequency_rad_per_s,
+        |case, value| case.angular_frequency_rad_per_s = value,
+    ),
+    (
+        "a_e",
+        "contact_radius",
+        "$a_e$",
+        "m",
+        |table| table.contact_radius_m,
+        |case, value| case.contact_radius_m = value,
+    ),
+    (
+        "a_g",
+        "gyration_radius",
+        "$a_g$",
+        "m",
+        |table| table.gyration_radius_m,
+        |case, value| case.gyration_radius_m = value,
+    ),
+    ("μ", "friction", r"$\mu$", "", |table| table.friction, |case, value| case.friction = value),
+    (
+        "φ_L",
+        "amplitude_angle",
+        r"$\phi_L$",
+        "rad",
+        |table| table.amplitude_angle_rad,
+        |case, value| case.amplitude_angle_rad = value,
+    ),
+];
 
-fn inputs(table: &TableOne, printed: &TableTwo) -> [Input; 6] {
-    [
-        Input {
-            symbol: "c",
-            name: "stroke",
-            label: "$c$",
-            unit: "m",
-            printed_value: table.stroke_m,
-            printed: printed.stroke_effect_rad_per_s,
-            set: |case, value| case.stroke_m = value,
-        },
-        Input {
-            symbol: "ω",
-            name: "angular_frequency",
-            label: r"$\omega$",
-            unit: "rad/s",
-            printed_value: table.angular_frequency_rad_per_s,
-            printed: printed.angular_frequency_effect_rad_per_s,
-            set: |case, value| case.angular_frequency_rad_per_s = value,
-        },
-        Input {
-            symbol: "a_e",
-            name: "contact_radius",
-            label: "$a_e$",
-            unit: "m",
-            printed_value: table.contact_radius_m,
-            printed: printed.contact_radius_effect_rad_per_s,
-            set: |case, value| case.contact_radius_m = value,
-        },
-        Input {
-            symbol: "a_g",
-            name: "gyration_radius",
-            label: "$a_g$",
-            unit: "m",
-            printed_value: table.gyration_radius_m,
-            printed: printed.gyration_radius_effect_rad_per_s,
-            set: |case, value| case.gyration_radius_m = value,
-        },
-        Input {
-            symbol: "μ",
-            name: "friction",
-            label: r"$\mu$",
-            unit: "",
-            printed_value: table.friction,
-            printed: printed.friction_effect_rad_per_s,
-            set: |case, value| case.friction = value,
-        },
-        Input {
-            symbol: "φ_L",
-            name: "amplitude_angle",
-            label: r"$\phi_L$",
-            unit: "rad",
-            printed_value: table.amplitude_angle_rad,
-            printed: printed.amplitude_angle_effect_rad_per_s,
-            set: |case, value| case.amplitude_angle_rad = value,
-        },
-    ]
-}
-
-fn effect(table: &TossCase, input: &Input) -> Result<Effect, ExperimentError> {
-    let Uncertain { value, uncertainty } = input.printed_value;
+fn effect(
+    table: &TableOne,
+    (symbol, name, label, unit, printed, set): Input,
+) -> Result<Effect, ExperimentError> {
+    let Uncertain { value, uncertainty } = printed(table);
     let speed = |share: f64| {
-        let mut case = *table;
-        (input.set)(&mut case, value + share * uncertainty);
+        let mut case = TossCase::from(table);
+        set(&mut case, value + share * uncertainty);
         case.airborne_speed()
     };
     let middle = speed(0.0)?;
     let (upper, lower) = (speed(1.0)? - middle, speed(-1.0)? - middle);
+    let key = format!("table2.{name}_effect");
     Ok(Effect {
-        input: input.symbol.to_owned(),
-        key: format!("table2.{}_effect", input.name),
-        unit: input.unit.to_owned(),
+        input: symbol.to_owned(),
+        unit: unit.to_owned(),
         value,
         uncertainty,
         upper_rad_per_s: upper,
         lower_rad_per_s: lower,
         central_rad_per_s: 0.5 * (upper - lower),
-        linear_rad_per_s: (speed(SLOPE_STEP)? - speed(-SLOPE_STEP)?) / (2.0 * SLOPE_STEP),
-        printed_rad_per_s: input.printed,
-        label: input.label.to_owned(),
+        printed_rad_per_s: paper::value(&key)?,
+        key,
+        label: label.to_owned(),
     })
 }
 
@@ -272,78 +277,8 @@ fn from_launch_speeds(table: &TableOne, section: &SectionThree) -> Result<f64, E
     Ok(Propagated::of(inputs, airborne_speed)?.root_sum_of_squares)
 }
 
-fn compute(progress: &dyn Progress) -> Result<Table2Data, ExperimentError> {
-    let table_i = paper::table_one()?;
-    let printed = paper::table_two()?;
-    let section = paper::section_three()?;
-    let table = TossCase::from(&table_i);
-    let inputs = inputs(&table_i, &printed);
-    progress.start(inputs.len() as u64, "inputs");
-    let mut effects = Vec::new();
-    for input in &inputs {
-        effects.push(effect(&table, input)?);
-        progress.advance(1);
-    }
-    Ok(Table2Data {
-        airborne_speed_rad_per_s: table.airborne_speed()?,
-        combined: combined(&effects),
-        uncertainty_from_launch_speeds_rad_per_s: from_launch_speeds(&table_i, &section)?,
-        effects,
-        table_i,
-        section,
-    })
-}
-
-fn draw(data: &Table2Data) -> Figure {
-    let header = [
-        "input",
-        "value",
-        r"effect on $\dot{\alpha}_f$ (rad/s)",
-        "at the upper end",
-        "at the lower end",
-        "printed",
-    ]
-    .map(Label::new);
-    let mut rows: Vec<Vec<Label>> = Vec::new();
-    for effect in &data.effects {
-        // As many decimals as the printed entry, and one or two more.
-        let decimals = if effect.printed_rad_per_s < 1.0 { 4 } else { 2 };
-        let unit = if effect.unit.is_empty() { String::new() } else { format!(" {}", effect.unit) };
-        rows.push(vec![
-            Label::new(&effect.label),
-            Label::plain(&format!("{} ± {}{unit}", effect.value, effect.uncertainty)),
-            Label::plain(&format!("± {:.decimals$}", effect.central_rad_per_s.abs())),
-            Label::plain(&signed(effect.upper_rad_per_s, decimals)),
-            Label::plain(&signed(effect.lower_rad_per_s, decimals)),
-            Label::plain(&format!("± {}", effect.printed_rad_per_s)),
-        ]);
-    }
-    rows.push(vec![
-        Label::new(r"$\dot{\alpha}_f$"),
-        Label::plain(&format!("{:.2} rad/s", data.airborne_speed_rad_per_s)),
-        Label::plain(&format!("± {:.2} (root sum of squares)", data.combined.root_sum_of_squares_rad_per_s)),
-        Label::plain(""),
-        Label::plain(""),
-        Label::plain(&data.section.predicted_airborne_speed_rad_per_s),
-    ]);
-    ruled_table(&header, &rows)
-}
-
 fn signed(value: f64, decimals: usize) -> String {
     format!("{value:+.decimals$}").replace('-', "−")
-}
-
-fn claims(data: &Table2Data) -> Vec<Claim> {
-    let mut claims = Vec::new();
-    for effect in &data.effects {
-        let claim = Claim::printed(&effect.key, effect.central_rad_per_s.abs());
-        claims.push(claim.note(format!(
-            "half the difference of the speeds at both ends; changes at the upper end {:+.3}, at the lower end {:+.3}",
-            effect.upper_rad_per_s, effect.lower_rad_per_s
-        )));
-    }
-    claims.push(together(data));
-    claims
 }
 
 /// The uncertainty of all inputs together by the usual rule, and by what else may be meant: the paper does not say.

@@ -8,17 +8,16 @@ use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{Figure, Label, ruled_table};
 use serde::{Deserialize, Serialize};
 
-use super::motor_case::MotorCase;
-use super::numbers::{Noise, Propagated};
-use super::printed_inputs::DRAWN;
-use super::stall::Stall;
+use super::shared::alike::DRAWN;
+use super::shared::motor::MotorCase;
+use super::shared::numbers::{Noise, Propagated};
+use super::shared::stall::Stall;
 use crate::claims::{
     Cases, Claim, catalogue,
     paper::{self, BallDrop, SectionFive, Uncertain},
 };
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
-use crate::table::{Cell, Table};
 
 /// Table III.
 #[derive(Debug)]
@@ -34,7 +33,7 @@ impl Experiment for Table3 {
     fn seeds() -> Vec<(&'static str, u64)> {
         vec![
             ("drops of the ball", DROP_SEED),
-            ("runs to stall", super::stall::SEED),
+            ("runs to stall", super::shared::stall::SEED),
             ("ensembles", TransientSettings::default().seed),
         ]
     }
@@ -57,15 +56,103 @@ impl Experiment for Table3 {
     }
 
     fn compute(quality: Quality, _: &dyn Progress) -> Result<Table3Data, ExperimentError> {
-        compute(quality)
+        let table = paper::table_three()?;
+        let section = paper::section_five()?;
+        let as_frequency = MotorCase::table_three()?;
+        let as_printed =
+            MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
+        let cases = [as_printed, as_frequency];
+        let mass = section.rotor_mass_kg();
+        let stall = |case: &MotorCase| {
+            Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
+        };
+        let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
+        let speeds = [speed(&as_printed, quality)?, speed(&as_frequency, quality)?];
+        Ok(Table3Data {
+            inputs: inputs(&cases)?,
+            printed_inputs: paper::printed_inputs(),
+            printed_preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2,
+            frequency_khz: 1e-3 * section.default_frequency_hz,
+            gravity_m_per_s2: section.gravity_m_per_s2,
+            preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
+            varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
+            derived: derived(&cases, &stalls, &speeds, mass)?,
+            stalls,
+            speeds,
+            drop: ball_drop(&section)?,
+            ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
+        })
     }
 
     fn draw(data: &Table3Data) -> Result<Figure, ExperimentError> {
-        Ok(draw(data))
+        let header =
+            ["", "unit", "printed", r"$g$ as printed", r"70 is $\omega/2\pi$ in kHz", "from"].map(Label::new);
+        let inputs = data.inputs.iter().map(|input| {
+            vec![
+                Label::new(&input.label),
+                Label::plain(&input.unit),
+                Label::plain(&input.printed),
+                Label::plain(&shown(input.values[0])),
+                Label::plain(&shown(input.values[1])),
+                Label::plain(if input.known { "known input" } else { "estimated input" }),
+            ]
+        });
+        let derived = data.derived.iter().map(|row| {
+            vec![
+                Label::new(&row.label),
+                Label::plain(&row.unit),
+                Label::plain(""),
+                Label::plain(&shown(row.values[0])),
+                Label::plain(&shown(row.values[1])),
+                Label::new(&row.origin),
+            ]
+        });
+        let rows: Vec<Vec<Label>> = inputs.chain(derived).collect();
+        Ok(ruled_table(&header, &rows))
     }
 
     fn claims(data: &Table3Data) -> Vec<Claim> {
-        claims(data)
+        let missing: Vec<_> = data
+            .inputs
+            .iter()
+            .filter(|input| input.printed.is_empty())
+            .map(|input| input.symbol.clone())
+            .collect();
+        let drop = &data.drop;
+        let [slowest, fastest] = drop.impact_speed_range_m_per_s;
+        vec![
+            Claim::printed("section5.announced_inputs", data.inputs.len() as f64).note(format!(
+                "all are needed to build the model's platform and disk; Table III prints {}: {} is missing",
+                data.printed_inputs,
+                missing.join(", ")
+            )),
+            Claim::printed("table3.gyration_radius", data.ball_gyration_radius_mm)
+                .note("a_g of a solid ball is √(2/5) of its radius"),
+            preload(data),
+            Claim::printed("section5.estimated_restitution", drop.restitution.value)
+                .judged_over(drop.restitution_agreement)
+                .note(format!(
+                    "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
+                     rounds to the printed one",
+                    drop.restitution_range[0],
+                    drop.restitution_range[1],
+                    drop.restitution_agreement.holding,
+                    drop.restitution_agreement.tried,
+                )),
+            Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
+                "heights that round to {:.1} cm give {slowest:.3} to {fastest:.3} m/s with g = {} m/s²; of heights and g that round to the printed ones {} in {} give the \
+                 printed speed, with g up to the {} m/s² of the motor's full preload {} in {}",
+                100.0 * drop.heights.drop_height_m,
+                data.gravity_m_per_s2,
+                drop.agreement.holding,
+                drop.agreement.tried,
+                drop.highest_varied_m_per_s2,
+                drop.agreement_to_highest.holding,
+                drop.agreement_to_highest.tried,
+            ))
+            .cause("a fall with another gravitational acceleration"),
+            drop_gravity(data),
+        ]
     }
 
     fn parameters(data: &Table3Data) -> Vec<(String, String)> {
@@ -83,30 +170,6 @@ impl Experiment for Table3 {
         parameters.push(("height of the drop".to_owned(), format!("{} m", drop.heights.drop_height_m)));
         parameters.push(("height of the rebound".to_owned(), format!("{} m", drop.heights.rebound_height_m)));
         parameters
-    }
-
-    fn table(data: &Table3Data) -> Option<Table> {
-        let mut table =
-            Table::new(["quantity", "unit", "printed", "g as printed", "70 read as frequency in kHz"]);
-        for input in &data.inputs {
-            table.push([
-                Cell::from(input.symbol.as_str()),
-                Cell::from(input.unit.as_str()),
-                Cell::from(input.printed.as_str()),
-                input.values[0].into(),
-                input.values[1].into(),
-            ]);
-        }
-        for row in &data.derived {
-            table.push([
-                Cell::from(row.symbol.as_str()),
-                Cell::from(row.unit.as_str()),
-                Cell::Empty,
-                row.values[0].into(),
-                row.values[1].into(),
-            ]);
-        }
-        Some(table)
     }
 }
 
@@ -145,9 +208,6 @@ struct Speed {
 /// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation within a decade.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct OverInputs {
-    tolerance: f64,
-    mean: f64,
-    deviation: f64,
     /// The least and the largest.
     from_to: [f64; 2],
     draws: usize,
@@ -171,7 +231,6 @@ struct Input {
 /// A quantity that follows from the inputs, for both readings.
 #[derive(Debug, Serialize, Deserialize)]
 struct Following {
-    symbol: String,
     label: String,
     unit: String,
     values: [f64; 2],
@@ -197,9 +256,7 @@ struct Drop {
     /// v²/(2 h) of the printed speed and height, and for everything that rounds to them.
     gravity_of_printed_speed_m_per_s2: f64,
     gravity_range_of_printed_speed_m_per_s2: [f64; 2],
-    /// What rounds to the printed gravity, up to the highest g of Sec. V B: no g is printed for the drop.
-    printed_gravity_range_m_per_s2: [f64; 2],
-    /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed speed.
+    /// Of the heights and the g that round to the printed ones, drawn evenly, those that give the printed speed.
     agreement: Cases,
     /// The highest g of Sec. V B, and the impact speed with it.
     highest_varied_m_per_s2: f64,
@@ -209,35 +266,6 @@ struct Drop {
 /// Seed of the drops whose height and gravity round to the printed ones.
 const DROP_SEED: u64 = 95;
 
-fn compute(quality: Quality) -> Result<Table3Data, ExperimentError> {
-    let table = paper::table_three()?;
-    let section = paper::section_five()?;
-    let as_frequency = MotorCase::default_of(&table, &section);
-    let as_printed =
-        MotorCase { preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2, ..as_frequency };
-    let cases = [as_printed, as_frequency];
-    let mass = section.rotor_mass_kg();
-    let stall = |case: &MotorCase| {
-        Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
-    };
-    let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
-    let speeds = [speed(&as_printed, quality)?, speed(&as_frequency, quality)?];
-    Ok(Table3Data {
-        inputs: inputs(&cases)?,
-        printed_inputs: paper::printed_inputs(),
-        printed_preload_acceleration_m_per_s2: table.preload_acceleration_m_per_s2,
-        frequency_khz: 1e-3 * section.default_frequency_hz,
-        gravity_m_per_s2: section.gravity_m_per_s2,
-        preloads_n: cases.map(|case| mass * case.preload_acceleration_m_per_s2),
-        varied_m_per_s2: paper::preloads()?.preload_accelerations_m_per_s2,
-        derived: derived(&cases, &stalls, &speeds, mass)?,
-        stalls,
-        speeds,
-        drop: ball_drop(&section)?,
-        ball_gyration_radius_mm: 1e3 * ball_gyration_radius(&section),
-    })
-}
-
 /// The steady speed of a motor, and the spreads over its inputs.
 fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
     let motor = Motor::paper_70_khz()
@@ -246,16 +274,9 @@ fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
     let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
     let over_inputs = |spread: Option<InputSpread>, unit: f64| {
         let quantity = || "spread over the inputs".to_owned();
-        let InputSpread { mean, standard_deviation, from_to, draws, trapped, .. } =
+        let InputSpread { from_to, draws, trapped, .. } =
             spread.ok_or_else(|| ExperimentError::NoData { quantity: quantity() })?;
-        Ok::<_, ExperimentError>(OverInputs {
-            tolerance: tolerance.preload,
-            mean: mean.value / unit,
-            deviation: standard_deviation.value / unit,
-            from_to: from_to.map(|end| end / unit),
-            draws,
-            trapped,
-        })
+        Ok::<_, ExperimentError>(OverInputs { from_to: from_to.map(|end| end / unit), draws, trapped })
     };
     let Estimate { value, standard_error } = motor.no_load_speed(&settings)?;
     let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved)?;
@@ -338,8 +359,7 @@ fn derived(
 ) -> Result<Vec<Following>, ExperimentError> {
     let [printed, frequency] = cases;
     let systems = [printed.system()?, frequency.system()?];
-    let row = |symbol: &str, label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
-        symbol: symbol.to_owned(),
+    let row = |label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
         label: label.to_owned(),
         unit: unit.to_owned(),
         values,
@@ -351,49 +371,43 @@ fn derived(
     let axial_speeds =
         systems.map(|system| system.platform().amplitude() * system.platform().angular_frequency());
     Ok(vec![
-        row("ω", r"$\omega$", "rad/s", "", omega),
+        row(r"$\omega$", "rad/s", "", omega),
         row(
-            "Φ",
             r"$\Phi$",
             "rad",
             r"$\omega \Phi/\omega$",
             systems.map(|system| system.platform().twist_amplitude()),
         ),
-        row("Aω", r"$A \omega$", "m/s", "", axial_speeds),
-        row("P", "$P$", "", r"$A \omega^2/g$", peaks),
-        row("Γ", r"$\Gamma$", "", r"$A \omega^2/\pi g$", systems.map(|system| system.axial_forcing())),
-        row("Γ_T", r"$\Gamma_T$", "", r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", forcing),
+        row(r"$A \omega$", "m/s", "", axial_speeds),
+        row("$P$", "", r"$A \omega^2/g$", peaks),
+        row(r"$\Gamma$", "", r"$A \omega^2/\pi g$", systems.map(|system| system.axial_forcing())),
+        row(r"$\Gamma_T$", "", r"$a_g^2 \Phi \omega^2/(a_e \pi g \mu)$", forcing),
         row(
-            "Γ_T/Γ",
             r"$\Gamma_T/\Gamma$",
             "",
             r"$a_g^2 \Phi/(a_e \mu A)$",
             [0, 1].map(|index| forcing[index] * PI / peaks[index]),
         ),
-        row("mg", "$mg$", "N", "steel ball", cases.map(|case| mass * case.preload_acceleration_m_per_s2)),
+        row("$mg$", "N", "steel ball", cases.map(|case| mass * case.preload_acceleration_m_per_s2)),
         row(
-            "largest acceleration",
             r"largest $\ddot{\alpha}$",
             "rad/s²",
             r"$\mu a_e g/a_g^2$",
             cases.map(|case| case.largest_acceleration()),
         ),
         row(
-            "shortest rise time",
             "shortest rise",
             "s",
             r"$\omega \Phi$ over the largest $\ddot{\alpha}$",
             cases.map(|case| case.rise_time_s()),
         ),
         row(
-            "load that stalls the motor",
             r"stall $T/m a_g^2$",
             "rad/s²",
             "load torque $T$ with mean speed 0",
             stalls.map(|stall| stall.load_rad_per_s2.mean),
         ),
         row(
-            "stall torque",
             "stall $T$",
             "µN m",
             "",
@@ -403,47 +417,21 @@ fn derived(
             }),
         ),
         row(
-            "α̇_ss/t_c",
             r"$\dot{\alpha}_{ss}/t_c$",
             "rad/s²",
             "the paper's estimate of it",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
         ),
+        row("least stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0])),
+        row("largest stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1])),
         row(
-            "least stall",
-            "least stall",
-            "rad/s²",
-            WITHIN,
-            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0]),
-        ),
-        row(
-            "largest stall",
-            "largest stall",
-            "rad/s²",
-            WITHIN,
-            speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1]),
-        ),
-        row(
-            "steady speed",
             r"$\dot{\alpha}_{ss}$",
             "rad/s",
             "mean over time, without load",
             speeds.map(|of| of.speed_rad_per_s),
         ),
-        row(
-            "least speed",
-            "least speed",
-            "rad/s",
-            WITHIN,
-            speeds.map(|of| of.over_inputs_rad_per_s.from_to[0]),
-        ),
-        row(
-            "largest speed",
-            "largest speed",
-            "rad/s",
-            WITHIN,
-            speeds.map(|of| of.over_inputs_rad_per_s.from_to[1]),
-        ),
+        row("least speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[0])),
+        row("largest speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[1])),
     ])
 }
 
@@ -491,7 +479,6 @@ fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
             needed(printed_speeds[0], printed_heights[1]),
             needed(printed_speeds[1], printed_heights[0]),
         ],
-        printed_gravity_range_m_per_s2: printed_gravities,
         agreement,
         agreement_to_highest,
         highest_varied_m_per_s2: highest,
@@ -501,33 +488,6 @@ fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
         restitution_range: [0, 1].map(|end| (printed_rebounds[end] / printed_heights[1 - end]).sqrt()),
         restitution_agreement,
     })
-}
-
-fn draw(data: &Table3Data) -> Figure {
-    let header =
-        ["", "unit", "printed", r"$g$ as printed", r"70 is $\omega/2\pi$ in kHz", "from"].map(Label::new);
-    let inputs = data.inputs.iter().map(|input| {
-        vec![
-            Label::new(&input.label),
-            Label::plain(&input.unit),
-            Label::plain(&input.printed),
-            Label::plain(&shown(input.values[0])),
-            Label::plain(&shown(input.values[1])),
-            Label::plain(if input.known { "known input" } else { "estimated input" }),
-        ]
-    });
-    let derived = data.derived.iter().map(|row| {
-        vec![
-            Label::new(&row.label),
-            Label::plain(&row.unit),
-            Label::plain(""),
-            Label::plain(&shown(row.values[0])),
-            Label::plain(&shown(row.values[1])),
-            Label::new(&row.origin),
-        ]
-    });
-    let rows: Vec<Vec<Label>> = inputs.chain(derived).collect();
-    ruled_table(&header, &rows)
 }
 
 /// Four digits, with a power of ten where the number is large or small.
@@ -563,61 +523,6 @@ fn superscript(digit: char) -> char {
 
 const ID: &str = "table3";
 
-/// A difference of more than so many standard errors is one.
-const STANDARD_ERRORS: f64 = 3.0;
-
-fn claims(data: &Table3Data) -> Vec<Claim> {
-    let known = data.inputs.iter().filter(|input| input.known).count();
-    let names = |wanted: bool| {
-        let inputs = data.inputs.iter().filter(|input| input.known == wanted);
-        inputs.map(|input| input.symbol.clone()).collect::<Vec<_>>().join(", ")
-    };
-    let missing: Vec<_> = data
-        .inputs
-        .iter()
-        .filter(|input| input.printed.is_empty())
-        .map(|input| input.symbol.clone())
-        .collect();
-    let drop = &data.drop;
-    let [slowest, fastest] = drop.impact_speed_range_m_per_s;
-    vec![
-        Claim::printed("section5.announced_inputs", data.inputs.len() as f64).note(format!(
-            "all are needed to build the model's platform and disk; Table III prints {}: {} is missing",
-            data.printed_inputs,
-            missing.join(", ")
-        )),
-        Claim::printed("section5.known_inputs", known as f64).note(names(true)),
-        Claim::printed("section5.unknown_inputs", (data.inputs.len() - known) as f64).note(names(false)),
-        Claim::printed("table3.gyration_radius", data.ball_gyration_radius_mm)
-            .note("a_g of a solid ball is √(2/5) of its radius"),
-        preload(data),
-        Claim::printed("section5.estimated_restitution", drop.restitution.value)
-            .judged_over(drop.restitution_agreement)
-            .note(format!(
-                "square root of rebound height over drop height. Heights that round to the printed ones give {:.3} to {:.3}, {} in {} of them an ε that \
-                 rounds to the printed one",
-                drop.restitution_range[0],
-                drop.restitution_range[1],
-                drop.restitution_agreement.holding,
-                drop.restitution_agreement.tried,
-            )),
-        Claim::printed("section5.drop_speed", drop.impact_speed_m_per_s).judged_over(drop.agreement).note(format!(
-            "heights that round to {:.1} cm give {slowest:.3} to {fastest:.3} m/s with g = {} m/s²; of heights and g that round to the printed ones {} in {} give the \
-             printed speed, with g up to the {} m/s² of the motor's full preload {} in {}",
-            100.0 * drop.heights.drop_height_m,
-            data.gravity_m_per_s2,
-            drop.agreement.holding,
-            drop.agreement.tried,
-            drop.highest_varied_m_per_s2,
-            drop.agreement_to_highest.holding,
-            drop.agreement_to_highest.tried,
-        ))
-        .cause("a fall with another gravitational acceleration"),
-        drop_gravity(data),
-        stall(data),
-    ]
-}
-
 /// The g that gives the printed speed. An inference from printed numbers; the text does not say which g was used.
 fn drop_gravity(data: &Table3Data) -> Claim {
     let drop = &data.drop;
@@ -637,19 +542,6 @@ fn drop_gravity(data: &Table3Data) -> Claim {
             drop.highest_varied_m_per_s2,
             data.gravity_m_per_s2,
         ),
-    )
-}
-
-/// The stall torque of the default motor.
-fn stall(data: &Table3Data) -> Claim {
-    let [printed, gravity] = &data.stalls;
-    let agrees = |stall: &Stall| stall.estimate_off.abs() <= STANDARD_ERRORS * stall.estimate_off_error;
-    Claim::statement(
-        ID,
-        "Sec. V C",
-        "α̇_ss/t_c of the default motor is the acceleration by the torque that stalls it",
-        agrees(gravity) && agrees(printed),
-        format!("with gravity it {}; with g as printed it {}", gravity.words(), printed.words(),),
     )
 }
 

@@ -46,7 +46,6 @@ struct Page {
     warnings: Vec<String>,
     /// Whether the sources, the measurements or the files have changed since.
     outdated: bool,
-    has_table: bool,
     /// The width of the picture on the page (pixels).
     width: Option<u32>,
 }
@@ -84,14 +83,12 @@ impl Summary {
                 }
             };
             let cache_key = folder.cache_key(id).ok();
-            let table = format!("{id}.csv");
             let width = folder.read(&format!("{id}.png"))?.as_deref().and_then(png_width);
             pages.push(Page {
                 section,
                 quality,
                 run_time: duration(cache_key.as_ref().map_or(0.0, |key| key.run_time_s)),
                 outdated: state.is_err(),
-                has_table: cache_key.iter().flat_map(|key| key.names()).any(|name| name == table),
                 // Four pixels are a point; 1.9 pixels per point make a double column fill the page.
                 width: width.map(|pixels| pixels * 19 / 40),
                 warnings: made.warnings,
@@ -217,7 +214,7 @@ mod tests {
         let page = &first.page;
         assert!(page.contains("τ_imp &amp; Γ &lt; 1") && page.contains("Draft quality, 75.2 s"), "{page}");
         assert!(page.contains("<td>restitution ε</td><td>0.5</td>"), "{page}");
-        assert!(page.contains("class=\"verdict reproduced\"") && page.contains("table (CSV)"), "{page}");
+        assert!(page.contains("class=\"verdict reproduced\""), "{page}");
         let head =
             "<meta name=\"provenance\" content=\"{&quot;program&quot;:&quot;bouncing-disk-experiments&quot;";
         assert!(page.contains(head) && !page.contains("http") && !page.contains("<script"), "{page}");
@@ -242,7 +239,6 @@ mod tests {
             run_time: duration(125.0),
             warnings: vec!["fig06.csv, line 2: \"<script>\u{202e}x\" is not a number".to_owned()],
             outdated: true,
-            has_table: false,
             width: Some(2040),
         };
         let counts = Counts::default();

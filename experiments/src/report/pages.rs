@@ -18,7 +18,6 @@ use crate::cache_key::Stale;
 use crate::claims::{Claim, Computed, Source};
 use crate::experiment::{ExperimentError, Made, Quality, RegisteredExperiment};
 use crate::output::{OutputError, OutputFolder};
-use crate::registry::is_extra;
 use crate::{json, provenance};
 
 /// Figure by figure the picture, what it shows, the parameters, and printed against computed.
@@ -162,9 +161,9 @@ impl Figure {
         let failed = |source| PagesError::Figure { id, source: Box::new(source) };
         let (made, _, origin) = entry.read(&data).map_err(failed)?;
         let drawing = made.figure.to_svg().map_err(|error| failed(error.into()))?;
-        let vector = (!is_extra(id)).then(|| provenance::in_svg(&origin, &drawing));
+        let vector = (!entry.is_extra()).then(|| provenance::in_svg(&origin, &drawing));
         let mut section = String::new();
-        if !is_extra(id) {
+        if !entry.is_extra() {
             let values = Value::from_serialize(Section::of(entry, &made)?);
             section = digits::rounded(&environment().render_named_str("section.md", SECTION, values)?);
         }

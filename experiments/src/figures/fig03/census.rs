@@ -1,6 +1,6 @@
 //! What the picture is drawn from: the transitions that the engine makes, and one cycle of a disk that is thrown, chatters and rests.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -28,15 +28,8 @@ pub(super) struct Census {
     /// Impacts of a disk that slides, and those of them whose impulse is the possible one, so that the slip ends.
     pub(super) sliding_impacts: u64,
     pub(super) capped_impacts: u64,
-    /// In the order of the modes and events.
-    pub(super) transitions: Vec<Counted>,
-}
-
-/// A transition and how often it occurred.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Counted {
-    pub(super) transition: Transition,
-    pub(super) number: u64,
+    /// Those that occurred, in the order of the modes and events.
+    pub(super) transitions: BTreeSet<Transition>,
 }
 
 /// From one separation to the next; time in periods from the first collision between them, heights in
@@ -109,7 +102,7 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
     let longest_motion = quality.choose(60, 400);
     let systems = systems()?;
     progress.start(systems.len() as u64, "systems");
-    let mut counts: BTreeMap<Transition, u64> = BTreeMap::new();
+    let mut transitions = BTreeSet::new();
     let (mut motions, mut events, mut sliding_impacts, mut capped_impacts) = (0, 0, 0, 0);
     for system in &systems {
         for start in starts(system)? {
@@ -123,12 +116,11 @@ pub(super) fn census(quality: Quality, progress: &dyn Progress) -> Result<Census
                     sliding_impacts += 1;
                     capped_impacts += u64::from(capped);
                 }
-                *counts.entry(record.transition()).or_default() += 1;
+                transitions.insert(record.transition());
             }
         }
         progress.advance(1);
     }
-    let transitions = counts.into_iter().map(|(transition, number)| Counted { transition, number }).collect();
     Ok(Census {
         peak_accelerations: PEAK_ACCELERATIONS.to_vec(),
         twist_speeds: TWIST_SPEEDS.to_vec(),

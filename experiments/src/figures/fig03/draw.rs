@@ -2,8 +2,8 @@
 
 use bouncing_disk::motion::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
-    Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
-    Stroke, Style, Text, TextBox, TextStyle, Ticks,
+    Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Stroke,
+    Style, Text, TextBox, TextStyle, Ticks,
 };
 
 use super::census::{Census, ChatteringCycle};
@@ -20,35 +20,17 @@ const SLIDING: (f64, f64) = (268.0, 66.0);
 /// Half way between the columns.
 const BETWEEN: f64 = 175.0;
 
-/// An arrow of the chart, in points from the lower left corner.
-pub(super) struct ChartArrow {
-    pub(super) transition: Transition,
-    /// Whether the layout has a place for it; one that has none is drawn straight and in colour.
-    pub(super) planned: bool,
-    points: Vec<(f64, f64)>,
-    words: Vec<(&'static str, (f64, f64), Anchor)>,
-}
+/// Points and words of an arrow of the chart, in points from the lower left corner.
+type ChartArrow = (Vec<(f64, f64)>, Vec<(&'static str, (f64, f64), Anchor)>);
 
-fn place(mode: ModeKind) -> (f64, f64) {
-    match mode {
-        ModeKind::Flight => FLIGHT,
-        ModeKind::Sticking => STICKING,
-        ModeKind::Sliding => SLIDING,
-    }
-}
-
-/// One arrow per transition seen; impacts and attachments start at the impact.
-pub(super) fn arrows(census: &Census) -> Vec<ChartArrow> {
-    census.transitions.iter().map(|counted| arrow(counted.transition)).collect()
-}
-
-/// Long, for it is a table: one arm for each arrow of the chart.
-fn arrow(transition: Transition) -> ChartArrow {
+/// The arrow of a transition, if the chart has one; impacts and attachments start at the impact. Long, for it is a table: one
+/// arm for each arrow of the chart.
+pub(super) fn arrow(transition: Transition) -> Option<ChartArrow> {
     use EventKind::{Attachment, Impact, Separation, SlipReversal, SlipToStick, StickToSlip};
     use ModeKind::{Flight, Sliding, Sticking};
     let (across, up) = HALF;
     let Transition { from, event, to } = transition;
-    let (points, words) = match (from, event, to) {
+    Some(match (from, event, to) {
         (Flight, Impact, Flight) => (
             vec![(IMPACT.0 - across, IMPACT.1 - 8.0), (FLIGHT.0 + across, FLIGHT.1 - 8.0)],
             vec![
@@ -128,12 +110,8 @@ fn arrow(transition: Transition) -> ChartArrow {
                 ),
             ],
         ),
-        _ => {
-            let points = vec![place(from), place(to)];
-            return ChartArrow { transition, planned: false, points, words: Vec::new() };
-        }
-    };
-    ChartArrow { transition, planned: true, points, words }
+        _ => return None,
+    })
 }
 
 fn chart(census: &Census) -> Drawing {
@@ -148,17 +126,9 @@ fn chart(census: &Census) -> Drawing {
         .text((BETWEEN, FLIGHT.1 + 12.0), Anchor::Middle, "$x = s$")
         .arrow([(CHART_WIDTH - 16.0, IMPACT.1), (IMPACT.0 + HALF.0, IMPACT.1)], stroke)
         .text((CHART_WIDTH - 2.0, IMPACT.1 + 6.0), Anchor::Right, "start");
-    for arrow in arrows(census) {
-        let colour = if arrow.planned { Colour::BLACK } else { Colour::VERMILION };
-        if !arrow.planned {
-            let Transition { from, event, to } = arrow.transition;
-            let (one, other) = (place(from), place(to));
-            let middle = (0.5 * (one.0 + other.0), 0.5 * (one.1 + other.1));
-            let style = TextStyle::new(Anchor::Middle).colour(colour);
-            drawing = drawing.text(middle, style, Label::plain(&format!("{event:?}")));
-        }
-        drawing = drawing.arrow(arrow.points, Stroke::new(colour, 0.8));
-        for (words, at, anchor) in arrow.words {
+    for (points, words) in census.transitions.iter().filter_map(|transition| arrow(*transition)) {
+        drawing = drawing.arrow(points, stroke);
+        for (words, at, anchor) in words {
             drawing = drawing.text(at, TextStyle::new(anchor).size(8.0).colour(grey), words);
         }
     }

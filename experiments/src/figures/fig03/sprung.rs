@@ -17,7 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::motor_case::MotorCase;
+use crate::figures::shared::motor::MotorCase;
 
 /// Springs under the motors of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]
@@ -38,8 +38,7 @@ pub(super) struct SprungMotor {
     pub(super) travel_m: f64,
     /// The static deflection for which the preload changes by the share, from end to end of the travel.
     pub(super) deflection_for_share_m: f64,
-    /// The first flight of a rotor at rest.
-    pub(super) flight_cycles: f64,
+    /// By the spring, the first flight of a rotor at rest.
     pub(super) springs: Vec<SprungFlight>,
 }
 
@@ -197,7 +196,6 @@ fn motor(case: &MotorCase, events: usize) -> Result<SprungMotor, ExperimentError
         events,
         travel_m: travel * length,
         deflection_for_share_m: travel * length / SHARE,
-        flight_cycles: constant.duration / std::f64::consts::TAU,
         springs,
     })
 }
@@ -205,7 +203,7 @@ fn motor(case: &MotorCase, events: usize) -> Result<SprungMotor, ExperimentError
 /// The motors of Table III with the amplitudes of Fig. 10.
 pub(super) fn sprung(quality: Quality) -> Result<Sprung, ExperimentError> {
     let section = paper::section_five()?;
-    let default = MotorCase::default_of(&paper::table_three()?, &section);
+    let default = MotorCase::table_three()?;
     let events = quality.choose(2_000, 20_000);
     let motors = section
         .amplitudes_of_fig10_m
@@ -221,7 +219,7 @@ mod tests {
 
     fn motors() -> Vec<(Launch, End)> {
         let section = paper::section_five().expect("reads");
-        let default = MotorCase::default_of(&paper::table_three().expect("reads"), &section);
+        let default = MotorCase::table_three().expect("reads");
         let system = |amplitude_m: f64| MotorCase { amplitude_m, ..default }.system().expect("legal");
         let flight = |system: System| first_flight(&system).expect("runs").expect("flies");
         section.amplitudes_of_fig10_m.into_iter().map(system).map(flight).collect()

@@ -9,9 +9,8 @@ use crate::claims::judging::{LINE_WIDTH, trend};
 use crate::claims::paper::Uncertain;
 use crate::claims::printed::PrintedNumber;
 use crate::claims::{self as claim, Claim};
-use crate::figures::numbers;
+use crate::figures::shared::numbers;
 
-const ID: &str = "fig04";
 /// The lags θ = nπ/8 with n a multiple of this are linear motions.
 const LINEAR_LAGS: u32 = 8;
 /// An angle as a multiple of π.
@@ -42,8 +41,6 @@ fn described(data: &Fig04Data) -> String {
 
 pub(super) fn claims(data: &Fig04Data) -> Vec<Claim> {
     let mut claims = optimum(data);
-    claims.push(hand_speed(data));
-    claims.extend(even_grid(data));
     claims.push(dependence(data));
     claims.push(separation(data));
     claims
@@ -268,32 +265,6 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
             ),
         ),
     ]
-}
-
-/// Whether the printed optimum fits Table I's hand.
-fn hand_speed(data: &Fig04Data) -> Claim {
-    let hand = &data.consistency.hand_speed;
-    Claim::statement(
-        ID,
-        "Sec. III B",
-        "printed φ_L, speed and speed ratio of the optimum fit Table I's c, ω and a_e",
-        hand.least_rad_per_s <= hand.most_rad_per_s,
-        format!(
-            "the hand's largest speed at the printed φ_L is at least {:.2} rad/s; the printed speed and ratio allow at most {:.2} rad/s, whatever μ and a_g",
-            hand.least_rad_per_s, hand.most_rad_per_s,
-        ),
-    )
-}
-
-/// What an even grid of amplitude angles gives.
-fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
-    let grid = &data.consistency.coarse_grid;
-    grid.reading.numbers.iter().map(move |number| {
-        let quantity = format!("{}, as the best of {} intervals", number.quantity, grid.intervals);
-        Claim::reading(ID, &number.key, &quantity, number.computed)
-            .fitted("a_g, and the number of intervals")
-            .note(described(data))
-    })
 }
 
 /// How the optimum depends on friction.

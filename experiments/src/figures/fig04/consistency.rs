@@ -7,75 +7,49 @@ use bouncing_disk::toss::InitialSpin;
 
 use super::data::{CoarseGrid, Comparison, Consistency, HandSpeed, Reading, TossPoint};
 use super::sweep::{best_angle, maximum_index, ratio, speed, speed_curve, speeds};
+use crate::claims::catalogue;
 use crate::claims::paper::{SectionThree, TableOne};
 use crate::claims::printed::PrintedNumber;
 use crate::experiment::ExperimentError;
-use crate::figures::angle_grid::{
-    AngleGrid, MOST_INTERVALS, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
+use crate::figures::shared::toss::{
+    AngleGrid, MOST_INTERVALS, TossCase, frequency_of, grid_angle, launch_case, printed_angles, unreadable,
 };
-use crate::figures::toss_case::TossCase;
 
 /// Numbers that the paper prints about tosses with θ = 0.
 const NUMBERS: usize = 7;
-/// The names of the printed numbers in `data/paper/section3.json`.
-const NAMES: [&str; NUMBERS] = [
-    "predicted_airborne_speed",
-    "optimal_amplitude_angle",
-    "largest_airborne_speed",
-    "largest_efficiency",
-    "speed_ratio_at_optimum",
-    "largest_speed_ratio",
-    "amplitude_angle_of_largest_speed_ratio",
+/// The printed numbers in `data/paper/section3.json`, and what they are.
+const NAMES: [(&str, &str); NUMBERS] = [
+    ("predicted_airborne_speed", "airborne speed of Table I's toss (rad/s)"),
+    ("optimal_amplitude_angle", "φ_L of the fastest toss (rad)"),
+    ("largest_airborne_speed", "airborne speed of the fastest toss (rad/s)"),
+    ("largest_efficiency", "efficiency of the fastest toss"),
+    ("speed_ratio_at_optimum", "speed ratio of the fastest toss"),
+    ("largest_speed_ratio", "largest speed ratio at θ = 0"),
+    ("amplitude_angle_of_largest_speed_ratio", "φ_L of the largest speed ratio at θ = 0 (rad)"),
 ];
 
 /// The printed numbers as intervals.
-struct Printed {
-    texts: [(&'static str, String); NUMBERS],
-    centres: [f64; NUMBERS],
-    half_units: [f64; NUMBERS],
-}
+struct Printed([PrintedNumber; NUMBERS]);
 
 impl Printed {
-    /// The last number is the angle of the largest speed ratio.
-    fn new(section: &SectionThree) -> Option<Self> {
-        let texts = [
-            ("airborne speed of Table I's toss (rad/s)", &section.predicted_airborne_speed_rad_per_s),
-            ("φ_L of the fastest toss (rad)", &section.optimal_amplitude_angle_rad),
-            ("airborne speed of the fastest toss (rad/s)", &section.largest_airborne_speed_rad_per_s),
-            ("efficiency of the fastest toss", &section.largest_efficiency),
-            ("speed ratio of the fastest toss", &section.speed_ratio_at_optimum),
-            ("largest speed ratio at θ = 0", &section.largest_speed_ratio),
-            (
-                "φ_L of the largest speed ratio at θ = 0 (rad)",
-                &section.amplitude_angle_of_largest_speed_ratio_rad,
-            ),
-        ]
-        .map(|(name, text)| (name, text.clone()));
-        let mut centres = [0.0; NUMBERS];
-        let mut half_units = [0.0; NUMBERS];
-        for (index, (_, text)) in texts.iter().enumerate() {
-            let number = PrintedNumber::read(text)?;
-            (centres[index], half_units[index]) = (number.value, number.half_unit);
-        }
-        Some(Self { texts, centres, half_units })
+    fn new() -> Result<Self, ExperimentError> {
+        let numbers = NAMES.iter().map(|(name, _)| catalogue::number(&format!("section3.{name}"), 0));
+        let numbers = numbers.collect::<Result<Vec<_>, _>>()?;
+        numbers.try_into().map(Self).map_err(|_| unreadable())
     }
 
-    /// Distance from the printed value in half units of its last digit.
-    fn misses(&self, numbers: &[f64; NUMBERS]) -> [f64; NUMBERS] {
-        std::array::from_fn(|index| (numbers[index] - self.centres[index]) / self.half_units[index])
+    fn are_all(&self, numbers: &[f64; NUMBERS]) -> bool {
+        let mut pairs = self.0.iter().zip(numbers);
+        pairs.all(|(printed, number)| ((number - printed.value) / printed.half_unit).abs() <= 1.0)
     }
+}
 
-    fn reading(&self, parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
-        let misses = self.misses(numbers);
-        let compare = |index: usize| Comparison {
-            quantity: self.texts[index].0.to_owned(),
-            key: format!("section3.{}", NAMES[index]),
-            printed: self.texts[index].1.clone(),
-            computed: numbers[index],
-            reproduced: misses[index].abs() <= 1.0,
-        };
-        Reading { parameters, numbers: (0..NUMBERS).map(compare).collect() }
-    }
+fn reading(parameters: TossCase, numbers: &[f64; NUMBERS]) -> Reading {
+    let compare = |((_, quantity), computed): (&(&str, &str), &f64)| Comparison {
+        quantity: (*quantity).to_owned(),
+        computed: *computed,
+    };
+    Reading { parameters, numbers: NAMES.iter().zip(numbers).map(compare).collect() }
 }
 
 fn in_order(table_speed: f64, fastest: &TossPoint, largest_ratio: &TossPoint) -> [f64; NUMBERS] {
@@ -99,11 +73,11 @@ fn smooth_numbers(case: &TossCase) -> Result<[f64; NUMBERS], ExperimentError> {
 
 /// See [`HandSpeed`]. Speed and ratio together fix the hand's speed, whatever the friction.
 fn hand_speed(printed: &Printed, table: &TossCase) -> HandSpeed {
-    let (centre, half) = (&printed.centres, &printed.half_units);
+    let [_, angle, speed, _, ratio, ..] = &printed.0;
     let rim = table.stroke_m * table.angular_frequency_rad_per_s / table.contact_radius_m;
     HandSpeed {
-        least_rad_per_s: rim * sin(centre[1] - half[1]),
-        most_rad_per_s: (centre[2] + half[2]) / (centre[4] - half[4]),
+        least_rad_per_s: rim * sin(angle.value - angle.half_unit),
+        most_rad_per_s: (speed.value + speed.half_unit) / (ratio.value - ratio.half_unit),
     }
 }
 
@@ -141,7 +115,7 @@ fn coarse_grid(
         let gyration_radius_m = radius.value + radius.uncertainty * f64::from(step) / f64::from(RADIUS_STEPS);
         let case = TossCase { gyration_radius_m, ..case };
         let numbers = grid_numbers(&case, intervals)?;
-        if printed.misses(&numbers).iter().all(|miss| miss.abs() <= 1.0) {
+        if printed.are_all(&numbers) {
             fitting.push((case, numbers));
         }
     }
@@ -160,15 +134,13 @@ fn coarse_grid(
         share_by_chance: grid.share_by_chance(&angles),
         intervals,
         indices: grid.indices,
-        intervals_with_printed_frequency: AngleGrid::with(table.largest_angle(), &angles)
-            .map(|grid| grid.intervals),
         most_intervals: MOST_INTERVALS,
         frequency_range_rad_per_s: (frequency_of(&table, range.0), frequency_of(&table, range.1)),
         gyration_radius_range_m: fitting
             .first()
             .zip(fitting.last())
             .map(|(first, last)| (first.0.gyration_radius_m, last.0.gyration_radius_m)),
-        reading: printed.reading(chosen, &numbers),
+        reading: reading(chosen, &numbers),
         grid_speed_rad_per_s: speeds(&chosen, &grid_angle_rad)?,
         grid_angle_rad,
     })
@@ -180,11 +152,11 @@ pub(super) fn consistency(
     section: &SectionThree,
     count: u32,
 ) -> Result<Consistency, ExperimentError> {
-    let printed = Printed::new(section).ok_or_else(unreadable)?;
+    let printed = Printed::new()?;
     let case = TossCase::from(table);
     let coarse_grid = coarse_grid(table, &printed, section)?;
     Ok(Consistency {
-        as_printed: printed.reading(case, &smooth_numbers(&case)?),
+        as_printed: reading(case, &smooth_numbers(&case)?),
         coarse_grid_curve: speed_curve(&coarse_grid.reading.parameters, count)?,
         hand_speed: hand_speed(&printed, &case),
         coarse_grid,

@@ -4,7 +4,7 @@ use bouncing_disk::toss::InitialSpin;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::{SectionThree, TableOne};
-use crate::figures::toss_case::TossCase;
+use crate::figures::shared::toss::TossCase;
 
 /// The data of Fig. 4.
 #[derive(Debug, Serialize, Deserialize)]
@@ -165,12 +165,8 @@ pub(super) struct Reading {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Comparison {
     pub(super) quantity: String,
-    /// The entry of the catalogue.
-    pub(super) key: String,
-    pub(super) printed: String,
     /// In the unit of the printed number; angles in rad.
     pub(super) computed: f64,
-    pub(super) reproduced: bool,
 }
 
 /// The reading in which maxima are the best points of an even grid of amplitude angles.
@@ -185,8 +181,7 @@ pub(super) struct CoarseGrid {
     pub(super) intervals: u32,
     /// The index of each printed angle among these points.
     pub(super) indices: Vec<u32>,
-    /// The same for ω as printed; absent if no number of intervals up to `most_intervals` works.
-    pub(super) intervals_with_printed_frequency: Option<u32>,
+    /// So many are tried.
     pub(super) most_intervals: u32,
     /// Share of all largest angles between 0.40 π and 0.48 π for which `intervals` or fewer intervals work.
     pub(super) share_by_chance: f64,

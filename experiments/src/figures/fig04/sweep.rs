@@ -13,7 +13,7 @@ use super::data::{
     SpeedCurve, TossPoint,
 };
 use crate::experiment::ExperimentError;
-use crate::figures::toss_case::{TossCase, maximum};
+use crate::figures::shared::toss::{TossCase, maximum};
 
 /// The paper's phase lags are n π/8 with n up to this.
 const LAGS: u32 = 8;

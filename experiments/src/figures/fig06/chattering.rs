@@ -3,22 +3,19 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use bouncing_disk::InitialCondition;
 use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::sweep::{SweepEvent, sweep};
-use bouncing_disk::core::{
-    ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Phase, Unobserved, Vibration,
-};
+use bouncing_disk::core::{ChatterPolicy, Error, ImpactMap, Launch, OrbitEvent, Unobserved, Vibration};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{ChatteringCycle, LONG_FLIGHT, MultiTossSettings, TossOrbit, multi_toss};
 
 use super::data::{Chatter, SingleTosses, Slice};
-use super::inputs::{Inputs, Systems, map};
-use super::slices::slice;
+use super::slices::{Inputs, Systems, slice, start};
 use crate::claims::judging::trend;
 use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
+use crate::figures::shared::map;
 
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;
@@ -119,14 +116,8 @@ pub(super) fn chatters(forcings: &[f64], restitution: f64) -> Result<Vec<Chatter
     forcings.iter().map(chatter).filter_map(Result::transpose).collect()
 }
 
-/// Rest on the platform at its lowest point, turning with it.
-pub(super) fn from_rest(system: &DimensionlessSystem) -> Result<InitialCondition, ExperimentError> {
-    let phase = Phase::new(1.5 * PI)?;
-    Ok(InitialCondition::Contact { phase, angular_speed: system.platform_angular_speed(phase) })
-}
-
 fn tosses(system: &DimensionlessSystem, settings: MultiTossSettings) -> Result<TossOrbit, ExperimentError> {
-    multi_toss(*system, from_rest(system)?, settings, &Unobserved).map_err(ExperimentError::model)
+    multi_toss(*system, start(system, None, true)?, settings, &Unobserved).map_err(ExperimentError::model)
 }
 
 /// The impacts of the chattering orbit, if the disk has a chattering `cycle` at this forcing.

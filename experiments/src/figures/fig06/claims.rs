@@ -4,8 +4,7 @@ use std::f64::consts::TAU;
 
 use super::data::Fig06Data;
 use super::{regimes, rotation};
-use crate::claims::catalogue;
-use crate::claims::{self as claim, Claim};
+use crate::claims::{self as claim, Claim, catalogue};
 
 /// The doublings whose Γ is printed.
 const PRINTED_DOUBLINGS: usize = 5;
@@ -110,41 +109,27 @@ fn period_one(data: &Fig06Data) -> Vec<Claim> {
 fn introduction(data: &Fig06Data) -> Vec<Claim> {
     let motions = &data.motions;
     let (_, fullest) = rotation::extent(motions.iter().map(|motion| motion.highest / motion.height_bound));
-    let (_, highest) = rotation::extent(motions.iter().map(|motion| motion.highest));
-    let (shortest, longest) = rotation::extent(motions.iter().map(|motion| motion.platform_periods));
     let (_, elastic) = rotation::extent(motions.iter().map(|motion| motion.restitution));
-    let turned = |motion: &super::data::Motion| (motion.turned_in_first_half, motion.turned_in_second_half);
-    let own: Vec<String> = motions
-        .iter()
-        .filter(|motion| motion.restitution <= data.restitution)
-        .map(|motion| {
-            let (first, second) = turned(motion);
-            format!("Γ = {}: {first:.0} and {second:.0}", motion.axial_forcing)
-        })
-        .collect();
-    let runs = format!(
-        "{} motions from rest at the Γ of Fig. 7 and restitutions {} to {elastic}, over {shortest:.0} to {longest:.0} periods of the platform",
-        motions.len(),
-        data.restitution
-    );
+    let (_, farthest) = rotation::extent(motions.iter().map(|motion| motion.turned_in_second_half.abs()));
     vec![
         Claim::printed_statement(
             "section1.displacement_bounded",
             claim::all(motions, |motion| motion.highest <= motion.height_bound),
             format!(
-                "{runs}: heights up to {highest:.1} A, at most {fullest:.2} of the height that energy allows for ever at the restitution",
+                "{} motions from rest at the Γ of Fig. 7 and restitutions {} to {elastic}: at most {fullest:.2} of the height that energy allows for ever at the restitution",
+                motions.len(),
+                data.restitution
             ),
         ),
         Claim::printed_statement(
             "section1.unbounded_rotation",
             claim::any(motions, |motion| {
-                let (first, second) = turned(motion);
+                let (first, second) = (motion.turned_in_first_half, motion.turned_in_second_half);
                 // As far again in the second half, and far more than the platform's own 2Φ.
                 first * second > 0.0 && second.abs() > 0.5 * first.abs() && second.abs() > 100.0
             }),
             format!(
-                "angle turned in the first and in the second half of the impacts, in units of Φ, in the motion (d): {}",
-                own.join("; ")
+                "with θ and Γ_T of (d) up to {farthest:.0} Φ in the second half of the impacts, and as far in the first"
             ),
         ),
     ]

@@ -10,16 +10,14 @@ use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings};
 use rayon::prelude::*;
 
-use super::chattering;
 use super::data::{
     BestLag, Bouncing, Column, Fig06Data, ForcingEffect, Merging, SingleTosses, Slice, Transfer,
 };
-use super::inputs::{Inputs, map, no_orbit};
-use super::slices::{branch_crossings, followed_slice, forcing_effect};
-use super::{contact, dimension, explored, merging, period_one};
+use super::slices::{Inputs, branch_crossings, followed_slice, forcing_effect, no_orbit};
+use super::{chattering, contact, explored, period_one};
 use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::FORCING_RANGE;
+use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::Progress;
 
 /// Impacts after which a disk that has not come to rest is looked at.
@@ -115,8 +113,8 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
         lyapunov_exponents,
         period_one: period_one::period_one(inputs)?,
         motions: contact::motions(&section.axial_forcings_of_fig7, inputs)?,
-        dimension: dimension::dimension()?,
-        torque_ratios: dimension::torque_ratios()?,
+        dimension: contact::dimension()?,
+        torque_ratios: contact::torque_ratios()?,
         transfers,
         motor_share_in_impacts: contact::motor_transfer()?,
         explored,
@@ -242,7 +240,7 @@ impl Searches {
     ) -> Result<Self, ExperimentError> {
         let inputs = Inputs::from(section);
         let Diagrams { first, walk, cycles, .. } = diagrams;
-        let crisis = || merging::merging(*first, inputs, quality.choose(40_000, 400_000));
+        let crisis = || explored::merging(*first, inputs, quality.choose(40_000, 400_000));
         let others = || -> Result<_, ExperimentError> {
             let single_tosses = chattering::single_tosses(cycles, section, settings.policy)?;
             progress.advance(1);

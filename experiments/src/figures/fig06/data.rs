@@ -113,8 +113,6 @@ pub(super) struct LagScan {
 pub(super) struct Motion {
     pub(super) axial_forcing: f64,
     pub(super) restitution: f64,
-    pub(super) impacts: usize,
-    pub(super) platform_periods: f64,
     /// Largest height of the disk, in amplitudes of the platform.
     pub(super) highest: f64,
     /// No disk can ever rise higher, by energy.
@@ -133,8 +131,6 @@ pub(super) struct Dimension {
     pub(super) outcomes: usize,
     /// Rank of the matrix of derivatives.
     pub(super) rank: usize,
-    /// Its pivots relative to the first, rounded to 1e-6: those of dependent inputs are 0.
-    pub(super) pivots: Vec<f64>,
 }
 
 /// Γ_T beside the torques.
@@ -187,8 +183,6 @@ pub(super) struct Explored {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Shadow {
     pub(super) axial_forcing: f64,
-    /// Orbits that stayed long enough to show the saddle.
-    pub(super) stayed: usize,
     /// Share of the impacts within a hundredth or two of the saddle, in periods and in |w_A Γ/(ωA)|.
     pub(super) share_near: f64,
     /// Share of the plane, up to the largest speed just after the crisis, that is so near.
@@ -204,9 +198,7 @@ pub(super) struct BestLag {
     pub(super) followed: bool,
     /// Impacts in one round of it, if it is periodic.
     pub(super) period: Option<usize>,
-    /// The best lag tried (rad).
-    pub(super) lag_rad: f64,
-    /// Mean speed/(ωΦ) there.
+    /// Mean speed/(ωΦ) at the best lag tried.
     pub(super) speed: f64,
 }
 

@@ -1,23 +1,104 @@
-//! What the orbits visit at the crisis and beyond it, and the period doublings at finer steps of Γ.
+//! The crisis in which the followed attractor is lost to chattering, what the orbits visit there and beyond it, and the period
+//! doublings at finer steps of Γ.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use bouncing_disk::InitialCondition;
+use bouncing_disk::core::numerics::roots::bracket_of_width;
 use bouncing_disk::core::orbits::follow_attractor;
 use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
-use bouncing_disk::core::{ImpactState, Launch, Orbit, Phase, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, ImpactState, Launch, Orbit, Phase, Unobserved};
 use bouncing_disk::motor::{NormalImpulses, PhasedImpulse};
-use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::parameters::ForcingParameters;
 use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
 use rayon::prelude::*;
 
-use super::chattering::from_rest;
 use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
-use super::inputs::{Inputs, map, no_orbit};
-use super::merging::starts;
+use super::slices::{Inputs, no_orbit, start};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::numbers::{occupied_arc, six_decimals};
+use crate::figures::shared::numbers::occupied_arc;
+use crate::figures::shared::{distinct_phases, map};
+
+/// Γ inside the chaotic range, where the starts of all trials lie on the attractor.
+const SAFE_FORCING: f64 = 0.5555;
+/// Γ at which the attractor is long gone.
+const LOST_FORCING: f64 = 0.567;
+/// Orbits tried.
+const STARTS: usize = 8;
+/// Width at which the bisection ends.
+const BRACKET: f64 = 1.0e-7;
+
+/// States on the followed attractor at [`SAFE_FORCING`].
+pub(super) fn starts(first: ImpactState, inputs: Inputs) -> Result<Vec<ImpactState>, ExperimentError> {
+    let Inputs { restitution, followed_from, .. } = inputs;
+    let forcings = (0..).map(|i| followed_from + 1.0e-4 * f64::from(i)).take_while(|f| *f < SAFE_FORCING);
+    let mut state = first;
+    for followed in follow_attractor(restitution, forcings, first, 300, ChatterPolicy::Complete) {
+        state = followed?.state;
+    }
+    let map = map(SAFE_FORCING, restitution)?;
+    let mut states = Vec::new();
+    while states.len() < STARTS {
+        match map.state_after(state, 1_000, ChatterPolicy::Complete, &Unobserved)? {
+            Some(next) => states.push(next),
+            None => break,
+        }
+        state = states[states.len() - 1];
+    }
+    Ok(states)
+}
+
+/// The orbits of all starts at each Γ.
+fn orbits(forcings: &[f64], starts: &[ImpactState], restitution: f64) -> Result<Vec<Orbit>, ExperimentError> {
+    let mut orbits = Vec::with_capacity(forcings.len() * starts.len());
+    for &forcing in forcings {
+        let map = map(forcing, restitution)?;
+        orbits.extend(starts.iter().map(|&start| map.orbit(start, ChatterPolicy::Complete)));
+    }
+    Ok(orbits)
+}
+
+/// The last bracket (survived, lost). Its few orbits are advanced one by one: the next Γ is known only when they are done, and
+/// k bisections ahead at once are (2^k − 1)/k times as many orbits, which takes back most of what lanes gain.
+fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
+    bracket_of_width(SAFE_FORCING, LOST_FORCING, BRACKET, |forcing| {
+        let orbits = orbits(&[forcing], starts, restitution)?;
+        let lives = survival_times(&orbits, impacts, &Unobserved)?;
+        Ok(lives.into_iter().all(|lived| lived == impacts))
+    })
+}
+
+/// Locates the crisis of the attractor that is followed from `first`.
+pub(super) fn merging(
+    first: ImpactState,
+    inputs: Inputs,
+    impacts: usize,
+) -> Result<Merging, ExperimentError> {
+    let starts = starts(first, inputs)?;
+    let restitution = inputs.restitution;
+    let (whole, tenth) = rayon::join(
+        || bracket(&starts, restitution, impacts),
+        || bracket(&starts, restitution, impacts / 10),
+    );
+    let ((survived, lost), (survived_in_a_tenth, lost_in_a_tenth)) = (whole?, tenth?);
+    let forcings: Vec<f64> = (0..16).map(|i| 0.5600 + 0.0001 * f64::from(i)).collect();
+    let lives = survival_times(&orbits(&forcings, &starts, restitution)?, impacts / 10, &Unobserved)?;
+    let mean_life_impacts = forcings
+        .into_iter()
+        .zip(lives.chunks(starts.len().max(1)))
+        .map(|(forcing, lives)| (forcing, lives.iter().sum::<usize>() as f64 / lives.len() as f64))
+        .collect();
+    Ok(Merging {
+        impacts,
+        starts: starts.len(),
+        survived,
+        lost,
+        survived_in_a_tenth,
+        lost_in_a_tenth,
+        mean_life_impacts,
+    })
+}
 
 /// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
 /// impacts on the mean before it comes to rest for the first time.
@@ -96,12 +177,8 @@ fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, E
     orbit_diagram(orbits, 0, impacts, &Unobserved).map_err(ExperimentError::model)
 }
 
-/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while, and how many of them did.
-fn saddle(
-    axial_forcing: f64,
-    from: &[ImpactState],
-    inputs: Inputs,
-) -> Result<(Cells, usize), ExperimentError> {
+/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while.
+fn saddle(axial_forcing: f64, from: &[ImpactState], inputs: Inputs) -> Result<Cells, ExperimentError> {
     let map = map(axial_forcing, inputs.restitution)?;
     let orbits: Vec<Orbit> = from
         .iter()
@@ -116,7 +193,7 @@ fn saddle(
         .map(|(orbit, _)| orbit)
         .collect();
     let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS, &Unobserved)?;
-    Ok((Cells::of(&states.concat(), CELLS), stay.len()))
+    Ok(Cells::of(&states.concat(), CELLS))
 }
 
 /// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ.
@@ -139,11 +216,10 @@ pub(super) fn explored(
     let after = visited(after, &beside[1]);
     let beyond = cycles.iter().filter(|(forcing, cycle)| *forcing > crisis && cycle.is_some());
     let shadow = |&(axial_forcing, _): &(f64, Option<usize>)| {
-        let (saddle, stayed) = saddle(axial_forcing, &beside[0], inputs)?;
+        let saddle = saddle(axial_forcing, &beside[0], inputs)?;
         let states = recorded(&[orbit_from_rest(axial_forcing, inputs)?], SHADOWING)?;
         Ok(Shadow {
             axial_forcing,
-            stayed,
             share_near: saddle.share(&states[0]),
             share_of_plane: saddle.share_of_plane(after.largest_speed),
         })
@@ -186,12 +262,9 @@ pub(super) fn zoom(
     Ok(followed
         .iter()
         .zip(states)
-        .map(|(at, states)| {
-            let mut phases: Vec<f64> =
-                states.iter().map(|state| six_decimals(state.phase().cycles())).collect();
-            phases.sort_by(f64::total_cmp);
-            phases.dedup_by(|one, other| one.total_cmp(other).is_eq());
-            Column { axial_forcing: at.axial_forcing, impact_phase_cycles: phases }
+        .map(|(at, states)| Column {
+            axial_forcing: at.axial_forcing,
+            impact_phase_cycles: distinct_phases(&states),
         })
         .collect())
 }
@@ -223,7 +296,6 @@ pub(super) fn best_lags(
                 angular_forcing,
                 followed: state.is_some(),
                 period: None,
-                lag_rad: 0.0,
                 speed: f64::NEG_INFINITY,
             };
             for step in LAGS_DEG {
@@ -235,14 +307,14 @@ pub(super) fn best_lags(
                     restitution: inputs.restitution,
                 }
                 .build()?;
-                let orbit = multi_toss(system, start(&system, state)?, settings, &Unobserved)?;
+                let orbit = multi_toss(system, start(&system, state, true)?, settings, &Unobserved)?;
                 let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
                 if speed > best.speed {
                     let period = match orbit.class {
                         OrbitClass::Periodic { period, .. } => Some(period),
                         _ => None,
                     };
-                    best = BestLag { lag_rad: phase_lag, speed, period, ..best };
+                    best = BestLag { speed, period, ..best };
                 }
             }
             Ok(best)
@@ -297,7 +369,6 @@ pub(super) fn one_impact_decides(
                 angular_forcing: LARGE_ANGULAR_FORCING,
                 followed: false,
                 period: None,
-                lag_rad: -phase,
                 speed: orbit.mean_angular_speed.unwrap_or_default() / angular_speed,
             }))
         })
@@ -312,16 +383,3 @@ pub(super) fn one_impact_decides(
 
 /// A speed of at least this share of ωΦ is the maximum, here and everywhere: it differs by rounding.
 pub(super) const AT_MAXIMUM: f64 = 1.0 - 1.0e-9;
-
-/// On the followed attractor, or at rest.
-fn start(
-    system: &DimensionlessSystem,
-    state: Option<ImpactState>,
-) -> Result<InitialCondition, ExperimentError> {
-    let Some(state) = state else { return from_rest(system) };
-    Ok(InitialCondition::Launch {
-        phase: state.phase(),
-        relative_speed: -system.restitution() * state.velocity(),
-        angular_speed: system.platform_angular_speed(state.phase()),
-    })
-}

@@ -8,8 +8,9 @@ use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 
 use super::data::{LagScan, PeriodOne};
-use super::inputs::{Inputs, map, no_orbit};
+use super::slices::{Inputs, no_orbit};
 use crate::experiment::ExperimentError;
+use crate::figures::shared::map;
 
 /// Width at which the bisection on the threshold ends. The orbit is found next to its birth as far as Newton's iteration goes
 /// there; its phase moves with the square root of the distance.

@@ -2,10 +2,9 @@
 
 use super::data::{BestLag, Chatter, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
-use crate::claims::catalogue;
 use crate::claims::judging::trend;
-use crate::claims::{self as claim, Cases, Claim};
-use crate::figures::numbers::occupied_arc;
+use crate::claims::{self as claim, Cases, Claim, catalogue};
+use crate::figures::shared::numbers::occupied_arc;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
     let mut claims = chattering(data);
@@ -252,14 +251,10 @@ fn chattering(data: &Fig06Data) -> Vec<Claim> {
     let periods = single.periods_beyond.map_or("no".to_owned(), |low| format!("{low} or more"));
     vec![
         Claim::printed("section4.merging", merging.axial_forcing()).note(format!(
-            "bisection on the survival of {} orbits of the followed attractor for {} impacts: {:.7} survived, {:.7} lost; \
-             with a tenth of the impacts the crisis comes out at {:.7}; uncertainty {:.0e}. Bisection can only err \
+            "bisection on the survival of {} orbits of the followed attractor for {} impacts; uncertainty {:.0e}. Bisection can only err \
              upwards, by the time an orbit takes to find a new gap",
             merging.starts,
             merging.impacts,
-            merging.survived,
-            merging.lost,
-            0.5 * (merging.survived_in_a_tenth + merging.lost_in_a_tenth),
             merging.uncertainty(),
         )),
         Claim::printed_statement(

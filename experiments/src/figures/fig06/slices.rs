@@ -1,18 +1,109 @@
-//! What is stored of the attractors at one Γ, and what follows from several of them: where branches of the speed cross, and what Γ_T does to the rotation.
+//! The printed inputs of the diagrams and the systems made from them, what is stored of the attractors at one Γ, and what
+//! follows from several of them: where branches of the speed cross, and what Γ_T does to the rotation.
 
 use std::f64::consts::PI;
 
 use bouncing_disk::InitialCondition;
-use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::orbits::Followed;
+use bouncing_disk::core::{ImpactState, Phase, Unobserved};
 use bouncing_disk::estimate::Spread;
-use bouncing_disk::parameters::DimensionlessSystem;
-use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings, OrbitClass, TossOrbit, multi_toss};
+use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
+use bouncing_disk::toss::{
+    ChatteringCycle, MultiTossSettings, OrbitClass, TOSS_START, TossOrbit, multi_toss,
+};
 
 use super::data::{ForcingEffect, Slice, Twist};
-use super::inputs::{Inputs, Systems};
+use crate::claims::paper::SectionFour;
 use crate::experiment::ExperimentError;
-use crate::figures::numbers::{self, six_decimals};
+use crate::figures::shared::numbers::{self, six_decimals};
+
+/// The printed inputs of the diagrams.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inputs {
+    pub(super) restitution: f64,
+    pub(super) followed_from: f64,
+    /// (c).
+    pub(super) linear: Twist,
+    /// (d).
+    pub(super) semielliptical: Twist,
+}
+
+impl Inputs {
+    /// With the angular forcings of (c) and (d) exchanged.
+    pub(super) fn exchanged(self) -> Self {
+        let Self { linear, semielliptical, .. } = self;
+        Self {
+            linear: Twist { angular_forcing: semielliptical.angular_forcing, ..linear },
+            semielliptical: Twist { angular_forcing: linear.angular_forcing, ..semielliptical },
+            ..self
+        }
+    }
+}
+
+impl From<&SectionFour> for Inputs {
+    fn from(section: &SectionFour) -> Self {
+        Self {
+            restitution: section.restitution,
+            followed_from: section.followed_from,
+            linear: Twist {
+                phase_lag_rad: section.linear_phase_lag_rad,
+                angular_forcing: section.linear_angular_forcing,
+            },
+            semielliptical: Twist {
+                phase_lag_rad: section.semielliptical_phase_lag_rad,
+                angular_forcing: section.semielliptical_angular_forcing,
+            },
+        }
+    }
+}
+
+/// The two rotary motions over one vertical one.
+pub(super) struct Systems {
+    pub(super) linear: DimensionlessSystem,
+    pub(super) semielliptical: DimensionlessSystem,
+}
+
+impl Systems {
+    pub(super) fn at(axial_forcing: f64, inputs: Inputs) -> Result<Self, ExperimentError> {
+        let build = |twist: Twist| {
+            ForcingParameters {
+                axial_forcing,
+                angular_forcing: twist.angular_forcing,
+                phase_lag: twist.phase_lag_rad,
+                restitution: inputs.restitution,
+            }
+            .build()
+            .map_err(ExperimentError::model)
+        };
+        Ok(Self { linear: build(inputs.linear)?, semielliptical: build(inputs.semielliptical)? })
+    }
+}
+
+/// A disk after this impact, or without one at rest on the platform at its lowest point; it turns with the platform, or not at all.
+pub(super) fn start(
+    system: &DimensionlessSystem,
+    state: Option<ImpactState>,
+    turns: bool,
+) -> Result<InitialCondition, ExperimentError> {
+    let phase = state.map_or_else(|| Phase::new(TOSS_START), |state| Ok(state.phase()))?;
+    let angular_speed = if turns { system.platform_angular_speed(phase) } else { 0.0 };
+    Ok(match state {
+        Some(state) => InitialCondition::Launch {
+            phase,
+            relative_speed: -system.restitution() * state.velocity(),
+            angular_speed,
+        },
+        None => InitialCondition::Contact { phase, angular_speed },
+    })
+}
+
+pub(super) fn no_orbit(axial_forcing: f64) -> ExperimentError {
+    ExperimentError::model(bouncing_disk::core::Error::NotSettled {
+        what: "period-1 orbit",
+        iterations: 0,
+        residual: axial_forcing,
+    })
+}
 
 /// The impacts of the followed attractor, or `None` if the disk comes to rest.
 pub(super) fn followed_slice(
@@ -21,14 +112,9 @@ pub(super) fn followed_slice(
     settings: MultiTossSettings,
 ) -> Result<Option<Slice>, ExperimentError> {
     let systems = Systems::at(followed.axial_forcing, inputs)?;
-    let phase = followed.state.phase();
     let tosses = |system: &DimensionlessSystem| {
-        let start = InitialCondition::Launch {
-            phase,
-            relative_speed: -system.restitution() * followed.state.velocity(),
-            angular_speed: system.platform_angular_speed(phase),
-        };
-        multi_toss(*system, start, settings, &Unobserved)
+        let start = start(system, Some(followed.state), true)?;
+        multi_toss(*system, start, settings, &Unobserved).map_err(ExperimentError::model)
     };
     let linear = tosses(&systems.linear)?;
     if matches!(linear.class, OrbitClass::Chattering { .. } | OrbitClass::AtRest) {

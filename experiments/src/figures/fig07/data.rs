@@ -7,136 +7,105 @@ use serde::{Deserialize, Serialize};
 /// Data of Fig. 7.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fig07Data {
-    /// Coefficient of restitution ε.
-    pub restitution: f64,
+    pub(super) restitution: f64,
     /// Top of the window of |w_A Γ/(ωA)|; it starts at 0, and τ_imp/2π runs from 0 to 1.
-    pub window_top: f64,
-    /// Cells along each side of a panel.
-    pub cells: usize,
-    /// (a) to (e).
-    pub panels: Vec<Panel>,
-    /// Fractions against the window.
-    pub windows: Windows,
+    pub(super) window_top: f64,
+    pub(super) cells: usize,
+    pub(super) panels: Vec<Panel>,
+    pub(super) windows: Windows,
     /// At Γ = 0.55: impacts N, and the share of the window that has not come to rest after N of them.
-    pub decay: Vec<(u32, f64)>,
-    /// Shares along the period-1 window.
-    pub along_window: Vec<Easiness>,
-    /// Starts that do not come to rest, beyond the merging.
-    pub beyond: Vec<Beyond>,
-    /// A disk at rest, at the Γ of the panels.
-    pub rest: Vec<Rest>,
+    pub(super) decay: Vec<(u32, f64)>,
+    pub(super) along_window: Vec<Easiness>,
+    pub(super) beyond: Vec<Beyond>,
+    pub(super) rest: Vec<Rest>,
     /// The further attractor of panel (b), followed in Γ; `None` if there is none.
-    pub traced: Option<Traced>,
+    pub(super) traced: Option<Traced>,
 }
 
 /// How large the basins are at one Γ of the period-1 window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Easiness {
-    /// Γ.
-    pub axial_forcing: f64,
-    /// Shares by the top of the window.
-    pub shares: Vec<TopShares>,
+pub(super) struct Easiness {
+    pub(super) axial_forcing: f64,
+    pub(super) shares: Vec<TopShares>,
 }
 
 /// Shares of the window [0, top].
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct TopShares {
-    /// Top of the window of |w_A Γ/(ωA)|.
-    pub top: f64,
-    /// End on the period-1 orbit.
-    pub period_one: f64,
-    /// Come to rest.
-    pub chattering: f64,
+pub(super) struct TopShares {
+    pub(super) top: f64,
+    pub(super) period_one: f64,
+    pub(super) chattering: f64,
 }
 
 /// The starts at one Γ beyond the merging.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Beyond {
-    /// Γ.
-    pub axial_forcing: f64,
+pub(super) struct Beyond {
+    pub(super) axial_forcing: f64,
     /// Starts, on a square grid over the window.
-    pub starts: usize,
+    pub(super) starts: usize,
     /// Those of them that have not come to rest after `impacts`.
-    pub not_at_rest: usize,
-    /// Impacts followed.
-    pub impacts: u32,
+    pub(super) not_at_rest: usize,
+    pub(super) impacts: u32,
     /// Impacts in one round of what the first of them has settled on; `None` if there is none or it does not repeat.
-    pub period: Option<usize>,
+    pub(super) period: Option<usize>,
 }
 
 /// Disks at rest on the platform, let go at phases where it falls away.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rest {
-    /// Γ.
-    pub axial_forcing: f64,
-    /// Disks.
-    pub starts: usize,
-    /// Those that come to rest again.
-    pub come_to_rest: usize,
+pub(super) struct Rest {
+    pub(super) axial_forcing: f64,
+    pub(super) starts: usize,
+    pub(super) come_to_rest: usize,
 }
 
 /// An attractor followed in Γ.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Traced {
-    /// Step of Γ.
-    pub step: f64,
+pub(super) struct Traced {
+    pub(super) step: f64,
     /// Lowest Γ to which it can be followed.
-    pub appears: f64,
+    pub(super) appears: f64,
     /// Impacts in one round there.
-    pub period_where_it_appears: Option<usize>,
+    pub(super) period_where_it_appears: Option<usize>,
     /// Highest Γ with half of the impacts that it has in the panel; it doubles its period within a step above.
-    pub doubles: Option<f64>,
+    pub(super) doubles: Option<f64>,
     /// Highest Γ to which it can be followed.
-    pub lost: f64,
+    pub(super) lost: f64,
 }
 
 /// The basins at one Γ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Panel {
-    /// Γ.
-    pub axial_forcing: f64,
+pub(super) struct Panel {
+    pub(super) axial_forcing: f64,
     /// Impacts after which a start that has neither come to rest nor reached a known orbit counts as undecided.
-    pub max_impacts: u32,
+    pub(super) max_impacts: u32,
     /// Rows of cells by rising speed, in a row by phase: runs of equal cells, as `512w33b455w` (w chattering, b the
     /// attractor of the period-doubling route, o another attractor, u undecided).
-    pub rows: Vec<String>,
-    /// Shares of the cells.
-    pub shares: Shares,
+    pub(super) rows: Vec<String>,
+    pub(super) shares: Shares,
     /// Share of the cells that have a neighbour of another kind, with the cells grouped 1, 2, 4, 8 a side.
-    pub boundary_shares: Vec<(usize, f64)>,
+    pub(super) boundary_shares: Vec<(usize, f64)>,
     /// The exponents α of boundary share ~ (cell size)^α from each grouping to the next; 2 − α is the boundary's dimension.
     /// Empty where there is no boundary.
-    pub boundary_exponents: Vec<f64>,
+    pub(super) boundary_exponents: Vec<f64>,
     /// The same from the finest grouping to the coarsest.
-    pub boundary_exponent: Option<f64>,
+    pub(super) boundary_exponent: Option<f64>,
     /// Lowest |w_A Γ/(ωA)| of a cell that does not chatter; `None` if all do.
-    pub lowest_not_chattering: Option<f64>,
+    pub(super) lowest_not_chattering: Option<f64>,
     /// Impacts of the attractor of the period-doubling route.
-    pub attractor: Vec<Spot>,
+    pub(super) attractor: Vec<Spot>,
     /// Impacts of the chattering orbit from rest; empty if the disk does not come to rest again.
-    pub chattering: Vec<Spot>,
-    /// Attractors that the paper does not mention.
-    pub others: Vec<Other>,
+    pub(super) chattering: Vec<Spot>,
+    pub(super) others: Vec<Other>,
 }
 
 /// Shares of the cells of a panel.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Shares {
-    /// Come to rest.
-    pub chattering: f64,
+pub(super) struct Shares {
+    pub(super) chattering: f64,
     /// End on the attractor of the period-doubling route.
-    pub attractor: f64,
-    /// End on another attractor.
-    pub other: f64,
-    /// Undecided.
-    pub undecided: f64,
-}
-
-impl Shares {
-    /// Everything that does not chatter.
-    pub fn not_chattering(&self) -> f64 {
-        self.attractor + self.other + self.undecided
-    }
+    pub(super) attractor: f64,
+    pub(super) other: f64,
+    pub(super) undecided: f64,
 }
 
 /// An impact: τ_imp/2π and |w_A Γ/(ωA)|.
@@ -144,47 +113,41 @@ pub(super) type Spot = (f64, f64);
 
 /// A periodic attractor outside the period-doubling route.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Other {
-    /// Its impacts.
-    pub impacts: Vec<Spot>,
-    /// Periods of the platform in one round.
-    pub platform_periods: u64,
+pub(super) struct Other {
+    pub(super) impacts: Vec<Spot>,
+    pub(super) platform_periods: u64,
     /// The larger modulus of its Floquet multipliers.
-    pub spectral_radius: f64,
+    pub(super) spectral_radius: f64,
 }
 
 /// Fractions against the window, at the Γ of (a) and (b).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Windows {
-    /// Rows and columns of the grid.
-    pub grid: (usize, usize),
+pub(super) struct Windows {
+    pub(super) grid: (usize, usize),
     /// The printed shares of the period-1 orbit in (a) and (b).
-    pub printed: [f64; 2],
+    pub(super) printed: [f64; 2],
     /// Windows [0, top] of |w_A Γ/(ωA)| over a whole period.
-    pub curve: Vec<CurvePoint>,
+    pub(super) curve: Vec<CurvePoint>,
     /// Lowest top that gives the number printed for (a); `None` up to the end of the curve.
-    pub top_for_a: Option<f64>,
+    pub(super) top_for_a: Option<f64>,
     /// The same for (b), the period-1 orbit alone.
-    pub top_for_b: Option<f64>,
-    /// The same for (b), everything that does not chatter.
-    pub top_for_b_not_chattering: Option<f64>,
+    pub(super) top_for_b: Option<f64>,
     /// Ranges of tops that give both printed numbers, the period-1 orbit alone in (b).
-    pub tops_for_both: Vec<(f64, f64)>,
+    pub(super) tops_for_both: Vec<(f64, f64)>,
     /// The same, everything that does not chatter in (b).
-    pub tops_for_both_not_chattering: Vec<(f64, f64)>,
+    pub(super) tops_for_both_not_chattering: Vec<(f64, f64)>,
 }
 
 /// One window.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CurvePoint {
-    /// Its top.
-    pub top: f64,
+pub(super) struct CurvePoint {
+    pub(super) top: f64,
     /// Share of the period-1 orbit at the Γ of (a).
-    pub a: f64,
+    pub(super) a: f64,
     /// The same for (b).
-    pub b: f64,
+    pub(super) b: f64,
     /// Share of everything that does not chatter at the Γ of (b).
-    pub b_not_chattering: f64,
+    pub(super) b_not_chattering: f64,
 }
 
 /// Kinds of cells in the picture, as indices into its palette.

@@ -3,17 +3,18 @@
 use bouncing_disk::core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, UNDECIDED};
 use bouncing_disk::core::orbits::Multipliers;
 use bouncing_disk::core::sweep::survival_times;
-use bouncing_disk::core::{
-    ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved, Vibration,
-};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Launch, OrbitEvent, Phase, Unobserved};
 
-use super::data::{ATTRACTOR, CHATTERING, OTHER, STILL_OPEN, boundary_share, exponent, kind, runs};
-use super::data::{Other, Panel, Shares, Spot};
+use super::data::{
+    ATTRACTOR, CHATTERING, OTHER, Other, Panel, STILL_OPEN, Shares, Spot, boundary_share, exponent, kind,
+    runs,
+};
 use crate::experiment::ExperimentError;
+use crate::figures::shared::map;
 use crate::progress::{Progress, advancing};
 
 /// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
-/// both fractions that it prints come out (see [`super::windows`]).
+/// both fractions that it prints come out (see [`super::scan::windows`]).
 pub(super) const WINDOW_TOP: f64 = 5.0;
 /// Impacts after which a start at chaotic forcing counts as caught by the attractor; see [`decay`].
 const CAUGHT_BY_CHAOS: u32 = 400;
@@ -25,11 +26,6 @@ const MARKED: usize = 600;
 const COARSE: usize = 60;
 /// Longest period (impacts) of an attractor that is looked for.
 const LONGEST_PERIOD: usize = 64;
-
-pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
-    let vibration = Vibration::from_axial_forcing(axial_forcing)?;
-    ImpactMap::new(vibration, restitution).map_err(ExperimentError::model)
-}
 
 pub(super) fn grid(top: f64, rows: usize, columns: usize) -> Result<Grid, ExperimentError> {
     let phase = Axis::new(0.0, 1.0, columns)?;

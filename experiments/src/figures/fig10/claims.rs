@@ -1,22 +1,14 @@
 //! What the paper says about Fig. 10.
 
 use super::data::{Fig10Data, Transient};
-use crate::claims::catalogue;
-use crate::claims::{Cases, Claim, all};
-use crate::figures::alike::{AlikeMotor, INTERVALS};
-use crate::figures::motor_case::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words, perturbation_claim};
-use crate::figures::numbers;
-
-const ID: &str = "fig10";
+use crate::claims::{Cases, Claim, all, catalogue};
+use crate::figures::shared::alike::{AlikeMotor, INTERVALS};
+use crate::figures::shared::motor::{DEFINITIONS, LOW_PERIOD_FLIGHTS, by_definition_words};
+use crate::figures::shared::numbers::median;
 
 pub(super) fn claims(data: &Fig10Data) -> Vec<Claim> {
     let mut claims = axial_forcings(data);
     claims.extend(transients(data));
-    claims.push(perturbation_claim(
-        ID,
-        "Table III's motor: the steady speed does not depend on the size of the relaunch perturbation",
-        &data.perturbations,
-    ));
     claims
 }
 
@@ -42,11 +34,6 @@ fn axial_forcings(data: &Fig10Data) -> Vec<Claim> {
 
 fn percent(value: f64) -> String {
     format!("{:.1} %", 100.0 * value)
-}
-
-/// The middle of some numbers, NaN of none: in words, and in comparisons that must fail then.
-fn median(values: impl Iterator<Item = f64>) -> f64 {
-    numbers::median(values).unwrap_or(f64::NAN)
 }
 
 fn transients(data: &Fig10Data) -> Vec<Claim> {
@@ -103,14 +90,10 @@ fn transients(data: &Fig10Data) -> Vec<Claim> {
     ]
 }
 
-/// Low period under the definitions that are tried: cycles of at most so many flights.
-fn is_low(motor: &AlikeMotor, most: usize) -> bool {
-    motor.cycle.chattering_flights().is_some_and(|flights| flights <= most)
-}
-
 fn long_period(data: &Fig10Data) -> Claim {
-    let by_draw =
-        |most| Cases::of(data.alike.draws().map(|draw| draw.into_iter().all(|motor| !is_low(motor, most))));
+    let by_draw = |most| {
+        Cases::of(data.alike.draws().map(|draw| draw.into_iter().all(|motor| !motor.cycle.is_low(most))))
+    };
     let others = DEFINITIONS.map(by_draw);
     Claim::printed_statement(
         "section5.long_period_chattering",
@@ -150,14 +133,15 @@ fn transient_chaos(data: &Fig10Data) -> Claim {
 fn long_period_oscillates(data: &Fig10Data) -> Claim {
     let middles = |most: usize| {
         data.alike.motors.each_ref().map(|motors| {
-            let low = motors.iter().filter(|motor| is_low(motor, most));
-            median(low.map(|motor| motor.oscillation))
+            let low = motors.iter().filter(|motor| motor.cycle.is_low(most));
+            // A comparison with NaN fails.
+            median(low.map(|motor| motor.oscillation)).unwrap_or(f64::NAN)
         })
     };
     let by_draw = |most: usize| {
         let middles = middles(most);
         let draws = data.alike.draws().filter_map(|draw| {
-            let long = draw.into_iter().zip(middles).filter(|(motor, _)| !is_low(motor, most));
+            let long = draw.into_iter().zip(middles).filter(|(motor, _)| !motor.cycle.is_low(most));
             all(long, |(motor, middle)| motor.oscillation > middle)
         });
         Cases::of(draws)

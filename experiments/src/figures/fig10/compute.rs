@@ -12,14 +12,13 @@ use bouncing_disk::{PlatformParameters, System};
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::data::{Alike, BetweenRests, Exception, Fig10Data, Reading, Transient};
+use super::data::{Alike, BetweenRests, Exception, Fig10Data, PerturbationEffect, Reading, Transient};
 use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{alike_with_band, oscillation};
-use crate::figures::motor_case::{MotorCase, perturbation_table};
-use crate::figures::numbers::median;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike_with_band, oscillation};
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::median;
 use crate::progress::Progress;
 
 /// Relaunch perturbations (units of g/omega) for which the steady speed is compared: from none at all.
@@ -40,7 +39,7 @@ const BAND_POINTS: usize = 60;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10Data, ExperimentError> {
     let table = paper::table_three()?;
     let section = paper::section_five()?;
-    let case = MotorCase::default_of(&table, &section);
+    let case = MotorCase::table_three()?;
     let members = quality.choose(4, 32);
     let defaults = TransientSettings::default();
     let amplitudes = section.amplitudes_of_fig10_m;
@@ -55,17 +54,10 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
             let motor = MotorCase { amplitude_m, preload_acceleration_m_per_s2: preload, ..case };
             let settings = TransientSettings { duration, intervals: MEMBER_INTERVALS, ..defaults };
             let runs = TransientEnsemble::new(&motor.system()?, &settings, members, &Unobserved)?;
-            panels.push(transient(&motor, &runs, section.rotor_mass_kg())?);
+            panels.push(transient(&motor, &runs)?);
             progress.advance(1);
         }
-        readings.push(Reading {
-            preload_acceleration_m_per_s2: preload,
-            frequency_hz: section.default_frequency_hz,
-            duration_s: duration,
-            largest_acceleration_rad_per_s2: MotorCase { preload_acceleration_m_per_s2: preload, ..case }
-                .largest_acceleration(),
-            panels,
-        });
+        readings.push(Reading { preload_acceleration_m_per_s2: preload, duration_s: duration, panels });
     }
     let exception = exception(&MotorCase { amplitude_m: amplitudes[0], ..case })?;
     progress.advance(1);
@@ -74,7 +66,11 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
     let alike = drawn_alike(inputs, count)?;
     progress.advance(1);
     let rises = quality.choose(COMPARED_RISES[0], COMPARED_RISES[1]);
-    let perturbations = perturbation_table(&case, &PERTURBATIONS, rises, members)?;
+    let perturbed = |relaunch_perturbation: f64| {
+        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
+        Ok::<_, ExperimentError>(PerturbationEffect { relaunch_perturbation, statistics })
+    };
+    let perturbations = PERTURBATIONS.into_iter().map(perturbed).collect::<Result<_, _>>()?;
     progress.advance(1);
 
     let tsujino_axial_forcing = axial_forcing(
@@ -96,8 +92,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig10
         )?,
         tsujino_axial_forcing,
         tsujino_peak_acceleration: PI * tsujino_axial_forcing,
-        table_iii: table,
-        section,
+        motor: case,
         measured: Vec::new(),
     })
 }
@@ -200,8 +195,7 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
         ..TransientSettings::default()
     };
     let runs = TransientEnsemble::new(&motor.system()?, &settings, 1, &Unobserved)?;
-    let (curve, fit) = (&runs.curves[0], runs.fits[0]);
-    let ramp = RampFit::new(&curve.times, &curve.speeds)?;
+    let curve = &runs.curves[0];
     let (lowest, highest) = (end(-1.0)?, end(1.0)?);
     Ok(Exception {
         amplitude_m: motor.amplitude_m,
@@ -213,8 +207,6 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
         relative_width: (highest - lowest) / printed,
         time_s: curve.times.clone(),
         speed_rad_per_s: curve.speeds.clone(),
-        exponential_residual_rad_per_s: fit.residual,
-        ramp_residual_rad_per_s: ramp.residual,
     })
 }
 
@@ -230,7 +222,7 @@ fn mean_oscillation(motor: &MotorCase, runs: &TransientEnsemble) -> Result<f64, 
     Ok(members.iter().sum::<f64>() / members.len() as f64)
 }
 
-fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<Transient, ExperimentError> {
+fn transient(motor: &MotorCase, runs: &TransientEnsemble) -> Result<Transient, ExperimentError> {
     let system: System = motor.system()?;
     let member = &runs.curves[0];
     let per_point = member.times.len() / BAND_POINTS;
@@ -252,8 +244,6 @@ fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<T
         let ramp = RampFit::new(&curve.times, &curve.speeds)?;
         ramp_residual += ramp.residual / ramp.steady_speed;
     }
-    let inertia = mass * motor.gyration_radius_m * motor.gyration_radius_m;
-    let stall = runs.stall_acceleration;
     Ok(Transient {
         amplitude_m: motor.amplitude_m,
         axial_forcing: system.axial_forcing(),
@@ -265,12 +255,6 @@ fn transient(motor: &MotorCase, runs: &TransientEnsemble, mass: f64) -> Result<T
         band_high_rad_per_s: high,
         steady_speed_rad_per_s: runs.steady_speed,
         time_constant_s: runs.time_constant,
-        stall_acceleration_rad_per_s2: stall,
-        stall_torque_n_m: Spread {
-            mean: inertia * stall.mean,
-            deviation: inertia * stall.deviation,
-            standard_error: inertia * stall.standard_error,
-        },
         relative_exponential_residual: relative_exponential_residual(runs),
         relative_ramp_residual: ramp_residual / runs.curves.len() as f64,
         oscillation: mean_oscillation(motor, runs)?,

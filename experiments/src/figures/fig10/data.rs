@@ -4,15 +4,13 @@ use bouncing_disk::estimate::{ExponentialFit, Spread};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
-use crate::claims::paper::{SectionFive, TableThree};
-use crate::figures::alike::{AlikeMotor, SpeedBand};
-use crate::figures::motor_case::{Cycle, PerturbationEffect, RobustCycle};
+use crate::figures::shared::alike::{AlikeMotor, SpeedBand};
+use crate::figures::shared::motor::{Cycle, MotorCase, MotorStatistics, RobustCycle};
 
 /// The data of Fig. 10.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Fig10Data {
-    pub(super) table_iii: TableThree,
-    pub(super) section: SectionFive,
+    pub(super) motor: MotorCase,
     pub(super) members: usize,
     pub(super) relaunch_perturbation: f64,
     /// With standard gravity, and as printed.
@@ -34,10 +32,7 @@ pub struct Fig10Data {
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Reading {
     pub(super) preload_acceleration_m_per_s2: f64,
-    pub(super) frequency_hz: f64,
     pub(super) duration_s: f64,
-    /// mu a_e g/a_g^2: the acceleration if friction pushed one way all the time.
-    pub(super) largest_acceleration_rad_per_s2: f64,
     pub(super) panels: Vec<Transient>,
 }
 
@@ -54,8 +49,6 @@ pub(super) struct Transient {
     pub(super) band_high_rad_per_s: Vec<f64>,
     pub(super) steady_speed_rad_per_s: Spread,
     pub(super) time_constant_s: Spread,
-    pub(super) stall_acceleration_rad_per_s2: Spread,
-    pub(super) stall_torque_n_m: Spread,
     /// Root mean square of member minus exponential fit, over the steady speed; mean over the ensemble.
     pub(super) relative_exponential_residual: f64,
     /// The same for the fit of a linear rise to a constant speed.
@@ -83,8 +76,6 @@ pub(super) struct Exception {
     /// The transient there.
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,
-    pub(super) exponential_residual_rad_per_s: f64,
-    pub(super) ramp_residual_rad_per_s: f64,
 }
 
 /// What becomes of a small perturbation of a motor's vertical motion between two rests.
@@ -125,4 +116,12 @@ pub(super) struct Trial {
     pub(super) time_s: Vec<f64>,
     pub(super) angular_speed_rad_per_s: Vec<f64>,
     pub(super) fit: ExponentialFit,
+}
+
+/// Steady speed and stall acceleration for one size of the relaunch perturbation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(super) struct PerturbationEffect {
+    /// In units of g/ω.
+    pub(super) relaunch_perturbation: f64,
+    pub(super) statistics: MotorStatistics,
 }

@@ -8,8 +8,8 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Exception, Fig10Data, Reading, Transient, Trial};
-use crate::figures::alike::SpeedBand;
-use crate::figures::numbers::exponent;
+use crate::figures::shared::alike::SpeedBand;
+use crate::figures::shared::numbers::exponent;
 
 /// Height of a row.
 const ROW: f64 = 150.0;

@@ -4,18 +4,11 @@ use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};
 use crate::claims::{Cases, Claim, all};
 
-const ID: &str = "fig11";
-
-const SECTION: &str = "Sec. V B";
-
 /// An exponent of the stall torque above this is nearer to the trend (1) than to a plateau (0).
 const NEARER_TO_TREND: f64 = 0.5;
 
 /// A difference of more than so many standard errors is one.
 const STANDARD_ERRORS: f64 = 3.0;
-
-/// The two speeds of a mirrored motor are of opposite sign to this share of ωΦ: fits keep half of the digits.
-const MIRRORED_WITHIN: f64 = 1e-6;
 
 pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
     let [default, second] = data.printed.frequencies_hz.map(|frequency| at_frequency(data, frequency));
@@ -86,10 +79,6 @@ pub(super) fn claims(data: &Fig11Data) -> Vec<Claim> {
         .single_orbits(total(&second, |trend| trend.no_rise_above)),
         reduced_twist(data),
         bouncing_ends(data),
-        holes(data),
-        balance(data),
-        estimate(data),
-        mirrored(data),
     ]
 }
 
@@ -162,98 +151,4 @@ fn bouncing_ends(data: &Fig11Data) -> Claim {
             coexisting.impacts
         ),
     )
-}
-
-/// What the trends' holes are.
-fn holes(data: &Fig11Data) -> Claim {
-    let holes = &data.holes;
-    let range = |extent: Option<[f64; 2]>, digits: usize| {
-        extent.map_or_else(|| "none".to_owned(), |[low, high]| format!("{low:.digits$} to {high:.digits$}"))
-    };
-    let slower = holes
-        .one_flight_speeds_rad_per_s
-        .zip(holes.other_speeds_rad_per_s)
-        .map(|([_, fastest], [slowest, _])| fastest < slowest);
-    Claim::statement(
-        ID,
-        SECTION,
-        "motors on a chattering cycle of a single flight turn more slowly than all that are on no low-period cycle",
-        slower,
-        format!(
-            "{} of {} motors are on a low-period cycle, {} of them of a single flight: it lasts about Γ periods, and where the \
-             fraction of Γ is {} it ends near τ = π, where the stator recedes as fast as the rotor \
-             falls. Such a rotor lands softly, rides up with the stator through a half cycle in which cos τ takes both \
-             signs equally, and turns slowly: {} rad/s; all on a low-period cycle {} rad/s, all others {} rad/s",
-            holes.low_period,
-            holes.motors,
-            holes.one_flight,
-            range(holes.one_flight_fractions, 3),
-            range(holes.one_flight_speeds_rad_per_s, 1),
-            range(holes.low_period_speeds_rad_per_s, 1),
-            range(holes.other_speeds_rad_per_s, 1),
-        ),
-    )
-}
-
-fn stall_words(data: &Fig11Data) -> String {
-    let words = data
-        .stalls
-        .iter()
-        .map(|at| format!("{} kHz, {:.0} mN: {}", at.frequency_hz / 1e3, at.preload_mn, at.stall.words()));
-    words.collect::<Vec<_>>().join("; ")
-}
-
-fn balance(data: &Fig11Data) -> Claim {
-    Claim::statement(
-        ID,
-        "this work",
-        "the load torque that stalls the motor is μ a_e m g S(0), S(0) the net share of the normal impulse that pushes a rotor at rest forwards",
-        all(&data.stalls, |at| at.stall.balance_deviation() <= STANDARD_ERRORS),
-        format!(
-            "load torques over m a_g² at which the mean speed over {} rise times is zero, {} members each: {}. Friction can give {:.1e} of the stator's largest angular \
-             acceleration at most, so that it nowhere holds the rotor at rest",
-            data.stalls.first().map_or(0.0, |at| at.stall.rises),
-            data.stalls.first().map_or(0, |at| at.stall.members),
-            stall_words(data),
-            data.stalls.iter().map(|at| at.stall.hold_share).fold(0.0, f64::max),
-        ),
-    )
-}
-
-fn estimate(data: &Fig11Data) -> Claim {
-    let [least, most] = data.estimate_over_balance;
-    Claim::statement(
-        ID,
-        "Sec. V C",
-        "α̇_ss/t_c is the acceleration by the torque that stalls the motor",
-        all(&data.stalls, |at| at.stall.estimate_off.abs() <= STANDARD_ERRORS * at.stall.estimate_off_error),
-        format!(
-            "the paper calls the initial slope of the fitted exponential the stall torque. Over all motors of the figure in the range of the trends, without those on a \
-             low-period cycle, α̇_ss/t_c is {least:.2} to {most:.2}, on average {:.2}, of (μ a_e g/a_g²) S(0)",
-            data.mean_estimate_over_balance,
-        ),
-    )
-}
-
-/// The direction of the rotor.
-fn mirrored(data: &Fig11Data) -> Claim {
-    let [one, other] = data.mirrored.steady_speeds_rad_per_s;
-    Claim::statement(
-        ID,
-        "Fig. 11 caption",
-        "a phase lag shifted by π turns the same motor as fast the other way",
-        (one.mean + other.mean).abs() <= MIRRORED_WITHIN * data.motor.peak_angular_speed_rad_per_s
-            && one.mean.abs() > STANDARD_ERRORS * one.standard_error,
-        format!(
-            "at {} kHz and {:.0} mN: {:.3} rad/s with θ = {}, {:.3} rad/s with θ = {:.4}. Such a lag of the second resonance would explain its direction; the paper does not \
-             give one",
-            data.printed.frequencies_hz[1] / 1e3,
-            data.mirrored.preload_mn,
-            one.mean,
-            data.mirrored.phase_lags_rad[0],
-            other.mean,
-            data.mirrored.phase_lags_rad[1],
-        ),
-    )
-    .identity()
 }

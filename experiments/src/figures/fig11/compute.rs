@@ -1,22 +1,27 @@
-//! The computation of Fig. 11.
+//! The computation of Fig. 11, and what becomes of a bouncing rotor when its stator vibrates too little to throw it (Γ < 1/π).
+//!
+//! A rotor at rest is not thrown then, by Eq. (3). One that bounces already need not come to rest: the period-1 orbit needs Γ > (1 − ε)/(1 + ε) only,
+//! which is less than 1/π for ε > (π − 1)/(π + 1).
 
-use bouncing_disk::estimate::Spread;
+use std::f64::consts::{FRAC_1_PI, PI, TAU};
+
+use bouncing_disk::core::numerics::elementary::acos;
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
 use bouncing_disk::motor::TransientSettings;
 use rayon::prelude::*;
 
 use super::data::{
-    Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Mirrored, Point, ReducedTwist, StallAt, Trend,
+    Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Point, ReducedTwist, StallAt, Trend,
     trend_mn,
 };
 use super::trends;
-use crate::claims::Cases;
-use crate::claims::paper;
+use crate::claims::{Cases, catalogue, paper};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::motor_case::MotorCase;
-use crate::figures::numbers::Noise;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
-use crate::figures::stall::{Stall, net_share_at_rest};
+use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
+use crate::figures::shared::map;
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::Noise;
+use crate::figures::shared::stall::{Stall, net_share_at_rest};
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g): seven time constants or more.
@@ -37,7 +42,7 @@ const REDUCED_TWIST: f64 = 0.5;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
     let printed = paper::preloads()?;
     let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let rotor_mass_kg = section.rotor_mass_kg();
     let members = quality.choose([2, 3, 6], [3, 6, 24]);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
@@ -46,7 +51,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let amplitudes = section.amplitudes_of_fig10_m;
     let [low, high] = printed.measured_range_n.map(|preload| preload / rotor_mass_kg);
     let three_preloads = [low, 0.5 * (low + high), high];
-    let [_, middle, _] = three_preloads;
     progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len())) as u64, "curves");
 
     let mut noise = Noise::new(PRELOAD_SEED);
@@ -82,7 +86,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     let trends: Vec<Trend> =
         curves.iter().map(|curve| Trend::of(curve, trend_mn(&printed), 1e3 * printed.plateau_n)).collect();
     let over_balance = estimates_over_balance(&curves, &motor, [low, high]);
-    let second = MotorCase { frequency_hz: frequencies[1], preload_acceleration_m_per_s2: middle, ..motor };
     Ok(Fig11Data {
         holes: Holes::of(&curves),
         estimate_over_balance: trends::extent(&over_balance).ok_or_else(|| no_data("stall torque"))?,
@@ -93,7 +96,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
             quality.choose(DRAWN / 10, DRAWN),
             relaunch_perturbation,
         )?,
-        mirrored: mirrored(&second, rotor_mass_kg, members[1], relaunch_perturbation)?,
         end_of_bouncing: EndOfBouncing::of(&motor)?,
         motor,
         printed,
@@ -186,20 +188,76 @@ fn reduced_twist(
     })
 }
 
-fn mirrored(
-    motor: &MotorCase,
-    mass: f64,
-    members: usize,
-    relaunch_perturbation: f64,
-) -> Result<Mirrored, ExperimentError> {
-    let lags = [motor.phase_lag_rad, motor.phase_lag_rad + std::f64::consts::PI];
-    let speed = |phase_lag_rad: f64| -> Result<Spread, ExperimentError> {
-        let case = MotorCase { phase_lag_rad, ..*motor };
-        Ok(case.statistics(RISES, members, relaunch_perturbation)?.steady_speed_rad_per_s)
-    };
-    Ok(Mirrored {
-        preload_mn: 1e3 * mass * motor.preload_acceleration_m_per_s2,
-        phase_lags_rad: lags,
-        steady_speeds_rad_per_s: [speed(lags[0])?, speed(lags[1])?],
-    })
+/// Seed of the rotors.
+pub(super) const BOUNCING_SEED: u64 = 318;
+
+/// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need some tens.
+const MOST_IMPACTS: usize = 10_000;
+
+impl EndOfBouncing {
+    pub(super) fn of(motor: &MotorCase) -> Result<Self, ExperimentError> {
+        let largest_launch_speed = motor.system()?.peak_acceleration();
+        let printed = catalogue::number("table3.restitution", 0)?;
+        let restitutions = [printed.value - printed.half_unit, printed.value + printed.half_unit];
+        let mut noise = Noise::new(BOUNCING_SEED);
+        let mut rested = Vec::with_capacity(DRAWN);
+        for _ in 0..DRAWN {
+            let restitution = restitutions[0] + (restitutions[1] - restitutions[0]) * noise.even();
+            let map = map(FRAC_1_PI * noise.even(), restitution)?;
+            let (phase, speed) = (TAU * noise.even(), largest_launch_speed * noise.even());
+            rested.push(comes_to_rest(&map, phase, speed)?);
+        }
+        let restitution = restitutions[1];
+        let birth = (1.0 - restitution) / (1.0 + restitution);
+        let axial_forcing = 0.5 * (birth + FRAC_1_PI);
+        // Period 1: cos τ = (1 − ε)/((1 + ε) Γ), flights of one period.
+        let phase = acos(birth / axial_forcing);
+        let speed = TAU * restitution / (1.0 + restitution);
+        let map = map(axial_forcing, restitution)?;
+        let mut bounces = true;
+        // A basin and no point: so do those that are launched a little differently.
+        for share in [0.99, 1.0, 1.01] {
+            bounces &= !comes_to_rest(&map, phase, share * speed)?;
+        }
+        Ok(Self {
+            restitutions,
+            at_rest: Cases::of(rested),
+            threshold_restitution: (PI - 1.0) / (PI + 1.0),
+            coexisting: Coexisting { restitution, axial_forcing, impacts: MOST_IMPACTS, bounces },
+        })
+    }
+}
+
+/// Whether the rotor is at rest for good within [`MOST_IMPACTS`].
+fn comes_to_rest(map: &ImpactMap, phase: f64, speed: f64) -> Result<bool, ExperimentError> {
+    let launch = Launch::new(Phase::new(phase)?, speed)?;
+    let mut orbit = map.orbit_from_launch(launch, ChatterPolicy::Complete);
+    let mut impacts = 0;
+    while impacts < MOST_IMPACTS {
+        match orbit.advance()? {
+            Some(OrbitEvent::Impact(_)) => impacts += 1,
+            Some(OrbitEvent::Attachment(rest)) if rest.separation.is_none() => return Ok(true),
+            Some(_) => {}
+            None => return Ok(true),
+        }
+    }
+    Ok(false)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn below_the_period_one_orbit_everything_rests_and_above_it_can_bounce() {
+        let bouncing = |forcing: f64, restitution: f64| {
+            let birth = (1.0 - restitution) / (1.0 + restitution);
+            let phase = if forcing > birth { acos(birth / forcing) } else { 0.0 };
+            let speed = TAU * restitution / (1.0 + restitution);
+            let map = map(forcing, restitution).expect("legal");
+            !comes_to_rest(&map, phase, speed).expect("no failure")
+        };
+        assert!(!bouncing(0.28, 0.55) && bouncing(0.30, 0.55));
+        assert!(!bouncing(0.31, 0.5), "the orbit of ε = 0.5 begins at Γ = 1/3");
+    }
 }

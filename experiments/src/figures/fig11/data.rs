@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use crate::claims::Cases;
 use crate::claims::paper::Preloads;
 use crate::experiment::ExperimentError;
-use crate::figures::motor_case::{MotorCase, MotorStatistics};
-use crate::figures::numbers::StraightLine;
-use crate::figures::stall::Stall;
+use crate::figures::shared::motor::{MotorCase, MotorStatistics};
+use crate::figures::shared::numbers::StraightLine;
+use crate::figures::shared::stall::Stall;
 use crate::measured::{Column, Layout, Range, Series};
 
 /// The data of Fig. 11.
@@ -38,8 +38,6 @@ pub struct Fig11Data {
     pub(super) stalls: Vec<StallAt>,
     /// The default motor at full preload with the printed and with a smaller ωΦ.
     pub(super) reduced_twist: ReducedTwist,
-    /// The motor at the second frequency with θ and with θ + π.
-    pub(super) mirrored: Mirrored,
     pub(super) end_of_bouncing: EndOfBouncing,
     /// A user's own measurements.
     #[serde(default, skip_serializing_if = "MeasuredMotors::is_empty")]
@@ -90,14 +88,6 @@ pub(super) struct ReducedTwist {
     pub(super) slower: Cases,
 }
 
-/// A motor and the same with the phase lag shifted by π.
-#[derive(Debug, Serialize, Deserialize)]
-pub(super) struct Mirrored {
-    pub(super) preload_mn: f64,
-    pub(super) phase_lags_rad: [f64; 2],
-    pub(super) steady_speeds_rad_per_s: [Spread; 2],
-}
-
 impl Fig11Data {
     /// The range of preloads (mN) of the measured trends.
     pub(super) fn trend_mn(&self) -> [f64; 2] {
@@ -120,9 +110,8 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
-    /// Inside, of all motors: the middle steady speed, and the middle stall acceleration of single orbits over preload.
+    /// The middle steady speed of all motors inside.
     pub(super) median_speed_rad_per_s: f64,
-    pub(super) single_stall_per_preload_rad_per_s2_mn: f64,
     /// How many single orbits inside have a speed, a torque or both on the trend. One without a stall torque is off it.
     pub(super) speed: Cases,
     pub(super) torque: Cases,
@@ -152,22 +141,15 @@ pub(super) struct Holes {
     pub(super) one_flight_window: Option<f64>,
     /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
     pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) low_period_speeds_rad_per_s: Option<[f64; 2]>,
-    pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
 /// What bouncing rotors do at Γ < 1/π.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct EndOfBouncing {
-    pub(super) seed: u64,
     /// What still prints as the ε of Table III.
     pub(super) restitutions: [f64; 2],
-    /// The largest launch speed (g/ω): A ω²/g of the default motor.
-    pub(super) largest_launch_speed: f64,
     /// How many come to rest for good.
     pub(super) at_rest: Cases,
-    /// The most impacts that one of these needed.
-    pub(super) most_impacts: usize,
     /// The restitution above which a rotor can go on bouncing at some Γ < 1/π.
     pub(super) threshold_restitution: f64,
     pub(super) coexisting: Coexisting,

@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Curve, Fig11Data, MeasuredMotor, Point};
-use crate::figures::numbers::{exponent, extent, middle_range};
+use crate::figures::shared::numbers::{exponent, extent, middle_range};
 
 /// Colour and dashes of the three amplitudes, as the caption lists them.
 const STYLES: [(Colour, Dash); 3] =
@@ -22,11 +22,6 @@ const PARTS: usize = 14;
 const SPEEDS: (f64, f64) = (-9.0, 57.0);
 const STALLS: (f64, f64) = (-4.0, 36.0);
 
-/// Shares of panel (a) that the legend takes with a line for the measurements, and a little more.
-const LEGEND_WIDTH: f64 = 0.78;
-/// See [`LEGEND_WIDTH`].
-const LEGEND_HEIGHT: f64 = 0.52;
-
 /// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
 const BAR_EVERY: usize = 12;
 /// See [`BAR_EVERY`].
@@ -37,18 +32,6 @@ fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
     let (low, high) = values.fold(ends, |(low, high), value| (low.min(value), high.max(value)));
     let room = 0.05 * (high - low);
     (if low < ends.0 { low - room } else { low }, if high > ends.1 { high + room } else { high })
-}
-
-/// The ends of the speeds with room for the legend above the measurements that it would cover in panel (a).
-fn above_crosses(
-    speeds: (f64, f64),
-    preloads: (f64, f64),
-    crosses: impl Iterator<Item = (f64, f64)>,
-) -> (f64, f64) {
-    let left = preloads.1 - LEGEND_WIDTH * (preloads.1 - preloads.0);
-    let highest =
-        crosses.filter(|(preload, _)| *preload >= left).map(|(_, speed)| speed).fold(speeds.0, f64::max);
-    (speeds.0, speeds.1.max(speeds.0 + (highest - speeds.0) / (1.0 - LEGEND_HEIGHT)))
 }
 
 /// Ticks at every multiple of `step`, or automatic ones where the axis was extended.
@@ -107,9 +90,6 @@ pub(super) fn draw(data: &Fig11Data) -> Figure {
     let computed_stalls = extended(STALLS, shown(data, stall));
     let speed_ends = extended(computed_speeds, measured.iter().map(|point| point.steady_speed_rad_per_s));
     let frequencies = data.printed.frequencies_hz;
-    let under_legend = data.measured.at(frequencies[0]);
-    let under_legend = under_legend.iter().map(|point| (point.preload_mn, point.steady_speed_rad_per_s));
-    let speed_ends = above_crosses(speed_ends, preload_ends, under_legend);
     let stall_ends =
         extended(computed_stalls, measured.iter().map(|point| point.stall_acceleration_rad_per_s2));
     for (row, frequency) in frequencies.into_iter().enumerate() {

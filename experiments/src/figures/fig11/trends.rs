@@ -2,7 +2,7 @@
 
 use super::data::{Curve, Holes, Point, Trend};
 use crate::claims::Cases;
-use crate::figures::numbers;
+use crate::figures::shared::numbers;
 
 /// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
 /// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
@@ -50,7 +50,6 @@ impl Trend {
             frequency_hz: curve.frequency_hz,
             amplitude_m: curve.amplitude_m,
             median_speed_rad_per_s: median_speed,
-            single_stall_per_preload_rad_per_s2_mn: single_stall_per_preload,
             speed: Cases::of(inside.iter().map(|point| speed_holds(point))),
             torque: Cases::of(inside.iter().map(|point| torque_holds(point))),
             both: Cases::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
@@ -79,13 +78,10 @@ impl Holes {
         let points: Vec<&Point> = curves.iter().flat_map(|curve| &curve.points).collect();
         let is_one_flight =
             |point: &Point| point.statistics.is_low_period() && point.statistics.cycle.is_one_flight();
-        let speeds = |wanted: &dyn Fn(&Point) -> bool| {
-            let chosen = points.iter().filter(|point| wanted(point)).map(|point| speed(point));
-            extent(&chosen.collect::<Vec<_>>())
-        };
         let one_flight: Vec<_> = points.iter().filter(|point| is_one_flight(point)).collect();
         let fractions: Vec<f64> =
             one_flight.iter().map(|point| point.axial_forcing.rem_euclid(1.0)).collect();
+        let speeds: Vec<f64> = one_flight.iter().map(|point| speed(point)).collect();
         let one_flight_fractions = extent(&fractions);
         Self {
             motors: points.len(),
@@ -93,9 +89,7 @@ impl Holes {
             one_flight: one_flight.len(),
             one_flight_fractions,
             one_flight_window: one_flight_fractions.map(|[least, most]| most - least),
-            one_flight_speeds_rad_per_s: speeds(&is_one_flight),
-            low_period_speeds_rad_per_s: speeds(&|point| point.statistics.is_low_period()),
-            other_speeds_rad_per_s: speeds(&|point| !point.statistics.is_low_period()),
+            one_flight_speeds_rad_per_s: extent(&speeds),
         }
     }
 }
@@ -134,7 +128,7 @@ mod tests {
     use bouncing_disk::toss::ChatteringCycle;
 
     use super::*;
-    use crate::figures::motor_case::{Cycle, Form, MotorStatistics};
+    use crate::figures::shared::motor::{Cycle, MotorStatistics};
 
     fn point(preload_mn: f64, speed: f64, stall: Option<f64>, long_flights: usize) -> Point {
         let spread = |mean: f64| Spread { mean, deviation: 0.0, standard_error: 0.0 };
@@ -145,8 +139,6 @@ mod tests {
             statistics: MotorStatistics {
                 steady_speed_rad_per_s: spread(speed),
                 stall_acceleration_rad_per_s2: stall.map(spread),
-                form: Form::Exponential,
-                unfitted: 0,
                 cycle: Cycle::Chattering(ChatteringCycle { impacts: 9, platform_periods: 11, long_flights }),
                 locked: true,
             },

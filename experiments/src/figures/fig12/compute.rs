@@ -1,10 +1,10 @@
 //! The computation of Fig. 12.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use bouncing_disk::core::{ChatterPolicy, Launch, OrbitEvent, Phase, Unobserved};
 use bouncing_disk::estimate::RampFit;
-use bouncing_disk::motor::{NormalImpulses, PhasedImpulse, TransientSettings, transient};
+use bouncing_disk::motor::{NormalImpulses, TransientSettings, transient};
 use bouncing_disk::toss::{CollisionEvent, Collisions, LONG_FLIGHT};
 use bouncing_disk::{Engine, InitialCondition, Trajectory};
 use rayon::prelude::*;
@@ -12,10 +12,9 @@ use rayon::prelude::*;
 use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::alike;
-use crate::figures::motor_case::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
-use crate::figures::numbers::StraightLine;
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike};
+use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
+use crate::figures::shared::numbers::StraightLine;
 use crate::progress::Progress;
 
 /// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.
@@ -45,8 +44,7 @@ const REACHED_WITHIN: f64 = 0.02;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12Data, ExperimentError> {
     let cases = paper::chattering_cases()?;
-    let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let long = MotorCase {
         amplitude_m: cases.amplitudes_m[0],
         preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[0],
@@ -230,11 +228,6 @@ fn shown(motor: MotorCase, printed_amplitude: f64) -> Result<Shown, ExperimentEr
         amplitude_offset: motor.amplitude_m / printed_amplitude - 1.0,
         axial_forcing: system.axial_forcing(),
         robust_cycle: motor.robust_cycle()?,
-        cycle_duration_s: cycle
-            .platform_periods()
-            .filter(|_| low)
-            .map(|periods| periods as f64 / motor.frequency_hz),
-        largest_acceleration_rad_per_s2: motor.largest_acceleration(),
         duration_s,
         fits: fits(&motor, duration_s)?,
         zoom: zoom(
@@ -259,8 +252,6 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
     };
     let phase = Phase::new(1.5 * PI)?;
     let curve = transient(&motor.system()?, phase, &settings, &Unobserved)?;
-    let exponential = curve.fit()?;
-    let ramp = RampFit::new(&curve.times, &curve.speeds)?;
     let last = curve.mean_over_last(0.2)?;
     let points = || curve.times.iter().copied().zip(curve.speeds.iter().copied());
     let reached_s = points().find(|(_, speed)| (speed - last).abs() <= REACHED_WITHIN * last.abs());
@@ -277,15 +268,10 @@ fn fits(motor: &MotorCase, duration: f64) -> Result<Fits, ExperimentError> {
         off.fold(0.0, f64::max)
     };
     Ok(Fits {
-        exponential_steady_speed_rad_per_s: exponential.steady_speed,
-        time_constant_s: exponential.time_constant,
-        exponential_residual_rad_per_s: exponential.residual,
-        ramp_steady_speed_rad_per_s: ramp.steady_speed,
-        rise_time_s: ramp.rise_time,
-        ramp_residual_rad_per_s: ramp.residual,
+        exponential: curve.fit()?,
+        ramp_residual_rad_per_s: RampFit::new(&curve.times, &curve.speeds)?.residual,
         last_speed_rad_per_s: last,
         slope_rad_per_s2: line.map_or(0.0, |line| line.slope),
-        slope_error_rad_per_s2: line.map_or(0.0, |line| line.slope_error),
         farthest_from_line_rad_per_s: line.map_or(0.0, farthest),
         first_slope_rad_per_s2: first.map_or(0.0, |line| line.slope),
         reached_s,
@@ -297,27 +283,17 @@ fn predict(motor: &MotorCase, low_period: bool) -> Result<Prediction, Experiment
     let impulses =
         NormalImpulses::of(system.dimensionless().map(), if low_period { 1 } else { IMPULSES }, 0.0)?;
     let levels = impulses.balance(motor.phase_lag_rad);
-    let total = impulses.total();
     let (rise, top) = (motor.rise_time_s(), motor.peak_angular_speed_rad_per_s);
     let steady = levels.steady_speed();
     let (times, speeds) = levels.transient(LONG_RISES, 6_000);
     let reached = times.iter().zip(&speeds).find(|(_, speed)| **speed >= (1.0 - REACHED_WITHIN) * steady);
     let thin = |values: &[f64], unit: f64| values.iter().step_by(20).map(|value| unit * value).collect();
-    let impacts = impulses.impacts.iter().filter(|one| low_period && one.impulse >= 0.01 * total);
     Ok(Prediction {
-        net_share_at_rest: levels.net_share(0.0),
         slope_rad_per_s2: motor.largest_acceleration() * levels.net_share(0.0),
         steady_speed_rad_per_s: top * steady,
         reached_s: rise * reached.map_or(LONG_RISES, |(time, _)| *time),
         time_s: thin(&times, rise),
         speed_rad_per_s: thin(&speeds, top),
-        impacts: impacts
-            .map(|PhasedImpulse { phase, impulse }| {
-                let level = bouncing_disk::core::numerics::elementary::cos(phase + motor.phase_lag_rad);
-                (phase / TAU, impulse / total, level)
-            })
-            .collect(),
-        balance: total / impulses.duration - 1.0,
     })
 }
 
@@ -377,10 +353,7 @@ mod tests {
     #[test]
     fn the_low_period_case_that_is_drawn_is_not_chosen_by_rounding() {
         let cases = paper::chattering_cases().expect("reads");
-        let motor = MotorCase::default_of(
-            &paper::table_three().expect("reads"),
-            &paper::section_five().expect("reads"),
-        );
+        let motor = MotorCase::table_three().expect("reads");
         let printed = MotorCase {
             amplitude_m: cases.amplitudes_m[1],
             preload_acceleration_m_per_s2: cases.preload_accelerations_m_per_s2[1],

@@ -1,10 +1,11 @@
 //! The numbers of Fig. 12.
 
+use bouncing_disk::estimate::ExponentialFit;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper::ChatteringCases;
-use crate::figures::alike::AlikeMotor;
-use crate::figures::motor_case::{MotorCase, RobustCycle};
+use crate::figures::shared::alike::AlikeMotor;
+use crate::figures::shared::motor::{MotorCase, RobustCycle};
 
 /// The data of Fig. 12.
 #[derive(Debug, Serialize, Deserialize)]
@@ -61,8 +62,6 @@ pub(super) struct Shown {
     pub(super) axial_forcing: f64,
     /// Its cycle, if rounding does not choose it.
     pub(super) robust_cycle: Option<RobustCycle>,
-    pub(super) cycle_duration_s: Option<f64>,
-    pub(super) largest_acceleration_rad_per_s2: f64,
     pub(super) duration_s: f64,
     /// Each flight longer than half a period: its start and the speed during it.
     pub(super) flight_time_s: Vec<f64>,
@@ -77,17 +76,12 @@ pub(super) struct Shown {
 /// The two forms fitted to the same curve.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Fits {
-    pub(super) exponential_steady_speed_rad_per_s: f64,
-    pub(super) time_constant_s: f64,
-    pub(super) exponential_residual_rad_per_s: f64,
-    pub(super) ramp_steady_speed_rad_per_s: f64,
-    pub(super) rise_time_s: f64,
+    pub(super) exponential: ExponentialFit,
     pub(super) ramp_residual_rad_per_s: f64,
     /// Mean over the last fifth.
     pub(super) last_speed_rad_per_s: f64,
     /// Straight line through the whole of the rise, and its largest distance from the curve.
     pub(super) slope_rad_per_s2: f64,
-    pub(super) slope_error_rad_per_s2: f64,
     pub(super) farthest_from_line_rad_per_s: f64,
     /// Straight line through the first tenth of the rise.
     pub(super) first_slope_rad_per_s2: f64,
@@ -98,19 +92,13 @@ pub(super) struct Fits {
 /// Straight pieces from the impulses of one cycle (module `impulse`).
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Prediction {
-    /// S(0): net share of the normal impulse that pushes a slow rotor forwards.
-    pub(super) net_share_at_rest: f64,
-    /// μ a_e g/a_g² S(0).
+    /// μ a_e g/a_g² S(0), S(0) the net share of the normal impulse that pushes a slow rotor forwards.
     pub(super) slope_rad_per_s2: f64,
     pub(super) steady_speed_rad_per_s: f64,
     /// When the pieces reach it.
     pub(super) reached_s: f64,
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,
-    /// Each impact of at least a hundredth of the cycle's impulse: phase/2π, share of the impulse and cos(τ + θ).
-    pub(super) impacts: Vec<(f64, f64, f64)>,
-    /// Impulses of the cycle over weight times its duration, minus 1.
-    pub(super) balance: f64,
 }
 
 /// A short part of the rise. Of the low-period case the flights of many cycles, which form its lines.

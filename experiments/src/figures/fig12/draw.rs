@@ -6,7 +6,7 @@ use bouncing_disk_plot::{
 };
 
 use super::data::{Fig12Data, Shown};
-use crate::figures::numbers::exponent;
+use crate::figures::shared::numbers::exponent;
 
 pub(super) fn draw(data: &Fig12Data) -> Figure {
     const HEIGHT: f64 = 430.0;
@@ -71,11 +71,7 @@ fn whole(area: Rect, shown: &Shown, printed_amplitude: f64, low_period: bool) ->
                     .name("from impulses"),
             )
     } else {
-        let fit = bouncing_disk::estimate::ExponentialFit {
-            steady_speed: shown.fits.exponential_steady_speed_rad_per_s,
-            time_constant: shown.fits.time_constant_s,
-            residual: shown.fits.exponential_residual_rad_per_s,
-        };
+        let fit = shown.fits.exponential;
         let smooth = (0..=200).map(|index| {
             let time = shown.duration_s * f64::from(index) / 200.0;
             (time, fit.speed(time))

@@ -1,24 +1,21 @@
 //! The computation of Fig. 13.
 
-use bouncing_disk::core::Unobserved;
-use std::f64::consts::{FRAC_PI_4, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
+use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::{ln, pow};
 use bouncing_disk::estimate::ExponentialFit;
 use bouncing_disk::motor::{NormalImpulses, TransientSettings};
 
 use super::data::{
     AlikeMotors, AlikeRange, Draw, Fig13Data, ImpulsePhases, Parameter, Prevalence, Sensitivity, Sweep,
-    SweepPoint,
+    SweepPoint, cosine_fit, trend_change,
 };
-use super::sweeps::{cosine_fit, trend_change};
-use crate::claims::Cases;
-use crate::claims::paper;
+use crate::claims::{Cases, paper};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::alike::{AlikeMotor, alike};
-use crate::figures::motor_case::MotorCase;
-use crate::figures::numbers::{self, StraightLine};
-use crate::figures::printed_inputs::{DRAWN, PrintedInputs};
+use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
+use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::numbers::{self, StraightLine};
 use crate::progress::Progress;
 
 /// Duration of a transient in rise times ωΦ a_g²/(μ a_e g).
@@ -41,7 +38,7 @@ const FLIGHT_COUNTS: [usize; 5] = [2, 4, 8, 16, 32];
 const SHORT_CYCLE: f64 = 0.01;
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13Data, ExperimentError> {
     let section = paper::section_five()?;
-    let motor = MotorCase::default_of(&paper::table_three()?, &section);
+    let motor = MotorCase::table_three()?;
     let members = quality.choose(3, 12);
     let impacts = quality.choose(4_000, 40_000);
     let relaunch_perturbation = TransientSettings::default().relaunch_perturbation;
@@ -67,7 +64,6 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
                 predicted_stall_acceleration_rad_per_s2,
                 mean_impact_speed_m_per_s,
                 mean_impact_interval_s: system.scales().time * impulses.duration / count,
-                impulse_share_near_zero: impulses.share_near_zero(FRAC_PI_4),
             });
             progress.advance(1);
         }
@@ -79,14 +75,11 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
             let case = MotorCase { restitution, ..motor };
             let map = *case.system()?.dimensionless().map();
             let impulses = NormalImpulses::of(&map, 5 * impacts, BREAKING_PERTURBATION)?;
-            let contact: f64 = impulses.contact.iter().map(|one| one.impulse).sum();
             Ok(ImpulsePhases {
                 restitution,
                 shares: impulses.histogram(PARTS),
-                share_near_zero: impulses.share_near_zero(FRAC_PI_4),
                 impulse: impulses.concentration(),
                 collisions: impulses.concentration_of_collisions(),
-                contact_share: contact / impulses.total(),
             })
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
@@ -187,9 +180,6 @@ fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
             .map(|(&restitution, motors)| prevalence(restitution, motors, &rises))
             .collect(),
         draws: (0..count).map(|index| draw(&restitutions, &sweeps, index)).collect(),
-        frictions: frictions.to_vec(),
-        phase_lags_rad: phase_lags,
-        peak_angular_speeds_rad_per_s: peak_angular_speeds.to_vec(),
     })
 }
 
@@ -277,8 +267,6 @@ fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
         StraightLine::through(&points)
     };
     let range = restitutions.last().zip(restitutions.first()).map_or(0.0, |(last, first)| last - first);
-    let largest =
-        |of: fn(&AlikeMotor) -> Option<f64>| motors().filter_map(of).fold(f64::NEG_INFINITY, f64::max);
     let ratio = |motor: &AlikeMotor| Some(speed_ratio(motor));
     let over_limit = |motor: &AlikeMotor| motor.stall_over_limit;
     // The middle amplitude is the printed one.
@@ -286,19 +274,14 @@ fn draw(restitutions: &[f64], sweeps: &[Varied; 5], index: usize) -> Draw {
     let default = (speed(printed.0, printed.1), stall(printed.0, printed.1));
     let sensitivities: Vec<Sensitivity> =
         sweeps.iter().map(|sweep| sweep.sensitivity(index, default)).collect();
-    let exponents = sensitivities[3];
     Draw {
         speed_ratio_slope: line(ratio).map(|line| line.slope),
         stall_over_limit_slope: line(over_limit).map(|line| line.slope),
         stall_over_limit_rise: line(over_limit).map(|line| line.slope * range / line.intercept),
-        largest_stall_over_limit: largest(over_limit),
-        largest_speed_ratio: largest(ratio),
         share_of_exponential: motors().filter(|motor| motor.is_exponential()).count() as f64
             / restitutions.len() as f64,
         speed_cosine: cosine_fit(&by_lag.read(index, speed)).map(|fit| fit.1),
         stall_cosine: cosine_fit(&by_lag.read(index, stall)).map(|fit| fit.1),
-        speed_amplitude_exponent: exponents.speed_exponent,
-        stall_amplitude_exponent: exponents.stall_exponent,
         sensitivities,
     }
 }

@@ -1,10 +1,12 @@
-//! The numbers of Fig. 13.
+//! The numbers of Fig. 13, and what is read off its sweeps.
 
+use bouncing_disk::core::numerics::elementary::{cos, ln};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::Cases;
-use crate::figures::motor_case::{MotorCase, MotorStatistics};
-use crate::figures::numbers::Concentration;
+use crate::figures::shared::motor::{MotorCase, MotorStatistics};
+pub(super) use crate::figures::shared::numbers::extent;
+use crate::figures::shared::numbers::{Concentration, StraightLine};
 
 /// The identifier of the figure.
 pub(super) const ID: &str = "fig13";
@@ -103,8 +105,6 @@ pub(super) struct SweepPoint {
     /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
-    /// Share of the normal impulse within π/4 of τ = 0.
-    pub(super) impulse_share_near_zero: f64,
     /// Means over the impacts that are not summed.
     pub(super) mean_impact_speed_m_per_s: f64,
     pub(super) mean_impact_interval_s: f64,
@@ -126,12 +126,9 @@ pub(super) struct ImpulsePhases {
     pub(super) restitution: f64,
     /// Shares in equal parts of the cycle from τ = −π to π.
     pub(super) shares: Vec<f64>,
-    pub(super) share_near_zero: f64,
     /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more than half a period.
     pub(super) impulse: Option<Concentration>,
     pub(super) collisions: Option<Concentration>,
-    /// Share that comes in contact and in summed chattering.
-    pub(super) contact_share: f64,
 }
 
 /// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at each. Nothing perturbs
@@ -142,10 +139,6 @@ pub(super) struct AlikeMotors {
     pub(super) inputs: String,
     /// Motors drawn.
     pub(super) drawn: usize,
-    /// The values of μ, θ and ωΦ that each of them is given, too.
-    pub(super) frictions: Vec<f64>,
-    pub(super) phase_lags_rad: Vec<f64>,
-    pub(super) peak_angular_speeds_rad_per_s: Vec<f64>,
     /// What most of them do with other values of each parameter, in the order of the panels.
     pub(super) ranges: Vec<AlikeRange>,
     /// By rising ε.
@@ -186,10 +179,6 @@ pub(super) struct Draw {
     pub(super) stall_over_limit_slope: Option<f64>,
     /// What the second of these lines rises by over the range of ε, over its value at the first ε.
     pub(super) stall_over_limit_rise: Option<f64>,
-    /// The largest α̇_ss/t_c over the limit, at any of the ε.
-    pub(super) largest_stall_over_limit: f64,
-    /// The largest steady speed over ωΦ.
-    pub(super) largest_speed_ratio: f64,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
     pub(super) share_of_exponential: f64,
     /// What each parameter changes, in the order of the panels.
@@ -197,9 +186,6 @@ pub(super) struct Draw {
     /// Share of the variance of steady speed and of α̇_ss/t_c over θ that a cosine explains.
     pub(super) speed_cosine: Option<f64>,
     pub(super) stall_cosine: Option<f64>,
-    /// Exponents of A in both, over the three printed amplitudes at the printed ε.
-    pub(super) speed_amplitude_exponent: Option<f64>,
-    pub(super) stall_amplitude_exponent: Option<f64>,
 }
 
 /// What a parameter changes in a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
@@ -222,4 +208,80 @@ impl Draw {
     pub(super) fn sensitivity(&self, parameter: Parameter) -> Option<&Sensitivity> {
         self.sensitivities.iter().find(|sensitivity| sensitivity.parameter == parameter)
     }
+}
+
+pub(super) fn sweep_points(data: &Fig13Data) -> impl Iterator<Item = &SweepPoint> {
+    data.sweeps.iter().flat_map(|sweep| &sweep.points)
+}
+
+pub(super) fn sweep(data: &Fig13Data, parameter: Parameter) -> Option<&Sweep> {
+    data.sweeps.iter().find(|sweep| sweep.parameter == parameter)
+}
+
+/// What is read from a point: the steady speed in rad/s, or the stall acceleration.
+pub(super) type Quantity = fn(&SweepPoint) -> Option<f64>;
+
+pub(super) fn speed(point: &SweepPoint) -> Option<f64> {
+    Some(point.statistics.steady_speed_rad_per_s.mean)
+}
+
+/// How far α̇_ss/t_c is above the largest acceleration that friction gives, as a share of it.
+pub(super) fn stall_over_limit(data: &Fig13Data, parameter: Parameter, point: &SweepPoint) -> Option<f64> {
+    let limit = parameter.set(&data.motor, point.value).largest_acceleration();
+    Some(point.stall()?.abs() / limit)
+}
+
+pub(super) fn stall(point: &SweepPoint) -> Option<f64> {
+    point.stall()
+}
+
+/// All points drawn, those on a low-period cycle among them, as (value, quantity).
+pub(super) fn read(data: &Fig13Data, parameter: Parameter, of: Quantity) -> Vec<(f64, f64)> {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    points.iter().filter_map(|point| of(point).map(|value| (point.value, value))).collect()
+}
+
+/// How many of the points of a sweep a low-period cycle governs, in words.
+pub(super) fn low_period_words(data: &Fig13Data, parameter: Parameter) -> String {
+    let points = sweep(data, parameter).map_or(&[][..], |sweep| &sweep.points);
+    let low = points.iter().filter(|point| point.statistics.is_low_period()).count();
+    format!("{low} of {} motors on a low-period cycle", points.len())
+}
+
+/// y = c cos θ by least squares: c, and the share of the variance that it explains. `None` of fewer than three points.
+pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
+    if points.len() < 3 {
+        return None;
+    }
+    let (mut products, mut squares) = (0.0, 0.0);
+    for (angle, value) in points {
+        products += cos(*angle) * value;
+        squares += cos(*angle) * cos(*angle);
+    }
+    let factor = products / squares;
+    let mean = points.iter().map(|point| point.1).sum::<f64>() / points.len() as f64;
+    let (mut rest, mut all) = (0.0, 0.0);
+    for (angle, value) in points {
+        let (off, from_mean) = (value - factor * cos(*angle), value - mean);
+        rest += off * off;
+        all += from_mean * from_mean;
+    }
+    Some((factor, 1.0 - rest / all))
+}
+
+/// By how much a quantity changes over the range of a parameter: along a straight line, of A in its logarithm, of θ along a cosine.
+pub(super) fn trend_change(parameter: Parameter, points: &[(f64, f64)]) -> Option<f64> {
+    let (first, last) = (points.first()?.0, points.last()?.0);
+    match parameter {
+        Parameter::PhaseLag => cosine_fit(points).map(|fit| 2.0 * fit.0),
+        Parameter::Amplitude => {
+            let logarithms: Vec<_> = points.iter().map(|(x, y)| (ln(*x), *y)).collect();
+            Some(StraightLine::through(&logarithms)?.slope * (ln(last) - ln(first)))
+        }
+        _ => Some(StraightLine::through(points)?.slope * (last - first)),
+    }
+}
+
+pub(super) fn words(line: Option<StraightLine>) -> String {
+    line.map_or_else(|| "no fit".to_owned(), |line| format!("{:+.3} ± {:.3}", line.slope, line.slope_error))
 }

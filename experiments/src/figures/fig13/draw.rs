@@ -7,8 +7,7 @@ use bouncing_disk_plot::{
     Rect, Scatter, Ticks,
 };
 
-use super::data::{AlikeRange, Fig13Data, Parameter, Sweep, SweepPoint};
-use super::sweeps::stall_over_limit;
+use super::data::{AlikeRange, Fig13Data, Parameter, Sweep, SweepPoint, stall_over_limit};
 
 /// Speeds belong to the left scale, stall accelerations to the right one.
 const SPEED: Colour = Colour::BLACK;

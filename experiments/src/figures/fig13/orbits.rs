@@ -4,12 +4,14 @@ use std::f64::consts::{FRAC_PI_8, PI};
 
 use bouncing_disk::core::numerics::elementary::ln;
 
-use super::data::{Fig13Data, ID, Parameter, Prevalence, SweepPoint};
-use super::sweeps::{Quantity, extent, read, speed, stall, sweep, sweep_points, words};
+use super::data::{
+    Fig13Data, ID, Parameter, Prevalence, Quantity, SweepPoint, extent, read, speed, stall, sweep,
+    sweep_points, words,
+};
 use crate::claims::judging::trend;
 use crate::claims::{Cases, Claim, all, any};
-use crate::figures::motor_case::LOW_PERIOD_FLIGHTS;
-use crate::figures::numbers::{Concentration, StraightLine};
+use crate::figures::shared::motor::LOW_PERIOD_FLIGHTS;
+use crate::figures::shared::numbers::{Concentration, StraightLine};
 
 /// A quotient that changes by less than this share over two decades of A counts as constant.
 const CONSTANT_WITHIN: f64 = 0.1;
@@ -60,10 +62,6 @@ pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
     let alike = &data.alike;
     let shares: Vec<f64> = alike.draws.iter().map(|draw| draw.share_of_exponential).collect();
     let mean = shares.iter().sum::<f64>() / shares.len() as f64;
-    let low = alike
-        .prevalence
-        .iter()
-        .map(|entry| format!("{:.2}: {:.1} %", entry.restitution, 100.0 * entry.share_of_low_period));
     let shares_of_low = alike.prevalence.iter().map(|entry| (entry.restitution, entry.share_of_low_period));
     [
         Claim::printed_statement(
@@ -79,11 +77,7 @@ pub(super) fn commonness(data: &Fig13Data) -> [Claim; 2] {
         Claim::printed_statement(
             "section5.smaller_restitution_gives_low_period",
             trend(shares_of_low, -1.0),
-            format!(
-                "share of low period among {} motors that print alike, by ε: {}",
-                alike.drawn,
-                low.collect::<Vec<_>>().join(", ")
-            ),
+            format!("share of low period among {} motors that print alike", alike.drawn),
         ),
     ]
 }
@@ -96,12 +90,9 @@ pub(super) fn reduced_restitution(data: &Fig13Data) -> Claim {
         "section5.reduced_restitution",
         any(lower.clone(), |entry| entry.share_of_low_period > 0.5),
         format!(
-            "share of low period of {} motors that print like Table III's, by ε below {printed}: {}",
+            "up to {:.0} % of {} motors that print like Table III's are of low period at an ε below {printed}",
+            100.0 * extent(lower.map(|entry| entry.share_of_low_period)).1,
             data.alike.drawn,
-            lower
-                .map(|entry| format!("{:.1}: {:.0} %", entry.restitution, 100.0 * entry.share_of_low_period))
-                .collect::<Vec<_>>()
-                .join(", "),
         ),
     )
 }
@@ -160,18 +151,10 @@ pub(super) fn slower_collisions(data: &Fig13Data) -> Claim {
     let logarithms: Vec<_> =
         chaotic.iter().map(|point| (ln(point.value), ln(point.mean_impact_speed_m_per_s))).collect();
     let line = StraightLine::through(&logarithms);
-    let rows = chaotic
-        .iter()
-        .step_by(chaotic.len().saturating_sub(1).max(1))
-        .map(|point| format!("{:.3e} m: {:.3e} m/s", point.value, point.mean_impact_speed_m_per_s));
     Claim::printed_statement(
         "section5.slower_collisions",
         line.is_some_and(|line| line.slope - 2.0 * line.slope_error > 0.0),
-        format!(
-            "mean impact speed grows with the exponent {} of A: {}",
-            words(line),
-            rows.collect::<Vec<_>>().join(", ")
-        ),
+        format!("mean impact speed grows with the exponent {} of A", words(line)),
     )
 }
 

@@ -2,13 +2,12 @@
 
 use bouncing_disk::core::numerics::elementary::ln;
 
-use super::data::{Draw, Fig13Data, Parameter, Sensitivity, SweepPoint};
-use super::sweeps::{
-    Quantity, cosine_fit, extent, low_period_words, read, speed, stall, stall_over_limit, sweep,
-    sweep_points, trend_change,
+use super::data::{
+    Draw, Fig13Data, Parameter, Quantity, Sensitivity, SweepPoint, cosine_fit, extent, low_period_words,
+    read, speed, stall, stall_over_limit, sweep, trend_change,
 };
 use crate::claims::{Cases, Claim};
-use crate::figures::numbers::{self, StraightLine};
+use crate::figures::shared::numbers::{self, StraightLine};
 
 /// An exponent this near to 1 counts as proportional.
 const PROPORTIONAL_WITHIN: f64 = 0.1;
@@ -71,10 +70,8 @@ fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
 pub(super) fn amplitude(data: &Fig13Data) -> Claim {
     let [of_speed, of_stall] = [speed as Quantity, stall].map(|of| exponent(data, Parameter::Amplitude, of));
     let small = |exponent: f64| is_insignificant(data, Parameter::Amplitude, exponent);
-    let holds = data.alike.draws.iter().map(|draw| {
-        [draw.speed_amplitude_exponent, draw.stall_amplitude_exponent]
-            .into_iter()
-            .all(|one| one.is_some_and(small))
+    let single = agreement(data, Parameter::Amplitude, |of| {
+        [of.speed_exponent, of.stall_exponent].into_iter().all(|one| one.is_some_and(small))
     });
     Claim::printed_statement(
         "section5.amplitude_insensitivity",
@@ -87,7 +84,7 @@ pub(super) fn amplitude(data: &Fig13Data) -> Claim {
         ),
     )
     .cause("short cycles in the sweep of A")
-    .single_orbits(Cases::of(holds))
+    .single_orbits(single)
 }
 
 /// The agreement of the motors that print alike on what a parameter changes.
@@ -256,20 +253,6 @@ pub(super) fn both(data: &Fig13Data) -> Claim {
     )
     .by_definition(&[Cases::from(holds(&printed[0], &printed[1])).sampled()])
     .single_orbits(Cases::of(data.alike.draws.iter().map(single)))
-}
-
-pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
-    let ratio = sweep_points(data).map(|point| point.speed_ratio().abs()).fold(0.0, f64::max);
-    let draws = &data.alike.draws;
-    let largest = extent(draws.iter().map(|draw| draw.largest_speed_ratio)).1;
-    Claim::printed_statement(
-        "section5.speed_limit",
-        Cases::of(draws.iter().map(|draw| draw.largest_speed_ratio <= 1.0 && ratio <= 1.0)),
-        format!(
-            "largest steady speed of the {} motors drawn in the figure: {ratio:.3} ωΦ; of the motors that print alike, at all ε: {largest:.3} ωΦ",
-            sweep_points(data).count()
-        ),
-    )
 }
 
 /// The quotient α̇_ss/t_c against the acceleration that friction can give, where the paper defines it: for exponential transients.

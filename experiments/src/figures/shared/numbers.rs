@@ -20,9 +20,6 @@ pub(crate) fn exponent(value: f64) -> String {
     text.split_once('e').map_or(text.clone(), |(_, power)| power.replace('-', "\u{2212}"))
 }
 
-/// The step of stored numbers that are rounded to six decimals.
-pub(crate) const STORED_STEP: f64 = 1.0e-6;
-
 /// A number rounded to six decimals, where no more are meant.
 pub(crate) fn six_decimals(value: f64) -> f64 {
     (value * 1.0e6).round() / 1.0e6

@@ -3,16 +3,15 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
-pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL, RiseForm as Form};
+pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
 use bouncing_disk::motor::TransientSettings;
 use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
-use crate::claims::paper::{SectionFive, TableThree};
-use crate::claims::{Cases, Claim};
-use crate::experiment::ExperimentError;
+use crate::claims::{Cases, paper};
+use crate::experiment::{ExperimentError, named};
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
@@ -32,9 +31,6 @@ pub(crate) fn by_definition_words(cases: [Cases; 4]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// Two speeds that differ by no more standard errors count as the same.
-const SAME_WITHIN: f64 = 3.0;
-
 /// The inputs of Sec. V A, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct MotorCase {
@@ -51,8 +47,9 @@ pub(crate) struct MotorCase {
 
 impl MotorCase {
     /// The default motor: Table III with its 70 read as ω/2π in kHz, and gravity as the preload.
-    pub(crate) fn default_of(table: &TableThree, section: &SectionFive) -> Self {
-        Self {
+    pub(crate) fn table_three() -> Result<Self, ExperimentError> {
+        let (table, section) = (paper::table_three()?, paper::section_five()?);
+        Ok(Self {
             friction: table.friction,
             restitution: table.restitution,
             phase_lag_rad: table.phase_lag_rad,
@@ -62,7 +59,7 @@ impl MotorCase {
             gyration_radius_m: 1e-3 * table.gyration_radius_mm,
             preload_acceleration_m_per_s2: section.gravity_m_per_s2,
             frequency_hz: section.default_frequency_hz,
-        }
+        })
     }
 
     pub(crate) fn system(&self) -> Result<System, ExperimentError> {
@@ -90,13 +87,12 @@ impl MotorCase {
 
     /// What all motors of the figures share, by name and with units, for the gallery.
     pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
-        let named = [
+        named([
             ("μ", self.friction.to_string()),
             ("ε", self.restitution.to_string()),
             ("θ", format!("{} rad", self.phase_lag_rad)),
             ("ωΦ", format!("{} rad/s", self.peak_angular_speed_rad_per_s)),
-        ];
-        named.map(|(name, value)| (name.to_owned(), value)).into()
+        ])
     }
 
     /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time.
@@ -146,11 +142,6 @@ impl MotorCase {
             bouncing_disk::estimate::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
         Ok(statistics.into())
     }
-}
-
-/// An error of the core as one of this crate.
-pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
-    ExperimentError::model(bouncing_disk::Error::from(error))
 }
 
 /// What `multi_toss` says that the unperturbed motor repeats.
@@ -237,7 +228,12 @@ impl Cycle {
 
     /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle, however short.
     pub(crate) fn is_low_period(self) -> bool {
-        self.chattering_flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS)
+        self.is_low(LOW_PERIOD_FLIGHTS)
+    }
+
+    /// The same under another definition: of at most so many flights.
+    pub(crate) fn is_low(self, most: usize) -> bool {
+        self.chattering_flights().is_some_and(|flights| flights <= most)
     }
 
     /// Whether every flight ends in a rest.
@@ -253,9 +249,6 @@ pub(crate) struct MotorStatistics {
     pub(crate) steady_speed_rad_per_s: Spread,
     /// Over the members that can be fitted; `None` where less than half can.
     pub(crate) stall_acceleration_rad_per_s2: Option<Spread>,
-    pub(crate) form: Form,
-    /// Members without a meaningful fit.
-    pub(crate) unfitted: usize,
     /// The cycle without perturbation.
     pub(crate) cycle: Cycle,
     /// Whether the perturbed members repeat that cycle, too.
@@ -267,8 +260,6 @@ impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
         Self {
             steady_speed_rad_per_s: statistics.steady_speed,
             stall_acceleration_rad_per_s2: statistics.stall_acceleration,
-            form: statistics.form,
-            unfitted: statistics.unfitted,
             cycle: statistics.orbit.into(),
             locked: statistics.locked,
         }
@@ -283,56 +274,6 @@ impl MotorStatistics {
     }
 }
 
-/// Steady speed and stall acceleration for one size of the relaunch perturbation.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct PerturbationEffect {
-    /// In units of g/ω.
-    pub(crate) relaunch_perturbation: f64,
-    pub(crate) statistics: MotorStatistics,
-}
-
-/// The statistics of `case` for several sizes of the relaunch perturbation.
-pub(crate) fn perturbation_table(
-    case: &MotorCase,
-    sizes: &[f64],
-    rises: f64,
-    members: usize,
-) -> Result<Vec<PerturbationEffect>, ExperimentError> {
-    let effect = |&relaunch_perturbation: &f64| {
-        let statistics = case.statistics(rises, members, relaunch_perturbation)?;
-        Ok(PerturbationEffect { relaunch_perturbation, statistics })
-    };
-    sizes.iter().map(effect).collect()
-}
-
-/// The statement that the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
-/// their standard errors.
-pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[PerturbationEffect]) -> Claim {
-    let speeds = || table.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
-    let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean));
-    let most = speeds().max_by(|one, other| one.mean.total_cmp(&other.mean));
-    let (holds, range) = match (least, most) {
-        (Some(least), Some(most)) => {
-            let difference = most.mean - least.mean;
-            let error = (least.standard_error * least.standard_error
-                + most.standard_error * most.standard_error)
-                .sqrt();
-            let range = format!(
-                "the slowest and the fastest differ by {difference:.2} ± {error:.2} rad/s, {:.1} % of the speed",
-                100.0 * difference / most.mean.abs()
-            );
-            (Some(difference <= SAME_WITHIN * error), range)
-        }
-        _ => (None, String::new()),
-    };
-    let evidence = format!(
-        "of {} perturbations from none to {:e} g/ω {range}",
-        table.len(),
-        table.iter().map(|effect| effect.relaunch_perturbation).fold(0.0, f64::max),
-    );
-    Claim::statement(id, "our ensemble", quantity, holds, evidence)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -340,11 +281,7 @@ mod tests {
     /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
     #[test]
     fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
-        use crate::claims::paper;
-        let motor = MotorCase::default_of(
-            &paper::table_three().expect("reads"),
-            &paper::section_five().expect("reads"),
-        );
+        let motor = MotorCase::table_three().expect("reads");
         let at = |amplitude_m, preload_acceleration_m_per_s2| {
             MotorCase { amplitude_m, preload_acceleration_m_per_s2, ..motor }.robust_cycle().expect("runs")
         };

@@ -1,0 +1,48 @@
+//! What several figures share.
+
+pub(crate) mod alike;
+pub(crate) mod cylinder;
+pub(crate) mod motor;
+pub(crate) mod numbers;
+pub(crate) mod stall;
+pub(crate) mod toss;
+
+use bouncing_disk::core::chaos::Manifold;
+use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
+
+use self::numbers::six_decimals;
+use crate::experiment::ExperimentError;
+
+/// The range of Γ of the diagrams of Fig. 6, to whose end Fig. 7 looks for starts that do not come to rest.
+pub(crate) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
+
+pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
+    Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
+}
+
+/// The pieces of a manifold with their impacts at these places, cut where the first coordinate, a phase in periods of
+/// the platform, jumps by more than half a period; without pieces of a single impact.
+pub(crate) fn lines(manifold: &Manifold, spot: impl Fn(ImpactState) -> (f64, f64)) -> Vec<Vec<(f64, f64)>> {
+    let mut lines = Vec::new();
+    for piece in manifold.pieces() {
+        let mut current: Vec<(f64, f64)> = Vec::new();
+        for state in &piece.states {
+            let next = spot(*state);
+            if current.last().is_some_and(|last| (last.0 - next.0).abs() > 0.5) {
+                lines.push(std::mem::take(&mut current));
+            }
+            current.push(next);
+        }
+        lines.push(current);
+    }
+    lines.retain(|line| line.len() > 1);
+    lines
+}
+
+/// The phases of impacts (periods), each once, to six decimals and in their order: a periodic orbit repeats its own.
+pub(crate) fn distinct_phases(impacts: &[ImpactState]) -> Vec<f64> {
+    let mut phases: Vec<f64> = impacts.iter().map(|impact| six_decimals(impact.phase().cycles())).collect();
+    phases.sort_by(f64::total_cmp);
+    phases.dedup_by(|one, other| one.total_cmp(other).is_eq());
+    phases
+}
