@@ -117,31 +117,34 @@ const SADDLE_LIFE: usize = 40;
 /// Impacts in the middle of each of these orbits.
 const SADDLE_IMPACTS: usize = 4;
 
-/// A set of cells, so many a unit.
+/// A set of cells, so many a unit, and the cells next to them.
 struct Cells {
     unit: f64,
     cells: BTreeSet<(i32, i32)>,
+    near: BTreeSet<(i32, i32)>,
 }
 
 impl Cells {
     fn of(states: &[ImpactState], unit: f64) -> Self {
-        Self { unit, cells: states.iter().map(|state| Self::cell(state, unit)).collect() }
+        let cells: BTreeSet<_> = states.iter().map(|state| Self::cell(state, unit)).collect();
+        // The last column of cells touches the first.
+        let columns = unit as i32;
+        let around = |&(column, row): &(i32, i32)| {
+            (-1..=1).flat_map(move |across| {
+                (-1..=1).map(move |up| ((column + across).rem_euclid(columns), row + up))
+            })
+        };
+        let near = cells.iter().flat_map(around).collect();
+        Self { unit, cells, near }
     }
 
     fn cell(state: &ImpactState, unit: f64) -> (i32, i32) {
         ((unit * state.phase().cycles()) as i32, (unit * state.normalised_speed()) as i32)
     }
 
-    /// Whether a cell or one that touches it is among them; the last column of cells touches the first.
-    fn near(&self, (column, row): (i32, i32)) -> bool {
-        let columns = self.unit as i32;
-        let mut around = (-1..=1).flat_map(|across| (-1..=1).map(move |up| (across, up)));
-        around.any(|(across, up)| self.cells.contains(&((column + across).rem_euclid(columns), row + up)))
-    }
-
     /// The share of some impacts that are near.
     fn share(&self, states: &[ImpactState]) -> f64 {
-        let near = states.iter().filter(|state| self.near(Self::cell(state, self.unit))).count();
+        let near = states.iter().filter(|state| self.near.contains(&Self::cell(state, self.unit))).count();
         near as f64 / states.len().max(1) as f64
     }
 
@@ -149,7 +152,7 @@ impl Cells {
     fn share_of_plane(&self, largest_speed: f64) -> f64 {
         let (columns, rows) = (self.unit as i32, (self.unit * largest_speed) as i32 + 1);
         let plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
-        plane.filter(|cell| self.near(*cell)).count() as f64 / f64::from(columns * rows)
+        plane.filter(|cell| self.near.contains(cell)).count() as f64 / f64::from(columns * rows)
     }
 }
 
