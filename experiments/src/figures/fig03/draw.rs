@@ -3,7 +3,7 @@
 use bouncing_disk::motion::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
-    Stroke, Style, Text, TextBox, TextStyle, Ticks,
+    Stroke, Style, Text, TextStyle, Ticks,
 };
 
 use super::census::{Census, ChatteringCycle};
@@ -171,7 +171,7 @@ fn chart(census: &Census) -> Drawing {
     ];
     for (centre, corner, lines, colour) in boxes {
         let style = Style::from(stroke).fill(colour.mixed(Colour::WHITE, 0.75));
-        drawing = drawing.text_box(TextBox::new(centre, size, lines).corner(corner).style(style));
+        drawing = drawing.text_box(centre, size, corner, style, lines);
     }
     drawing
 }
