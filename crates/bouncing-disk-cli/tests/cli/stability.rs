@@ -1,12 +1,9 @@
 //! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See docs/stability.md.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-mod common;
 
 use std::fs;
 use std::path::Path;
 
-use common::Folder;
+use crate::common::{Folder, no_part};
 
 /// A folder with the files that version 0.1 wrote.
 fn of_0_1() -> Folder {
