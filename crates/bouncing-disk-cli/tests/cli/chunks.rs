@@ -60,7 +60,7 @@ fn foreign_parts_are_refused_by_name() {
     folder.done(&format!("{line} --out whole.json"));
     let (one, two, three) = ("merge part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
     let foreign = "is the journal of another computation: its provenance.parameters";
-    let lines = [
+    let lines: [(&str, &str); _] = [
         (&format!("{one} {three}"), "2 of 7 rows are missing, first 3 to 4"),
         (one, "5 of 7 rows are missing, first 3 to 7"),
         (&format!("merge {two}"), "5 of 7 rows are missing, first 1 to 2"),

@@ -70,7 +70,7 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_computed() {
     std::fs::create_dir(folder.join("taken.csv")).unwrap();
     // It would take hours.
     let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --out";
-    let lines = [
+    let lines: [(&str, &str); _] = [
         (&format!("{long} a.csv"), "a.csv: it is there already; --force replaces it"),
         (&format!("{long} no/such/a.csv"), "there is no folder no/such"),
         (&format!("{long} taken.csv"), "it is a folder"),
@@ -272,7 +272,7 @@ fn an_input_is_no_result() {
     folder.done("verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --out part.json");
     folder.write("toss.json", "{}");
     let told = "it cannot be an input and the result";
-    let lines = [
+    let lines: [(&str, &str); _] = [
         ("fit run.csv --out ./run.csv --force", told),
         ("merge part.json --out part.json --force", told),
         ("toss toss.json --out toss.json --force", told),
