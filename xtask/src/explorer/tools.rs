@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 use super::TARGET;
-use crate::workspace::{cargo, in_workspace};
+use crate::workspace::cargo;
 
 /// The oldest Node that the build tools of the page run on.
 const OLDEST_NODE: u32 = 20;
