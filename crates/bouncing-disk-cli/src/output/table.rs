@@ -208,7 +208,7 @@ load torque (N m)  state     speed (rad/s^2)
            1.5e-6  steady            17.1235
                 0  a \"b\", c                -
 ";
-        assert_eq!(columns.to_text(&rows), text);
+        assert_eq!(columns.to_text(rows), text);
         let csv = "\
 load_torque_n_m,state,speed_rad_s2
 1.5e-6,steady,17.1234567
