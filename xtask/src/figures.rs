@@ -336,8 +336,8 @@ impl Run<'_> {
 
     /// Prints the times, the measurements that were left out and the failures.
     ///
-    /// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
-    /// must not take it for one that shows them.
+    /// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and
+    /// a script must not take it for one that shows them.
     fn conclude(
         &self,
         finished: &[Finished],

@@ -1,5 +1,5 @@
-//! Parameters: from a file, a preset of the paper, and single values on the command line, the same for a system and for
-//! a motor.
+//! Parameters: from a file, a preset of the paper, and single values on the command line, the same for a
+//! system and for a motor.
 
 pub(crate) mod motor;
 pub(crate) mod system;

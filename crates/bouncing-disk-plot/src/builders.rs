@@ -4,7 +4,7 @@
 /// `/// Doc.`, `name(argument: Type) |own| own.field = argument;`.
 ///
 /// Those that layers share need only their names. They set parts of the field `style` of a layer (a
-/// [`Style`](crate::style::Style), or for words a [`TextStyle`](crate::style::TextStyle)) or its field `name`.
+/// [`Style`](crate::style::Style) or a [`TextStyle`](crate::style::TextStyle)) or its field `name`.
 macro_rules! builders {
     ($type:ident {
         $($(#[$doc:meta])* $method:ident($($argument:ident: $kind:ty),*) |$own:ident| $set:expr;)+

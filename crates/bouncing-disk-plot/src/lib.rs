@@ -18,9 +18,9 @@
 //! | numbers in words | [`rounded`], [`in_math`] |
 //! | what can go wrong | [`DrawError`] |
 //!
-//! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. A [`Figure`] has a size in points (1/72
-//! inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s (free sketches) at given rectangles; a [`Grid`]
-//! computes those.
+//! Labels are a small subset of TeX between dollar signs: see [`Label::new`]. A [`Figure`] has a size in points
+//! (1/72 inch) and holds [`Panel`]s (axes with layers) and [`Drawing`]s (free sketches) at given rectangles;
+//! a [`Grid`] computes those.
 
 mod annotation;
 mod axis;

@@ -36,10 +36,12 @@ pub(crate) struct BasinsArgs {
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true, value_parser = interval)]
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true,
+          value_parser = interval)]
     phase: [f64; 2],
     /// Normalised impact speeds of the window
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5", value_parser = interval)]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5",
+          value_parser = interval)]
     speed: [f64; 2],
     /// Impacts after which a start is left undecided
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]

@@ -1,4 +1,4 @@
-//! The vertical motion, which has no units: axial forcing and restitution, and the impact that an orbit starts with.
+//! The vertical motion, which has no units: its forcing, its restitution and the impact it starts with.
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};

@@ -42,9 +42,9 @@ impl OrbitDiagram<'_> {
     /// The colour of a start that is alone.
     pub const ALONE: Colour = Colour::rgb(40, 40, 40);
 
-    /// The colour of a start; beyond the eighth the same in a darker shade, and again. The first start lies on top of
-    /// the others: beyond the crisis a start at rest and one beside the period-1 orbit are on the same attractor, and
-    /// light points say so.
+    /// The colour of a start; beyond the eighth the same in a darker shade, and again. The first start lies on
+    /// top of the others: beyond the crisis a start at rest and one beside the period-1 orbit are on the same
+    /// attractor, and light points say so.
     fn colour(index: usize, starts: usize) -> Colour {
         if starts == 1 {
             return Self::ALONE;

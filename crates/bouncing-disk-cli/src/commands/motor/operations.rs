@@ -1,5 +1,5 @@
-//! `bouncing-disk motor stall`, `motor phase-lag` and `motor traps`: the load that stops the motor, the phase lag at which
-//! it turns fastest, and the preloads at which it is locked on a short cycle.
+//! `bouncing-disk motor stall`, `motor phase-lag` and `motor traps`: the load that stops the motor, the
+//! phase lag at which it turns fastest, and the preloads at which it is locked on a short cycle.
 
 use bouncing_disk::Motor;
 use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, TrapRange};
@@ -19,8 +19,8 @@ pub(super) struct OperationArgs {
 }
 
 impl OperationArgs {
-    /// The motor and how it is computed, if the result can be written; `None` where the template was asked for, and has
-    /// been written.
+    /// The motor and how it is computed, if the result can be written; `None` where the template was asked for,
+    /// and has been written.
     fn begin(&self, context: Context) -> Result<Option<(Motor, OperatingSettings)>> {
         let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
         warn(&motor, context);
