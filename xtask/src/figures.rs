@@ -131,6 +131,7 @@ fn shell_word(text: &OsStr) -> String {
 
 /// Does what the options ask for.
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
+<<<<<<< HEAD
     let entries = registry::all();
     let selected = match registry::select(&entries, &options.ids) {
         Ok(selected) if options.ids.is_empty() => {
@@ -142,6 +143,20 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
             return Ok(ExitCode::from(USAGE));
         }
     };
+=======
+    let refuse = |words: String| {
+        complain!("error: {words}");
+        Ok(ExitCode::from(USAGE))
+    };
+    let entries = registry::all();
+    let mut selected = match registry::select(&entries, &options.ids) {
+        Ok(selected) => selected,
+        Err(error) => return refuse(error.to_string()),
+    };
+    if options.ids.is_empty() {
+        selected.retain(|entry| registry::is_extra(entry.id) == options.extras);
+    }
+>>>>>>> third-model
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
@@ -150,46 +165,30 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
+<<<<<<< HEAD
+=======
+    // Tables would be taken for measurements.
+    let real = |path: &Path| path.canonicalize().ok();
+    if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
+        let folder = visible_path(&folder);
+        return refuse(format!("{folder} is the folder of the measurements; --out must be another"));
+    }
+    let run = Run { options, entries: &entries, selected: &selected, measurements: &measurements };
+>>>>>>> third-model
     if options.list {
-        return list(options, &selected, &measurements);
+        return run.list();
     }
     if options.check {
-        return check(options, &entries, &selected, &measurements);
+        return run.check();
     }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads(options));
     pool.build_global().context("cannot start the computing threads")?;
     let folder = OutputFolder::create(options.folder())?;
-    let run = Run { options, entries: &entries, selected: &selected };
     if options.docs {
-        return write_docs(&run, &folder);
+        // A user's measurements are not shown in the documentation.
+        return Run { measurements: &Measurements::none(), ..run }.write_docs(&folder);
     }
-    make(&run, options.quality, &measurements, &folder)
-}
-
-/// What is to be made.
-struct Run<'a> {
-    options: &'a Options,
-    entries: &'a [RegisteredExperiment],
-    selected: &'a [&'a RegisteredExperiment],
-}
-
-/// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it. A user's
-/// measurements are not shown there.
-fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
-    let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
-    for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
-        let code = make(run, quality, &Measurements::none(), folder)?;
-        if code != ExitCode::SUCCESS {
-            say!("the documentation is left as it was")?;
-            return Ok(code);
-        }
-    }
-    let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
-    let pictures = if run.options.extras { Pictures::Extras } else { Pictures::Paper };
-    pages::write(pictures, run.selected, folder, &drafts, &docs)
-        .context("the documentation cannot be written")?;
-    say!("{} is up to date", visible_path(docs.path()))?;
-    Ok(ExitCode::SUCCESS)
+    run.make(options.quality, &folder)
 }
 
 fn threads(options: &Options) -> usize {
@@ -197,185 +196,203 @@ fn threads(options: &Options) -> usize {
     options.threads.map_or_else(available, usize::from)
 }
 
-fn list(
-    options: &Options,
-    selected: &[&RegisteredExperiment],
-    measurements: &Measurements,
-) -> anyhow::Result<ExitCode> {
-    let folder = OutputFolder::existing(options.folder());
-    let widest_id = width_of_ids(selected.iter().map(|entry| entry.id));
-    let widest = selected.iter().map(|entry| entry.title.chars().count()).max().unwrap_or_default();
-    for entry in selected {
-        let state = match state(entry, options.quality, &folder, measurements) {
-            Ok(()) => "up to date".to_owned(),
-            Err(stale) => stale.to_string(),
-        };
-        say!("{:<widest_id$} {:<widest$}  {state}", entry.id, entry.title)?;
-    }
-    Ok(ExitCode::SUCCESS)
-}
-
 /// The width of the column of the identifiers.
 fn width_of_ids<'a>(ids: impl Iterator<Item = &'a str>) -> usize {
     ids.map(str::len).fold(8, usize::max)
 }
 
-/// Whether a figure is up to date with the sources and the measurements.
-fn state(
-    entry: &RegisteredExperiment,
-    quality: Quality,
-    folder: &OutputFolder,
-    measurements: &Measurements,
-) -> Result<(), Stale> {
-    folder.check(entry.id, quality, &measurements.digest(entry.measurements))
+/// What is to be made, and the measurements that are shown.
+struct Run<'a> {
+    options: &'a Options,
+    entries: &'a [RegisteredExperiment],
+    selected: &'a [&'a RegisteredExperiment],
+    measurements: &'a Measurements,
 }
 
-/// What is wrong with the measurements for the selected figures, and with files that no figure reads.
-fn faults(
-    options: &Options,
-    selected: &[&RegisteredExperiment],
-    measurements: &Measurements,
-    summary: &Summary,
-) -> Vec<String> {
-    let of_figures = summary
-        .warnings
-        .iter()
-        .filter(|(id, _)| selected.iter().any(|entry| entry.id == id))
-        .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
-    let unknown = measurements.unknown();
-    let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
-    if !faults.is_empty() {
-        let folder = options.measured_folder();
-        faults.push(format!(
-            "measurements are read from {}; its README.md states their form",
-            visible_path(&folder)
-        ));
+impl Run<'_> {
+    /// Whether a figure is up to date with the sources and the measurements.
+    fn state(
+        &self,
+        entry: &RegisteredExperiment,
+        quality: Quality,
+        folder: &OutputFolder,
+    ) -> Result<(), Stale> {
+        folder.check(entry.id, quality, &self.measurements.digest(entry.measurements))
     }
-    faults
-}
 
-fn check(
-    options: &Options,
-    entries: &[RegisteredExperiment],
-    selected: &[&RegisteredExperiment],
-    measurements: &Measurements,
-) -> anyhow::Result<ExitCode> {
-    let folder = OutputFolder::existing(options.folder());
-    let mut outdated = Vec::new();
-    for entry in selected {
-        if let Err(stale) = state(entry, options.quality, &folder, measurements) {
-            say!("{}: {stale}", entry.id)?;
-            outdated.push(entry.id);
+    fn list(&self) -> anyhow::Result<ExitCode> {
+        let folder = OutputFolder::existing(self.options.folder());
+        let widest_id = width_of_ids(self.selected.iter().map(|entry| entry.id));
+        let widest = self.selected.iter().map(|entry| entry.title.chars().count()).max().unwrap_or_default();
+        for entry in self.selected {
+            let state = match self.state(entry, self.options.quality, &folder) {
+                Ok(()) => "up to date".to_owned(),
+                Err(stale) => stale.to_string(),
+            };
+            say!("{:<widest_id$} {:<widest$}  {state}", entry.id, entry.title)?;
         }
+        Ok(ExitCode::SUCCESS)
     }
-    let summary = Summary::of(entries, &folder, measurements)?;
-    let common = summary.outdated(&folder)?;
-    for name in &common {
-        say!("{name}: missing or out of date")?;
+
+    /// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it.
+    fn write_docs(&self, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
+        let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
+        for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
+            let code = self.make(quality, folder)?;
+            if code != ExitCode::SUCCESS {
+                say!("the documentation is left as it was")?;
+                return Ok(code);
+            }
+        }
+        let docs = OutputFolder::create(in_workspace(DOCS_FOLDER))?;
+        let pictures = if self.options.extras { Pictures::Extras } else { Pictures::Paper };
+        pages::write(pictures, self.selected, folder, &drafts, &docs)
+            .context("the documentation cannot be written")?;
+        say!("{} is up to date", visible_path(docs.path()))?;
+        Ok(ExitCode::SUCCESS)
     }
-    let faults = faults(options, selected, measurements, &summary);
-    for fault in &faults {
-        say!("{fault}")?;
+
+    /// What is wrong with the measurements for the selected figures, and with files that no figure reads.
+    fn faults(&self, summary: &Summary) -> Vec<String> {
+        let of_figures = summary
+            .warnings
+            .iter()
+            .filter(|(id, _)| self.selected.iter().any(|entry| entry.id == id))
+            .map(|(id, warning)| format!("{id}: measurements not shown: {warning}"));
+        let unknown = self.measurements.unknown();
+        let mut faults: Vec<String> = of_figures.chain(unknown.iter().map(ToString::to_string)).collect();
+        if !faults.is_empty() {
+            let folder = self.options.measured_folder();
+            faults.push(format!(
+                "measurements are read from {}; its README.md states their form",
+                visible_path(&folder)
+            ));
+        }
+        faults
     }
-    let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
-    let mut committed = 0;
-    for (pictures, command) in DOCS_COMMANDS {
-        // A figure with a user's measurements is not the one of the documentation, which has none.
-        let comparable: Vec<&RegisteredExperiment> = selected
+
+    fn check(&self) -> anyhow::Result<ExitCode> {
+        let Self { options, entries, selected, measurements } = *self;
+        let folder = OutputFolder::existing(options.folder());
+        let mut outdated = Vec::new();
+        for entry in selected {
+            if let Err(stale) = self.state(entry, options.quality, &folder) {
+                say!("{}: {stale}", entry.id)?;
+                outdated.push(entry.id);
+            }
+        }
+        let summary = Summary::of(entries, &folder, measurements)?;
+        let common = summary.outdated(&folder)?;
+        for name in &common {
+            say!("{name}: missing or out of date")?;
+        }
+        let faults = self.faults(&summary);
+        for fault in &faults {
+            say!("{fault}")?;
+        }
+        let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
+        let mut committed = 0;
+        for (pictures, command) in DOCS_COMMANDS {
+            // A figure with a user's measurements is not the one of the documentation, which has none.
+            let comparable: Vec<&RegisteredExperiment> = selected
+                .iter()
+                .copied()
+                .filter(|entry| registry::is_extra(entry.id) == (pictures == Pictures::Extras))
+                .filter(|entry| measurements.digest(entry.measurements).is_empty())
+                .collect();
+            let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;
+            for name in &names {
+                say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
+            }
+            if !names.is_empty() {
+                say!("to repair: {command}")?;
+            }
+            committed += names.len();
+        }
+        if outdated.is_empty() && common.is_empty() {
+            if committed > 0 || !faults.is_empty() {
+                return Ok(ExitCode::FAILURE);
+            }
+            say!("all outputs in {} and the documentation are up to date", visible_path(folder.path()))?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        // With every figure out of date the list of all is no help.
+        let paper: Vec<&str> = registry::paper().iter().map(|entry| entry.id).collect();
+        let all = options.ids.is_empty() && outdated.len() == selected.len() || outdated == paper;
+        let named = if all { Vec::new() } else { outdated };
+        say!("to repair: {}", options.command(&named))?;
+        Ok(ExitCode::FAILURE)
+    }
+
+    fn make(&self, quality: Quality, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
+        let Self { options, entries, selected, measurements } = *self;
+        let (current, due): (Vec<_>, Vec<_>) = selected
             .iter()
             .copied()
+<<<<<<< HEAD
             .filter(|entry| entry.is_extra() == (pictures == Pictures::Extras))
             .filter(|entry| measurements.digest(entry.measurements).is_empty())
             .collect();
         let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;
         for name in &names {
             say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
+=======
+            .partition(|entry| !options.force && self.state(entry, quality, folder).is_ok());
+        let widest = width_of_ids(current.iter().map(|entry| entry.id));
+        for entry in &current {
+            say!("{:<widest$} up to date", entry.id)?;
+>>>>>>> third-model
         }
-        if !names.is_empty() {
-            say!("to repair: {command}")?;
+        let report = Report::new();
+        let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
+        report.close();
+        let summary = match Summary::update(entries, folder, measurements) {
+            Ok(summary) => summary,
+            Err(error) => {
+                // What one full disk has done to the figures, too, is not known otherwise.
+                say_failures(options, &finished)?;
+                return Err(error.into());
+            }
+        };
+        for (id, reason) in &summary.left_out {
+            say!("{id}: not in the gallery and in claims.json: {reason}")?;
+            say!("    make it again: {}", options.command(&[id]))?;
         }
-        committed += names.len();
+        self.conclude(&finished, folder, &summary)
     }
-    if outdated.is_empty() && common.is_empty() {
-        if committed > 0 || !faults.is_empty() {
-            return Ok(ExitCode::FAILURE);
-        }
-        say!("all outputs in {} and the documentation are up to date", visible_path(folder.path()))?;
-        return Ok(ExitCode::SUCCESS);
-    }
-    // With every figure out of date the list of all is no help.
-    let paper: Vec<&str> = registry::paper().iter().map(|entry| entry.id).collect();
-    let all = options.ids.is_empty() && outdated.len() == selected.len() || outdated == paper;
-    let named = if all { Vec::new() } else { outdated };
-    say!("to repair: {}", options.command(&named))?;
-    Ok(ExitCode::FAILURE)
-}
 
-fn make(
-    run: &Run<'_>,
-    quality: Quality,
-    measurements: &Measurements,
-    folder: &OutputFolder,
-) -> anyhow::Result<ExitCode> {
-    let Run { options, entries, selected } = *run;
-    let (current, due): (Vec<_>, Vec<_>) = selected
-        .iter()
-        .copied()
-        .partition(|entry| !options.force && state(entry, quality, folder, measurements).is_ok());
-    let widest = width_of_ids(current.iter().map(|entry| entry.id));
-    for entry in &current {
-        say!("{:<widest$} up to date", entry.id)?;
-    }
-    let report = Report::new();
-    let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);
-    report.close();
-    let summary = match Summary::update(entries, folder, measurements) {
-        Ok(summary) => summary,
-        Err(error) => {
-            // What one full disk has done to the figures, too, is not known otherwise.
-            say_failures(options, &finished)?;
-            return Err(error.into());
+    /// Prints the times, the measurements that were left out and the failures.
+    ///
+    /// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and
+    /// a script must not take it for one that shows them.
+    fn conclude(
+        &self,
+        finished: &[Finished],
+        folder: &OutputFolder,
+        summary: &Summary,
+    ) -> anyhow::Result<ExitCode> {
+        let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
+        made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
+        if !made.is_empty() {
+            say!("\nrun times, longest first")?;
+            let widest = width_of_ids(made.iter().map(|figure| figure.id));
+            for figure in &made {
+                say!("{:<widest$} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
+            }
         }
-    };
-    for (id, reason) in &summary.left_out {
-        say!("{id}: not in the gallery and in claims.json: {reason}")?;
-        say!("    make it again: {}", options.command(&[id]))?;
-    }
-    let faults = faults(options, selected, measurements, &summary);
-    conclude(options, &finished, folder, &faults, &summary)
-}
-
-/// Prints the times, the measurements that were left out and the failures.
-///
-/// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
-/// must not take it for one that shows them.
-fn conclude(
-    options: &Options,
-    finished: &[Finished],
-    folder: &OutputFolder,
-    faults: &[String],
-    summary: &Summary,
-) -> anyhow::Result<ExitCode> {
-    let mut made: Vec<_> = finished.iter().filter(|figure| figure.result.is_ok()).collect();
-    made.sort_by_key(|figure| std::cmp::Reverse(figure.run_time));
-    if !made.is_empty() {
-        say!("\nrun times, longest first")?;
-        let widest = width_of_ids(made.iter().map(|figure| figure.id));
-        for figure in &made {
-            say!("{:<widest$} {:>9.2} s", figure.id, figure.run_time.as_secs_f64())?;
+        say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
+        say!("{}", summary.counts.headline())?;
+        say!("{}", summary.counts.beside())?;
+        let faults = self.faults(summary);
+        if !faults.is_empty() {
+            say!("")?;
         }
+        for fault in &faults {
+            say!("{fault}")?;
+        }
+        let failures = say_failures(self.options, finished)?;
+        Ok(if failures == 0 && faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
     }
-    say!("\nfigures, claims.json and index.html are in {}", visible_path(folder.path()))?;
-    say!("{}", summary.counts.headline())?;
-    say!("{}", summary.counts.beside())?;
-    if !faults.is_empty() {
-        say!("")?;
-    }
-    for fault in faults {
-        say!("{fault}")?;
-    }
-    let failures = say_failures(options, finished)?;
-    Ok(if failures == 0 && faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
 /// Prints why figures have failed, and gives their number.

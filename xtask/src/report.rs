@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal as _;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use bouncing_disk_experiments::Progress;
@@ -33,18 +32,17 @@ impl Report {
         let bar = match self {
             Self::Bars(bars) => {
                 let bar = bars.add(ProgressBar::new_spinner());
-                bar.set_prefix(id);
                 bar.set_style(style("{prefix:<8} {spinner} {elapsed}"));
                 bar.enable_steady_tick(Duration::from_millis(200));
-                Some(bar)
+                bar
             }
             Self::Lines => {
                 complain!("{id:<8} begins");
-                None
+                // It counts, and is not drawn.
+                ProgressBar::hidden()
             }
         };
-        let stage = Mutex::new(Stage { unit: "", total: 0, began: Instant::now(), told: Instant::now() });
-        Running { report: self, id, bar, done: AtomicU64::new(0), stage }
+        Running { report: self, bar: bar.with_prefix(id), told: Mutex::new(Instant::now()) }
     }
 
     /// All figures are finished.
@@ -60,28 +58,17 @@ impl Report {
 #[derive(Debug)]
 pub(crate) struct Running<'a> {
     report: &'a Report,
-    id: &'static str,
-    bar: Option<ProgressBar>,
-    done: AtomicU64,
-    stage: Mutex<Stage>,
-}
-
-#[derive(Debug)]
-struct Stage {
-    unit: &'static str,
-    total: u64,
-    began: Instant,
-    told: Instant,
+    bar: ProgressBar,
+    /// When the last line was written.
+    told: Mutex<Instant>,
 }
 
 impl Running<'_> {
     /// The figure is finished.
     pub(crate) fn end(&self, run_time: Duration, made: bool) {
-        if let Some(bar) = &self.bar {
-            bar.finish_and_clear();
-        }
+        self.bar.finish_and_clear();
         let outcome = if made { "made in" } else { "failed after" };
-        let line = format!("{:<8} {outcome} {:.2} s", self.id, run_time.as_secs_f64());
+        let line = format!("{:<8} {outcome} {:.2} s", self.bar.prefix(), run_time.as_secs_f64());
         match self.report {
             Report::Bars(bars) => {
                 // Only a closed terminal refuses a line.
@@ -94,43 +81,36 @@ impl Running<'_> {
 
 impl Progress for Running<'_> {
     fn start(&self, total: u64, unit: &'static str) {
-        self.done.store(0, Ordering::Relaxed);
-        if let Ok(mut stage) = self.stage.lock() {
-            *stage = Stage { unit, total, began: Instant::now(), told: Instant::now() };
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_length(total);
-            bar.set_position(0);
-            bar.reset_eta();
-            bar.set_message(unit);
-            let template = "{prefix:<8} [{bar:30}] {human_pos}/{human_len} {msg}, {per_sec}, {eta} left";
-            bar.set_style(style(template).progress_chars("=> "));
-        }
+        self.bar.reset();
+        self.bar.set_length(total);
+        self.bar.set_message(unit);
+        let template = "{prefix:<8} [{bar:30}] {human_pos}/{human_len} {msg}, {per_sec}, {eta} left";
+        self.bar.set_style(style(template).progress_chars("=> "));
     }
 
     fn advance(&self, done: u64) {
-        let done = self.done.fetch_add(done, Ordering::Relaxed) + done;
-        if let Some(bar) = &self.bar {
-            bar.set_position(done);
-        } else if let Ok(mut stage) = self.stage.try_lock()
+        self.bar.inc(done);
+        if matches!(self.report, Report::Lines)
             // Another thread that is telling already tells enough.
-            && stage.told.elapsed() >= PAUSE
+            && let Ok(mut told) = self.told.try_lock()
+            && told.elapsed() >= PAUSE
         {
-            stage.told = Instant::now();
-            complain!("{}", line(self.id, done, stage.total, stage.unit, stage.began.elapsed()));
+            *told = Instant::now();
+            complain!("{}", line(&self.bar));
         }
     }
 }
 
 /// "fig06    1200/4000 orbits, 85.7/s, 33 s left"
-fn line(id: &str, done: u64, total: u64, unit: &str, elapsed: Duration) -> String {
-    let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
+fn line(bar: &ProgressBar) -> String {
+    let (done, total) = (bar.position(), bar.length().unwrap_or_default());
+    let rate = done as f64 / bar.elapsed().as_secs_f64().max(1e-3);
     let left = if rate > 0.0 {
         format!("{:.0} s left", total.saturating_sub(done) as f64 / rate)
     } else {
         String::new()
     };
-    format!("{id:<8} {done}/{total} {unit}, {rate:.1}/s, {left}")
+    format!("{:<8} {done}/{total} {}, {rate:.1}/s, {left}", bar.prefix(), bar.message())
 }
 
 fn style(template: &str) -> ProgressStyle {
@@ -144,7 +124,9 @@ mod tests {
 
     #[test]
     fn a_line_states_rate_and_time_left() {
-        let line = line("fig06", 1200, 4000, "orbits", Duration::from_secs(14));
-        assert_eq!(line, "fig06    1200/4000 orbits, 85.7/s, 33 s left");
+        let bar = ProgressBar::hidden().with_prefix("fig06").with_message("orbits").with_position(1200);
+        bar.set_length(4000);
+        let bar = bar.with_elapsed(Duration::from_secs(14));
+        assert_eq!(line(&bar), "fig06    1200/4000 orbits, 85.7/s, 33 s left");
     }
 }

@@ -34,12 +34,29 @@ pub(crate) fn make_all(
     threads: usize,
     report: &Report,
 ) -> Vec<Finished> {
+    let make = |entry: &RegisteredExperiment| {
+        let id = entry.id;
+        let progress = report.begin(id);
+        let start = Instant::now();
+        let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, measurements, &progress)));
+        let run_time = start.elapsed();
+        let result = match made {
+            Ok(Ok(files)) => {
+                let measured = measurements.digest(entry.measurements);
+                folder.write_set(id, quality, &measured, run_time.as_secs_f64(), &files).map_err(Into::into)
+            }
+            Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
+            Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
+        };
+        progress.end(run_time, result.is_ok());
+        Finished { id, run_time, result }
+    };
     let next = AtomicUsize::new(0);
     let finished = Mutex::new(Vec::new());
     thread::scope(|scope| {
         let work = || {
             while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
-                let figure = make(entry, quality, measurements, folder, report);
+                let figure = make(entry);
                 // A poisoned lock holds intact results: a push is the only thing done under it.
                 finished.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).push(figure);
             }
@@ -53,30 +70,6 @@ pub(crate) fn make_all(
         work();
     });
     finished.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner())
-}
-
-fn make(
-    entry: &RegisteredExperiment,
-    quality: Quality,
-    measurements: &Measurements,
-    folder: &OutputFolder,
-    report: &Report,
-) -> Finished {
-    let id = entry.id;
-    let progress = report.begin(id);
-    let start = Instant::now();
-    let made = panic::catch_unwind(AssertUnwindSafe(|| entry.files(quality, measurements, &progress)));
-    let run_time = start.elapsed();
-    let result = match made {
-        Ok(Ok(files)) => {
-            let measured = measurements.digest(entry.measurements);
-            folder.write_set(id, quality, &measured, run_time.as_secs_f64(), &files).map_err(Into::into)
-        }
-        Ok(Err(error)) => Err(error).with_context(|| format!("{quality} quality")),
-        Err(payload) => Err(anyhow!("panicked: {}", message(&*payload))),
-    };
-    progress.end(run_time, result.is_ok());
-    Finished { id, run_time, result }
 }
 
 /// The message of a panic.

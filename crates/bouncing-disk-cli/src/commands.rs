@@ -11,14 +11,13 @@ mod motor;
 mod orbits;
 mod prelude;
 mod shell;
-mod start;
 pub(crate) mod toss;
 pub(crate) mod verdicts;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::context::Context;
-use crate::failure::Failure;
+use crate::failure::Result;
 
 /// A disk that bounces on a platform which vibrates and twists: tosses, orbits, attractors, motors
 ///
@@ -46,10 +45,11 @@ pub(crate) struct CommandLine {
     pub(crate) context: Context,
 }
 
-/// The commands.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Toss(toss::TossArgs),
+    /// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
+    #[command(subcommand)]
     Motor(motor::MotorCommand),
     Orbits(orbits::OrbitsArgs),
     Diagram(diagram::DiagramArgs),
@@ -63,8 +63,7 @@ pub(crate) enum Command {
     Man(shell::ManArgs),
 }
 
-/// Runs a command.
-pub(crate) fn run(command: Command, context: Context) -> Result<(), Failure> {
+pub(crate) fn run(command: Command, context: Context) -> Result<()> {
     match command {
         Command::Toss(args) => toss::run(&args, context),
         Command::Motor(command) => motor::run(command, context),

@@ -11,7 +11,7 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
 use crate::interrupt;
-use crate::output::lines::complain;
+use crate::lines::complain;
 
 /// The options of every command.
 #[derive(Debug, Clone, Copy, Args)]
@@ -26,9 +26,20 @@ pub(crate) struct Context {
 }
 
 impl Context {
-    /// Watches a computation of this name.
+    /// Watches a computation of this name; silent if quiet.
     pub(crate) fn watch(self, what: &str) -> Watcher {
-        Watcher::new(what, self.quiet)
+        // Nothing is drawn where there is no terminal.
+        let target = if self.quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target)
+            .with_finish(ProgressFinish::AndClear)
+            .with_message(what.to_owned());
+        // A template that is wrong is found by the first test that draws it.
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {percent} % {elapsed}, {eta} left")
+        {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        let last_line = (!self.quiet && !stderr().is_terminal()).then(|| Mutex::new(Instant::now()));
+        Watcher { bar, last_line }
     }
 
     /// Prints a note beside the result, unless that is unwanted.
@@ -42,35 +53,17 @@ impl Context {
 /// Time between two lines where there is no terminal: a log of an hour has some hundred of them.
 const BETWEEN_LINES: Duration = Duration::from_secs(30);
 
-/// Steps of the bar.
 const STEPS: u64 = 1_000;
 
 /// Watches a computation: shows how far it is, and stops it when a signal has come.
 #[derive(Debug)]
 pub(crate) struct Watcher {
-    what: String,
     bar: ProgressBar,
     /// When the last line was written; `None` where none is to be.
     last_line: Option<Mutex<Instant>>,
 }
 
 impl Watcher {
-    /// Of a computation of one part; silent if `quiet`.
-    fn new(what: &str, quiet: bool) -> Self {
-        // Nothing is drawn where there is no terminal.
-        let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
-        let bar = ProgressBar::with_draw_target(Some(STEPS), target)
-            .with_finish(ProgressFinish::AndClear)
-            .with_message(what.to_owned());
-        // A template that is wrong is found by the first test that draws it.
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {percent} % {elapsed}, {eta} left")
-        {
-            bar.set_style(style.progress_chars("=> "));
-        }
-        let last_line = (!quiet && !stderr().is_terminal()).then(|| Mutex::new(Instant::now()));
-        Self { what: what.to_owned(), bar, last_line }
-    }
-
     /// Watches `rows` of the `total` rows of a computation, of which some are `done`.
     pub(crate) fn part(&self, done: usize, rows: usize, total: usize) -> impl Observer + '_ {
         move |progress: Progress| {
@@ -89,7 +82,7 @@ impl Watcher {
             && last.elapsed() >= BETWEEN_LINES
         {
             *last = Instant::now();
-            complain(&format!("{}: {:.0} %", self.what, 100.0 * share));
+            complain(&format!("{}: {:.0} %", self.bar.message(), 100.0 * share));
         }
         ControlFlow::Continue(())
     }

@@ -3,11 +3,14 @@
 use std::io;
 use std::process::ExitCode;
 
-use bouncing_disk::estimate::{FitError, MeasuredSpeedsError};
+use bouncing_disk::estimate::FitError;
 use bouncing_disk::store::StorageError;
 use bouncing_disk_plot::DrawError;
 
 use crate::interrupt;
+use crate::lines::complain;
+
+pub(crate) type Result<T, E = Failure> = std::result::Result<T, E>;
 
 /// Why a command gives no result.
 #[derive(Debug)]
@@ -25,59 +28,22 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// A fault of the command line.
-    pub(crate) fn usage(text: impl Into<String>) -> Self {
-        Self::Usage(text.into())
-    }
-
-    /// A fault of the computation.
-    pub(crate) fn failed(text: impl Into<String>) -> Self {
-        Self::Failed(text.into())
-    }
-
-    /// The same with words before it: the file that it is about.
-    pub(crate) fn in_context(self, context: &str) -> Self {
-        let with = |text: String| format!("{context}: {text}");
-        match self {
-            Self::Usage(text) => Self::Usage(with(text)),
-            Self::Failed(text) => Self::Failed(with(text)),
-            other => other,
-        }
-    }
-
-    /// The message for the user, if there is one.
-    pub(crate) fn message(&self) -> Option<String> {
-        match self {
-            Self::Usage(text) | Self::Failed(text) => Some(format!("error: {text}")),
-            Self::Interrupted(text) => Some(format!("bouncing-disk: {text}")),
-            Self::NobodyReads => None,
-        }
-    }
-
-    /// The exit status.
-    pub(crate) fn exit_code(&self) -> ExitCode {
-        match self {
-            Self::NobodyReads => ExitCode::SUCCESS,
-            Self::Failed(_) => ExitCode::from(1),
-            Self::Usage(_) => ExitCode::from(2),
-            Self::Interrupted(_) => ExitCode::from(interrupt::exit_status()),
-        }
+    /// Says it on standard error, and gives the exit status.
+    pub(crate) fn tell(self) -> ExitCode {
+        let (text, status) = match self {
+            Self::NobodyReads => return ExitCode::SUCCESS,
+            Self::Failed(text) => (format!("error: {text}"), 1),
+            Self::Usage(text) => (format!("error: {text}"), 2),
+            Self::Interrupted(text) => (format!("bouncing-disk: {text}"), interrupt::exit_status()),
+        };
+        complain(&text);
+        ExitCode::from(status)
     }
 }
 
 /// A text with all that caused it.
-fn with_causes(error: &dyn std::error::Error) -> String {
-    let mut text = error.to_string();
-    let mut cause = error.source();
-    while let Some(error) = cause {
-        let own = error.to_string();
-        // A transparent error has the text of its cause.
-        if !text.ends_with(&own) {
-            text = format!("{text}: {own}");
-        }
-        cause = error.source();
-    }
-    text
+pub(crate) fn with_causes(error: impl std::error::Error + Send + Sync + 'static) -> String {
+    format!("{:#}", anyhow::Error::new(error))
 }
 
 impl From<bouncing_disk::core::Error> for Failure {
@@ -126,22 +92,16 @@ impl From<StorageError> for Failure {
             StorageError::Model(error) => error.into(),
             // A journal that is locked now may be free later: the line is not at fault.
             StorageError::Io { .. } | StorageError::NotStorable { .. } | StorageError::Busy { .. } => {
-                Self::Failed(with_causes(&error))
+                Self::Failed(with_causes(error))
             }
-            _ => Self::Usage(with_causes(&error)),
+            _ => Self::Usage(with_causes(error)),
         }
-    }
-}
-
-impl From<MeasuredSpeedsError> for Failure {
-    fn from(error: MeasuredSpeedsError) -> Self {
-        Self::Usage(with_causes(&error))
     }
 }
 
 impl From<DrawError> for Failure {
     fn from(error: DrawError) -> Self {
-        Self::Failed(format!("the picture cannot be drawn: {}", with_causes(&error)))
+        Self::Failed(format!("the picture cannot be drawn: {}", with_causes(error)))
     }
 }
 
@@ -149,7 +109,7 @@ impl From<io::Error> for Failure {
     fn from(error: io::Error) -> Self {
         match error.kind() {
             io::ErrorKind::BrokenPipe => Self::NobodyReads,
-            _ => Self::Failed(with_causes(&error)),
+            _ => Self::Failed(with_causes(error)),
         }
     }
 }

@@ -6,9 +6,7 @@
 
 use std::fs::{self, File};
 use std::io::{self, BufRead as _, BufReader, Read as _};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::time::{Duration, Instant};
 
 use bouncing_disk::Observer;
@@ -20,14 +18,13 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use crate::context::{Context, Watcher};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 use crate::interrupt;
 use crate::output::files::{Kind, check_place};
-use crate::output::report::{PROGRAM, VERSION};
-use crate::output::{OutputArgs, Report};
+use crate::output::{OutputArgs, PROGRAM, Report, VERSION};
 
-/// The first rows are so many times fewer than the most that are computed together.
-const FIRST_SHARE: usize = 256;
+/// Most rows that are computed together. Their number doubles as long as they are fast, and slow ones may follow.
+const MOST_TOGETHER: usize = 4096;
 
 /// How long rows are computed together: as much is lost by an interruption.
 const SHORT: Duration = Duration::from_millis(300);
@@ -39,72 +36,49 @@ const LONG: Duration = Duration::from_millis(1_200);
 pub(crate) struct GridArgs {
     /// Computes the I-th of N parts of the rows and writes it to --out FILE.json; `bouncing-disk merge` puts
     /// all parts together
-    #[arg(long, value_name = "I/N", allow_hyphen_values = true)]
-    chunk: Option<Chunk>,
+    #[arg(long, value_name = "I/N", allow_hyphen_values = true, value_parser = chunk)]
+    chunk: Option<(usize, usize)>,
     /// Keeps finished rows in a file: the same command resumes where it was stopped or killed
     #[arg(long, value_name = "FILE")]
     journal: Option<PathBuf>,
 }
 
 /// A part of the rows of a grid, `2/10` on the command line: the second of ten.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Chunk {
-    /// From 1.
-    index: usize,
-    count: usize,
+fn chunk(text: &str) -> Result<(usize, usize), String> {
+    let whole = |text: &str| text.trim().parse::<usize>().ok();
+    let parts = text.split_once('/').and_then(|(index, count)| Some((whole(index)?, whole(count)?)));
+    let legal = parts.filter(|(index, count)| (1..=*count).contains(index));
+    legal.ok_or_else(|| "a chunk is I/N, from 1/N to N/N".to_owned())
 }
 
-impl FromStr for Chunk {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let whole = |text: &str| text.trim().parse::<usize>().ok();
-        let parts = text.split_once('/').and_then(|(index, count)| Some((whole(index)?, whole(count)?)));
-        match parts {
-            Some((index, count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
-            _ => Err("a chunk is I/N, from 1/N to N/N".to_owned()),
-        }
-    }
+/// The rows of such a part of so many.
+fn rows_of((index, count): (usize, usize), rows: usize) -> Rows {
+    let upto = |parts: usize| (rows as u128 * parts as u128 / count as u128) as usize;
+    upto(index - 1)..upto(index)
 }
 
-impl Chunk {
-    /// The rows of this part of so many.
-    fn rows(self, rows: usize) -> Range<usize> {
-        let upto = |parts: usize| (rows as u128 * parts as u128 / self.count as u128) as usize;
-        upto(self.index - 1)..upto(self.index)
-    }
-}
+/// Some rows that follow each other.
+pub(crate) type Rows = std::ops::Range<usize>;
 
 /// A computation of many rows. Stored, it has all that its rows depend on.
 pub(crate) trait GridJob: Serialize + DeserializeOwned {
     /// The command, as it is written on the line.
     const COMMAND: &'static str;
 
-    /// The result of a row.
     type Row: Clone + Serialize + DeserializeOwned;
 
     /// Computed once, for all rows.
     type Prepared;
 
-    /// Number of rows.
     fn rows(&self) -> usize;
 
-    /// Most rows that are computed together: they are kept, or begun again, together.
-    fn together(&self) -> usize;
-
     /// Checks the job, and computes what all rows need.
-    fn prepare(&self, observer: &dyn Observer) -> Result<Self::Prepared, Failure>;
+    fn prepare(&self, observer: &dyn Observer) -> Result<Self::Prepared>;
 
-    /// Computes rows.
-    fn compute(
-        &self,
-        prepared: &Self::Prepared,
-        rows: Range<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<Self::Row>, Failure>;
+    fn compute(&self, from: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>>;
 
     /// The result of all rows.
-    fn report(self, prepared: Self::Prepared, rows: Vec<Self::Row>) -> Result<Report, Failure>;
+    fn report<'a>(&'a self, prepared: &'a Self::Prepared, rows: &'a [Self::Row]) -> Result<Report<'a>>;
 }
 
 /// Computes a job, or its part, and delivers the result; `inputs` are the files that the job was read
@@ -115,48 +89,43 @@ pub(crate) fn run<J: GridJob>(
     grid: &GridArgs,
     output: &OutputArgs,
     context: Context,
-) -> Result<(), Failure> {
+) -> Result<()> {
     let journal = grid.journal.as_deref();
     output.check(true, inputs, journal)?;
     if let Some(path) = journal {
-        check_place(path).map_err(|failure| failure.in_context("--journal"))?;
+        check_place(path).map_err(|why| Failure::Usage(format!("--journal: {why}")))?;
     }
     if grid.chunk.is_some() && !matches!(&output.out[..], [target] if target.kind == Kind::Json) {
-        return Err(Failure::usage("--chunk needs one --out FILE.json for its part"));
+        return Err(Failure::Usage("--chunk needs one --out FILE.json for its part".to_owned()));
     }
     let rows = job.rows();
-    let range = grid.chunk.map_or(0..rows, |chunk| chunk.rows(rows));
+    let range = grid.chunk.map_or(0..rows, |chunk| rows_of(chunk, rows));
     let watcher = context.watch(J::COMMAND);
     let prepared = job.prepare(&watcher)?;
     let finished = compute_all(&job, &prepared, range.clone(), journal, watcher)?;
     if grid.chunk.is_none() {
-        return job.report(prepared, finished.into_results()?)?.deliver(output, context.quiet);
+        return job.report(&prepared, &finished.into_results()?)?.deliver(output, context);
     }
     let key = key(&job)?;
     output.out[0].fill(output.force, context.quiet, |file| {
         let write = || {
             let (mut part, _) = Journal::open(file.path(), &key, rows)?;
-            finished
-                .iter()
-                .filter(|(row, _)| range.contains(row))
-                .try_for_each(|(row, own)| part.append(row, own))
+            let mut own = finished.iter().filter(|(row, _)| range.contains(row));
+            own.try_for_each(|(row, result)| part.append(row, result))
         };
         write().map_err(|error: StorageError| io::Error::other(error))
     })
 }
 
 /// What a journal, and a part, is of: all that the rows depend on.
-fn key<J: GridJob>(job: &J) -> Result<Provenance, Failure> {
+fn key<J: GridJob>(job: &J) -> Result<Provenance> {
     let key = Provenance::new(JOURNAL).written_by(PROGRAM, VERSION).with("command", J::COMMAND)?;
     Ok(key.with("job", job)?)
 }
 
 /// Whether there is room for `count` <= `limit` things of so many bytes each, in which all rows end: better
 /// refused now than after a day of computing.
-///
-/// # Errors
-/// The core's [`TooLarge`](bouncing_disk::core::Error::TooLarge) names the number and the limit.
-pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64) -> Result<(), Failure> {
+pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64) -> Result<()> {
     let fits = |bytes: u64| {
         usize::try_from(bytes).is_ok_and(|bytes| Vec::<u8>::new().try_reserve_exact(bytes).is_ok())
     };
@@ -170,10 +139,10 @@ pub(crate) fn check_room(what: &'static str, count: u64, limit: u64, bytes: u64)
 fn compute_all<J: GridJob>(
     job: &J,
     prepared: &J::Prepared,
-    range: Range<usize>,
+    range: Rows,
     path: Option<&Path>,
     watcher: Watcher,
-) -> Result<PartialResults<J::Row>, Failure> {
+) -> Result<PartialResults<J::Row>> {
     let (items, total) = (range.len(), job.rows());
     let (mut journal, mut finished) = match path {
         None => (None, PartialResults::new(total)),
@@ -185,34 +154,29 @@ fn compute_all<J: GridJob>(
     let mut open = finished.open(total)?;
     open.retain(|row| range.contains(row));
     let mut left = &open[..];
-    let most = job.together().max(1);
-    let mut together = (most / FIRST_SHARE).max(1);
+    let mut together = 1;
     while let Some(first) = left.first() {
         // Rows that follow each other, as far as they are open.
         let run = left.iter().zip(*first..).take_while(|(index, next)| *index == next).count();
         let count = run.min(together);
         let began = Instant::now();
         let done = items - left.len();
-        let computed = if interrupt::came() {
-            Err(Failure::Interrupted(String::new()))
-        } else {
-            job.compute(prepared, *first..first + count, &watcher.part(done, count, items))
-        };
+        if interrupt::came() {
+            return Err(interrupted(path, done, items));
+        }
+        let computed = job.compute(prepared, *first..first + count, &watcher.part(done, count, items));
         let computed = computed.map_err(|failure| match failure {
             Failure::Interrupted(_) => interrupted(path, done, items),
             other => other,
         })?;
-        if let Some(journal) = &mut journal {
-            for (index, row) in (*first..).zip(&computed) {
-                journal.append(index, row)?;
-            }
-            journal.sync()?;
-        }
         finished.extend((*first..).zip(computed));
+        if let Some(journal) = &mut journal {
+            journal.record(&finished)?;
+        }
         left = &left[count..];
         // No row depends on what is computed with it.
         match began.elapsed() {
-            fast if fast < SHORT => together = (2 * together).min(most),
+            fast if fast < SHORT => together = (2 * together).min(MOST_TOGETHER),
             slow if slow > LONG => together = (together / 2).max(1),
             _ => {}
         }
@@ -220,7 +184,6 @@ fn compute_all<J: GridJob>(
     Ok(finished)
 }
 
-/// Says which rows are kept, and how to resume.
 fn interrupted(journal: Option<&Path>, done: usize, items: usize) -> Failure {
     Failure::Interrupted(match journal {
         Some(path) => format!(
@@ -238,11 +201,8 @@ fn interrupted(journal: Option<&Path>, done: usize, items: usize) -> Failure {
 const LONGEST: u64 = 1 << 26;
 
 /// The command and the job of which a file has a part.
-///
-/// # Errors
-/// [`Failure::Usage`] names the file.
-pub(crate) fn computation_of(path: &Path) -> Result<(String, Value), Failure> {
-    let refuse = |why: &str| Failure::usage(format!("{}: {why}", path.display()));
+pub(crate) fn computation_of(path: &Path) -> Result<(String, Value)> {
+    let refuse = |why: &str| Failure::Usage(format!("{}: {why}", path.display()));
     let unreadable = |error: io::Error| refuse(&format!("it cannot be read: {error}"));
     if !fs::metadata(path).map_err(unreadable)?.is_file() {
         return Err(refuse("it is not a regular file"));
@@ -258,17 +218,15 @@ pub(crate) fn computation_of(path: &Path) -> Result<(String, Value), Failure> {
     Ok((of("command").as_str().unwrap_or_default().to_owned(), of("job")))
 }
 
-/// The result of all rows, which are in these files, of this job.
-///
-/// # Errors
-/// [`Failure::Usage`] names a file of another computation, or the first rows that are missing; those of the library.
-pub(crate) fn merged<J: GridJob>(
+/// Delivers the result of all rows, which are in these files, of this job.
+pub(crate) fn merge<J: GridJob>(
     job: &Value,
     parts: &[PathBuf],
-    observer: &dyn Observer,
-) -> Result<Report, Failure> {
+    output: &OutputArgs,
+    context: Context,
+) -> Result<()> {
     let job = J::deserialize(job)
-        .map_err(|error| Failure::usage(format!("{}: it cannot be read: {error}", parts[0].display())))?;
+        .map_err(|error| Failure::Usage(format!("{}: it cannot be read: {error}", parts[0].display())))?;
     let (rows, key) = (job.rows(), key(&job)?);
     let mut finished = PartialResults::new(rows);
     for part in parts {
@@ -280,10 +238,10 @@ pub(crate) fn merged<J: GridJob>(
     if let Some(first) = open.first() {
         let run = open.iter().zip(*first..).take_while(|(row, next)| *row == next).count();
         let (from, to, missing) = (first + 1, first + run, open.len());
-        return Err(Failure::usage(format!("{missing} of {rows} rows are missing, first {from} to {to}")));
+        return Err(Failure::Usage(format!("{missing} of {rows} rows are missing, first {from} to {to}")));
     }
-    let prepared = job.prepare(observer)?;
-    job.report(prepared, finished.into_results()?)
+    let prepared = job.prepare(&context.watch("merge"))?;
+    job.report(&prepared, &finished.into_results()?)?.deliver(output, context)
 }
 
 #[cfg(test)]
@@ -294,14 +252,13 @@ mod tests {
     fn chunks_cover_all_rows_once() {
         for rows in [0, 1, 2, 7, 100] {
             for count in [1, 2, 3, 7, 13] {
-                let all: Vec<usize> =
-                    (1..=count).flat_map(|index| Chunk { index, count }.rows(rows)).collect();
+                let all: Vec<usize> = (1..=count).flat_map(|index| rows_of((index, count), rows)).collect();
                 assert_eq!(all, (0..rows).collect::<Vec<_>>(), "{rows} rows in {count}");
             }
         }
-        assert_eq!("2/10".parse(), Ok(Chunk { index: 2, count: 10 }));
+        assert_eq!(chunk("2/10"), Ok((2, 10)));
         for text in ["", "1", "0/3", "4/3", "1/0", "-1/3", "a/b", "1/2/3"] {
-            assert!(text.parse::<Chunk>().is_err(), "{text}");
+            assert!(chunk(text).is_err(), "{text}");
         }
     }
 }

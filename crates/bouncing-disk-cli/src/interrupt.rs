@@ -1,9 +1,8 @@
 //! Signals: the first one asks the computation to stop, the second one ends the process at once.
 
 use std::io;
-use std::sync::Arc;
-use std::sync::LazyLock;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
 
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
@@ -31,16 +30,11 @@ pub(crate) fn listen() -> io::Result<()> {
     Ok(())
 }
 
-/// Whether a signal has come.
 pub(crate) fn came() -> bool {
     SIGNAL.load(Ordering::Relaxed) != 0
 }
 
 /// The exit status of what was interrupted: 130 for Ctrl-C, 143 for the signal to terminate.
 pub(crate) fn exit_status() -> u8 {
-    let signal = match SIGNAL.load(Ordering::Relaxed) {
-        0 => SIGINT as usize,
-        signal => signal,
-    };
-    u8::try_from(BASE + signal).unwrap_or(u8::MAX)
+    u8::try_from(BASE + SIGNAL.load(Ordering::Relaxed)).unwrap_or(u8::MAX)
 }

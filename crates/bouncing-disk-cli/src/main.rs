@@ -11,6 +11,7 @@ mod context;
 mod failure;
 mod grid;
 mod interrupt;
+mod lines;
 mod output;
 mod parameters;
 mod range;
@@ -20,8 +21,7 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 use commands::CommandLine;
-use failure::Failure;
-use output::lines::complain;
+use failure::{Failure, Result};
 
 /// The exit status is 0 if all is done, 1 if it failed, 2 for bad usage or input, 130 or 143 if interrupted.
 fn main() -> ExitCode {
@@ -33,22 +33,14 @@ fn main() -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    match run_line(line) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => {
-            if let Some(message) = failure.message() {
-                complain(&message);
-            }
-            failure.exit_code()
-        }
-    }
+    run_line(line).map_or_else(Failure::tell, |()| ExitCode::SUCCESS)
 }
 
-fn run_line(line: CommandLine) -> Result<(), Failure> {
+fn run_line(line: CommandLine) -> Result<()> {
     interrupt::listen()?;
     if let Some(threads) = line.context.threads {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.into()).build_global();
-        pool.map_err(|error| Failure::failed(format!("{threads} threads cannot be started: {error}")))?;
+        pool.map_err(|error| Failure::Failed(format!("{threads} threads cannot be started: {error}")))?;
     }
     commands::run(line.command, line.context)
 }

@@ -60,7 +60,6 @@ impl Range {
         (1..self.count).all(|index| self.value(index - 1) < self.value(index))
     }
 
-    /// One value.
     pub(crate) const fn single(value: f64) -> Self {
         Self { first: value, last: value, count: 1 }
     }
@@ -133,29 +132,18 @@ impl Display for Range {
 }
 
 /// The two ends of an interval: `0.5:0.7` on the command line, or a single number twice.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Interval(pub(crate) [f64; 2]);
-
-impl FromStr for Interval {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let [low, high] = match text.split(':').collect::<Vec<_>>()[..] {
-            [value] => [number(value)?; 2],
-            [low, high] => [number(low)?, number(high)?],
-            _ => return Err("an interval is LOW:HIGH, such as 0.5:0.7".to_owned()),
-        };
-        if high < low {
-            return Err(format!("it is reversed: {high} is below {low}"));
-        }
-        Ok(Self([low, high]))
-    }
+pub(crate) fn interval(text: &str) -> Result<[f64; 2], String> {
+    let [low, high] = match text.split(':').collect::<Vec<_>>()[..] {
+        [value] => [number(value)?; 2],
+        [low, high] => [number(low)?, number(high)?],
+        _ => return Err("an interval is LOW:HIGH, such as 0.5:0.7".to_owned()),
+    };
+    if high < low { Err(format!("it is reversed: {high} is below {low}")) } else { Ok([low, high]) }
 }
 
 /// Words with their help and what they stand for.
 pub(crate) type Words<T> = &'static [(&'static str, &'static str, T)];
 
-/// Reads one of these words.
 pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {
     let possible = words.iter().map(|(word, help, _)| PossibleValue::new(*word).help(*help));
     PossibleValuesParser::new(possible).try_map(move |word| {
@@ -242,11 +230,10 @@ mod tests {
 
     #[test]
     fn an_interval_has_two_ends() {
-        let read = |text: &str| text.parse::<Interval>();
-        assert_eq!(read("0.5:0.7"), Ok(Interval([0.5, 0.7])));
-        assert_eq!(read("0.5"), Ok(Interval([0.5, 0.5])));
+        assert_eq!(interval("0.5:0.7"), Ok([0.5, 0.7]));
+        assert_eq!(interval("0.5"), Ok([0.5, 0.5]));
         for text in ["0.7:0.5", "1:2:3", "x", "nan:1"] {
-            assert!(read(text).is_err(), "{text}");
+            assert!(interval(text).is_err(), "{text}");
         }
     }
 }

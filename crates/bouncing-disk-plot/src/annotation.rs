@@ -8,9 +8,8 @@ use crate::error::DrawError;
 use crate::frame::Frame;
 use crate::label::Label;
 use crate::path::{polygon, polyline};
-use crate::style::{Stroke, Style};
+use crate::style::{Anchor, Stroke, Style, TextStyle};
 use crate::svg::Svg;
-use crate::text_style::{Anchor, TextStyle};
 
 /// Where something is placed in a panel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,6 +38,17 @@ pub struct Text {
 
 builders!(Text: colour);
 
+builders!(Text {
+    /// Chooses the point of the text that is placed; the left end, vertically centred, unless set.
+    anchor(anchor: Anchor) |own| own.style.anchor = anchor;
+    /// Sets the font size in points.
+    size(points: f64) |own| own.style = own.style.size(points);
+    /// Turns the text anticlockwise.
+    rotated(degrees: f64) |own| own.style = own.style.rotated(degrees);
+    /// Puts a rim around the letters, which keeps them legible on a picture.
+    halo(colour: Colour) |own| own.style = own.style.halo(colour);
+});
+
 impl Text {
     /// A text at a point in data coordinates.
     pub fn at_data(x: f64, y: f64, label: impl Into<Label>) -> Self {
@@ -54,34 +64,6 @@ impl Text {
         Self { place, label, style: TextStyle::new(Anchor::LeftCentre) }
     }
 
-    /// Chooses the point of the text that is placed; the left end, vertically centred, unless set.
-    #[must_use]
-    pub fn anchor(mut self, anchor: Anchor) -> Self {
-        self.style.anchor = anchor;
-        self
-    }
-
-    /// Sets the font size in points.
-    #[must_use]
-    pub fn size(mut self, points: f64) -> Self {
-        self.style = self.style.size(points);
-        self
-    }
-
-    /// Turns the text anticlockwise.
-    #[must_use]
-    pub fn rotated(mut self, degrees: f64) -> Self {
-        self.style = self.style.rotated(degrees);
-        self
-    }
-
-    /// Puts a rim around the letters, which keeps them legible on a picture.
-    #[must_use]
-    pub fn halo(mut self, colour: Colour) -> Self {
-        self.style = self.style.halo(colour);
-        self
-    }
-
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
         svg.label(&self.label, self.place.on_page(frame), self.style)
     }
@@ -95,17 +77,15 @@ pub struct Arrow {
     head: f64,
 }
 
+builders!(Arrow {
+    /// Sets the length of the head in points.
+    head(points: f64) |own| own.head = points;
+});
+
 impl Arrow {
     /// An arrow between two points in data coordinates.
     pub fn at_data(from: (f64, f64), to: (f64, f64)) -> Self {
         Self { from, to, head: 5.0 }
-    }
-
-    /// Sets the length of the head in points.
-    #[must_use]
-    pub fn head(mut self, points: f64) -> Self {
-        self.head = points;
-        self
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) {

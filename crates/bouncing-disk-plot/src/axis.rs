@@ -1,7 +1,9 @@
 //! The axes of a panel.
 
+use crate::builders::builders;
 use crate::error::DrawError;
 use crate::label::Label;
+use crate::numbers::extent;
 use crate::ticks::{self, PlacedTicks, Ticks};
 
 /// Range, scale, label and ticks of one axis. The first end of the range is at the left or below; an axis may
@@ -11,11 +13,22 @@ pub struct Axis {
     first: f64,
     last: f64,
     logarithmic: bool,
-    label: Label,
+    pub(crate) label: Label,
     ticks: Ticks,
-    labelled: bool,
-    label_distance: Option<f64>,
+    pub(crate) shows_numbers: bool,
+    pub(crate) label_distance: Option<f64>,
 }
+
+builders!(Axis {
+    /// What the axis shows, with its unit.
+    label(label: impl Into<Label>) |own| own.label = label.into();
+    /// Chooses the ticks.
+    ticks(ticks: Ticks) |own| own.ticks = ticks;
+    /// Keeps the ticks and leaves out their numbers, where a neighbouring panel shows them.
+    without_numbers() |own| own.shows_numbers = false;
+    /// The distance in points from the frame to the label, to align the labels of several panels.
+    label_distance(points: f64) |own| own.label_distance = Some(points);
+});
 
 impl Default for Axis {
     fn default() -> Self {
@@ -32,7 +45,7 @@ impl Axis {
             logarithmic: false,
             label: Label::plain(""),
             ticks: Ticks::default(),
-            labelled: true,
+            shows_numbers: true,
             label_distance: None,
         }
     }
@@ -50,9 +63,7 @@ impl Axis {
 
     /// The ends of such an axis.
     pub(crate) fn ends_around(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
-        let finite = values.into_iter().filter(|value| value.is_finite());
-        let (low, high) = finite
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        let (low, high) = extent(values);
         let (low, high) = if low <= high { (low, high) } else { (0.0, 1.0) };
         let size = low.abs().max(high.abs());
         let room = match high - low {
@@ -67,46 +78,6 @@ impl Axis {
     /// A linear axis with three to five labels: some panels are too narrow for more.
     pub(crate) fn spanned(low: f64, high: f64) -> Self {
         Self::linear(low, high).ticks(Ticks::few(high - low))
-    }
-
-    /// What the axis shows, with its unit.
-    #[must_use]
-    pub fn label(mut self, label: impl Into<Label>) -> Self {
-        self.label = label.into();
-        self
-    }
-
-    /// Chooses the ticks.
-    #[must_use]
-    pub fn ticks(mut self, ticks: Ticks) -> Self {
-        self.ticks = ticks;
-        self
-    }
-
-    /// Keeps the ticks and leaves out their numbers, where a neighbouring panel shows them.
-    #[must_use]
-    pub fn without_numbers(mut self) -> Self {
-        self.labelled = false;
-        self
-    }
-
-    /// The distance in points from the frame to the label, to align the labels of several panels.
-    #[must_use]
-    pub fn label_distance(mut self, points: f64) -> Self {
-        self.label_distance = Some(points);
-        self
-    }
-
-    pub(crate) fn label_text(&self) -> &Label {
-        &self.label
-    }
-
-    pub(crate) fn shows_numbers(&self) -> bool {
-        self.labelled
-    }
-
-    pub(crate) fn distance(&self) -> Option<f64> {
-        self.label_distance
     }
 
     /// 0 at the first end, 1 at the last; NaN for what a logarithmic axis cannot show.
@@ -130,7 +101,7 @@ impl Axis {
     pub(crate) fn choose_ticks(&self, length: f64, spacing: f64) -> Result<PlacedTicks, DrawError> {
         self.check()?;
         if self.logarithmic {
-            return Ok(ticks::logarithmic(&self.ticks, self.first, self.last).into());
+            return Ok(ticks::logarithmic(&self.ticks, self.first, self.last));
         }
         let room = (length / spacing).clamp(2.0, 8.0) as usize;
         ticks::linear(&self.ticks, self.first, self.last, room).map_err(|step| DrawError::TickStep {

@@ -1,69 +1,68 @@
-//! The builder methods that layers share, written once.
+//! The builder methods of all parts of a figure, written once.
 
-/// Writes those of the shared builder methods that a layer names. The methods set parts of its field `style`
-/// (a [`Style`](crate::style::Style), or for words a [`TextStyle`](crate::text_style::TextStyle)) or its
-/// field `name`.
+/// Writes builder methods, each from its name, its arguments and what it does with the value it is called on:
+/// `/// Doc.`, `name(argument: Type) |own| own.field = argument;`.
+///
+/// Those that layers share need only their names. They set parts of the field `style` of a layer (a
+/// [`Style`](crate::style::Style) or a [`TextStyle`](crate::style::TextStyle)) or its field `name`.
 macro_rules! builders {
-    ($layer:ident: $($method:ident),+) => {
-        impl $layer {
-            $(builders!(@$method);)+
+    ($type:ident {
+        $($(#[$doc:meta])* $method:ident($($argument:ident: $kind:ty),*) |$own:ident| $set:expr;)+
+    }) => {
+        impl $type {
+            $($(#[$doc])*
+            #[must_use]
+            pub fn $method(mut self, $($argument: $kind),*) -> Self {
+                let $own = &mut self;
+                $set;
+                self
+            })+
         }
     };
-    (@style) => {
-        /// Sets the line and the area at once.
-        #[must_use]
-        pub fn style(mut self, style: impl Into<$crate::style::Style>) -> Self {
-            self.style = style.into();
-            self
-        }
+    ($layer:ident: $($shared:ident),+) => {
+        $(builders!(@$shared $layer);)+
     };
-    (@stroke) => {
-        /// Sets colour, width, dashes and opacity of the line.
-        #[must_use]
-        pub fn stroke(mut self, stroke: $crate::style::Stroke) -> Self {
-            self.style = self.style.stroke(stroke);
-            self
-        }
+    (@style $layer:ident) => {
+        builders!($layer {
+            /// Sets the line and the area at once.
+            style(style: impl Into<$crate::style::Style>) |own| own.style = style.into();
+        });
     };
-    (@colour) => {
-        /// Sets the colour.
-        #[must_use]
-        pub fn colour(mut self, colour: $crate::colour::Colour) -> Self {
-            self.style = self.style.colour(colour);
-            self
-        }
+    (@stroke $layer:ident) => {
+        builders!($layer {
+            /// Sets colour, width, dashes and opacity of the line.
+            stroke(stroke: $crate::style::Stroke) |own| own.style = own.style.stroke(stroke);
+        });
     };
-    (@width) => {
-        /// Sets the width of the line in points.
-        #[must_use]
-        pub fn width(mut self, points: f64) -> Self {
-            self.style = self.style.width(points);
-            self
-        }
+    (@colour $layer:ident) => {
+        builders!($layer {
+            /// Sets the colour.
+            colour(colour: $crate::colour::Colour) |own| own.style = own.style.colour(colour);
+        });
     };
-    (@dash) => {
-        /// Sets the dashes of the line.
-        #[must_use]
-        pub fn dash(mut self, dash: $crate::style::Dash) -> Self {
-            self.style = self.style.dash(dash);
-            self
-        }
+    (@width $layer:ident) => {
+        builders!($layer {
+            /// Sets the width of the line in points.
+            width(points: f64) |own| own.style = own.style.width(points);
+        });
     };
-    (@opacity) => {
-        /// Sets the opacity, 0 to 1.
-        #[must_use]
-        pub fn opacity(mut self, opacity: f64) -> Self {
-            self.style = self.style.opacity(opacity);
-            self
-        }
+    (@dash $layer:ident) => {
+        builders!($layer {
+            /// Sets the dashes of the line.
+            dash(dash: $crate::style::Dash) |own| own.style = own.style.dash(dash);
+        });
     };
-    (@name) => {
-        /// Lists the layer in the legend.
-        #[must_use]
-        pub fn name(mut self, name: impl Into<$crate::label::Label>) -> Self {
-            self.name = Some(name.into());
-            self
-        }
+    (@opacity $layer:ident) => {
+        builders!($layer {
+            /// Sets the opacity, 0 to 1.
+            opacity(opacity: f64) |own| own.style = own.style.opacity(opacity);
+        });
+    };
+    (@name $layer:ident) => {
+        builders!($layer {
+            /// Lists the layer in the legend.
+            name(name: impl Into<$crate::label::Label>) |own| own.name = Some(name.into());
+        });
     };
 }
 

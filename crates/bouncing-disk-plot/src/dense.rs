@@ -7,7 +7,6 @@ use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Frame;
 use crate::label::Label;
-use crate::png_image;
 use crate::style::{Fill, Style};
 use crate::svg::Svg;
 
@@ -25,17 +24,15 @@ pub struct DensePoints {
 
 builders!(DensePoints: style, colour, opacity, name);
 
+builders!(DensePoints {
+    /// Sets the radius of a disc in points of the page.
+    radius(points: f64) |own| own.radius = points;
+});
+
 impl DensePoints {
     /// Points in data coordinates. Where discs that are not opaque overlap, the colour grows darker.
     pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self { points: points.into_iter().collect(), radius: 0.3, style: Colour::BLACK.into(), name: None }
-    }
-
-    /// Sets the radius of a disc in points of the page.
-    #[must_use]
-    pub fn radius(mut self, points: f64) -> Self {
-        self.radius = points;
-        self
     }
 
     pub(crate) fn render(&self, frame: &Frame<'_>, svg: &mut Svg) -> Result<(), DrawError> {
@@ -49,9 +46,7 @@ impl DensePoints {
         let Fill { colour, opacity } = self.style.solid();
         let pixels = paint(width as u32, height as u32, places, self.radius * RESOLUTION, opacity)?;
         let palette: Vec<_> = (0..=255).map(|opacity| (colour, opacity)).collect();
-        let png = png_image::indexed(width as usize, height as usize, &pixels, &palette)?;
-        svg.image(area.outline(), &png, false);
-        Ok(())
+        svg.image(area.outline(), [width as usize, height as usize], &pixels, &palette, false)
     }
 }
 

@@ -9,48 +9,14 @@ use crate::error::DrawError;
 use crate::frame::Rect;
 use crate::label::Label;
 use crate::path::Path;
-use crate::style::{Fill, Stroke, Style};
+use crate::style::{Anchor, Fill, Stroke, Style, TextStyle};
 use crate::svg::{Svg, TEXT_SIZE, TOLERANCE};
-use crate::text_style::{Anchor, TextStyle};
 
 /// What is drawn, in points of the page.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Shape(BezPath, Style),
     Text(Point, Label, TextStyle),
-    /// Lines of text about a point.
-    Lines(Point, Vec<Label>),
-}
-
-/// A box with centred lines of text in a [`Drawing`].
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextBox {
-    centre: (f64, f64),
-    size: (f64, f64),
-    corner: f64,
-    lines: Vec<Label>,
-    style: Style,
-}
-
-builders!(TextBox: style);
-
-impl TextBox {
-    /// A box of this size in local units, with a thin black outline and sharp corners unless set.
-    pub fn new<L: Into<Label>>(
-        centre: (f64, f64),
-        size: (f64, f64),
-        lines: impl IntoIterator<Item = L>,
-    ) -> Self {
-        let lines = lines.into_iter().map(Into::into).collect();
-        Self { centre, size, corner: 0.0, lines, style: Stroke::default().into() }
-    }
-
-    /// Sets the radius of the corners in points.
-    #[must_use]
-    pub fn corner(mut self, points: f64) -> Self {
-        self.corner = points;
-        self
-    }
 }
 
 /// A free drawing in local coordinates, `y` upwards.
@@ -61,6 +27,34 @@ pub struct Drawing {
     y: (f64, f64),
     items: Vec<Item>,
 }
+
+builders!(Drawing {
+    /// Adds a line along an outline.
+    stroke(path: Path, stroke: Stroke) |own| own.shape(own.to_page() * path.outline(), stroke);
+    /// Adds a filled outline.
+    fill(path: Path, colour: Colour, opacity: f64) |own|
+        own.shape(own.to_page() * path.outline(), Fill::new(colour, opacity));
+    /// Adds an upright ellipse with half-axes in local units.
+    ellipse(centre: (f64, f64), radii: (f64, f64), style: impl Into<Style>) |own| {
+        let place = Affine::translate(Vec2::from(centre)).pre_scale_non_uniform(radii.0, radii.1);
+        // Four curves, which stay within 0.0003 of the unit circle.
+        let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
+        own.shape(own.to_page() * place * circle, style)
+    };
+    /// Adds a text; an [`Anchor`] alone is a style, too.
+    text(at: (f64, f64), style: impl Into<TextStyle>, label: impl Into<Label>) |own|
+        own.items.push(Item::Text(own.to_page() * Point::from(at), label.into(), style.into()));
+    /// Adds a line through points with a head of 5 points at the last one.
+    arrow(points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) |own| own.arrows(points, stroke, 5.0);
+    /// Adds a line through points with a head of this length in points at the last one.
+    arrow_with_head(points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke, head: f64) |own|
+        own.arrows(points, stroke, head);
+    /// Adds a line with heads at both ends, for dimensions.
+    double_arrow(from: (f64, f64), to: (f64, f64), stroke: Stroke) |own| {
+        own.arrows([from, to], stroke, 5.0);
+        own.arrows([to, from], stroke, 5.0);
+    };
+});
 
 impl Drawing {
     /// A drawing whose local coordinates run over `x` and `y` in the rectangle `area`. Nothing is clipped.
@@ -81,79 +75,37 @@ impl Drawing {
         Self::new(area, widened(x, area.width), widened(y, area.height))
     }
 
-    /// Adds a line along an outline.
+    /// Adds a box with lines of text in its middle, for flow charts. Its size is in local units, the radius of
+    /// its corners in points.
     #[must_use]
-    pub fn stroke(self, path: Path, stroke: Stroke) -> Self {
-        self.shape(path, stroke)
-    }
-
-    /// Adds a filled outline.
-    #[must_use]
-    pub fn fill(self, path: Path, colour: Colour, opacity: f64) -> Self {
-        self.shape(path, Fill::new(colour, opacity))
-    }
-
-    fn shape(self, path: Path, style: impl Into<Style>) -> Self {
-        let outline = self.to_page() * path.outline();
-        self.with(Item::Shape(outline, style.into()))
-    }
-
-    /// Adds an upright ellipse with half-axes in local units.
-    #[must_use]
-    pub fn ellipse(self, centre: (f64, f64), radii: (f64, f64), style: impl Into<Style>) -> Self {
-        let place = Affine::translate(Vec2::from(centre)).pre_scale_non_uniform(radii.0, radii.1);
-        // Four curves, which stay within 0.0003 of the unit circle.
-        let circle = Circle::new(Point::ZERO, 1.0).to_path(1e-3);
-        let outline = self.to_page() * place * circle;
-        self.with(Item::Shape(outline, style.into()))
-    }
-
-    /// Adds a text; an [`Anchor`] alone is a style, too.
-    #[must_use]
-    pub fn text(self, at: (f64, f64), style: impl Into<TextStyle>, label: impl Into<Label>) -> Self {
-        let at = self.to_page() * Point::from(at);
-        self.with(Item::Text(at, label.into(), style.into()))
-    }
-
-    /// Adds a line through points with a head of 5 points at the last one.
-    #[must_use]
-    pub fn arrow(self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke) -> Self {
-        self.arrow_with_head(points, stroke, 5.0)
-    }
-
-    /// Adds a line through points with a head of this length in points at the last one.
-    #[must_use]
-    pub fn arrow_with_head(
-        self,
-        points: impl IntoIterator<Item = (f64, f64)>,
-        stroke: Stroke,
-        head: f64,
+    pub fn text_box<L: Into<Label>>(
+        mut self,
+        centre: (f64, f64),
+        size: (f64, f64),
+        corner: f64,
+        style: impl Into<Style>,
+        lines: impl IntoIterator<Item = L>,
     ) -> Self {
-        let points: Vec<_> = points.into_iter().map(|point| self.to_page() * Point::from(point)).collect();
-        let parts = arrow(&points, stroke, head);
-        parts.into_iter().fold(self, |drawing, (path, style)| drawing.with(Item::Shape(path, style)))
-    }
-
-    /// Adds a line with heads at both ends, for dimensions.
-    #[must_use]
-    pub fn double_arrow(self, from: (f64, f64), to: (f64, f64), stroke: Stroke) -> Self {
-        self.arrow([from, to], stroke).arrow([to, from], stroke)
-    }
-
-    /// Adds a box with lines of text, for flow charts.
-    #[must_use]
-    pub fn text_box(self, text_box: TextBox) -> Self {
-        let TextBox { centre, size, corner, lines, style } = text_box;
         let area = kurbo::Rect::from_center_size(centre, Size::from(size));
         let area = self.to_page().transform_rect_bbox(area);
-        let outline = area.to_rounded_rect(corner.max(0.0)).to_path(TOLERANCE);
-        let middle = area.center();
-        self.with(Item::Shape(outline, style)).with(Item::Lines(middle, lines))
+        self.shape(area.to_rounded_rect(corner.max(0.0)).to_path(TOLERANCE), style);
+        let lines: Vec<Label> = lines.into_iter().map(Into::into).collect();
+        let pitch = Vec2::new(0.0, 1.25 * TEXT_SIZE);
+        let first = area.center() - 0.5 * (lines.len() as f64 - 1.0) * pitch;
+        let placed = lines.into_iter().enumerate();
+        self.items.extend(placed.map(|(index, line)| {
+            Item::Text(first + index as f64 * pitch, line, TextStyle::new(Anchor::Centre))
+        }));
+        self
     }
 
-    fn with(mut self, item: Item) -> Self {
-        self.items.push(item);
-        self
+    fn shape(&mut self, outline: BezPath, style: impl Into<Style>) {
+        self.items.push(Item::Shape(outline, style.into()));
+    }
+
+    fn arrows(&mut self, points: impl IntoIterator<Item = (f64, f64)>, stroke: Stroke, head: f64) {
+        let points: Vec<_> = points.into_iter().map(|point| self.to_page() * Point::from(point)).collect();
+        arrow(&points, stroke, head).into_iter().for_each(|(path, style)| self.shape(path, style));
     }
 
     /// The local coordinates of a place on the page, for letters in the corner of a drawing with widened
@@ -170,11 +122,8 @@ impl Drawing {
 
     pub(crate) fn render(&self, svg: &mut Svg) -> Result<(), DrawError> {
         if !self.area.has_area() {
-            return Err(DrawError::Size {
-                what: "a drawing",
-                width: self.area.width,
-                height: self.area.height,
-            });
+            let Rect { width, height, .. } = self.area;
+            return Err(DrawError::Size { what: "a drawing", width, height });
         }
         for (low, high) in [self.x, self.y] {
             let extent = (high - low).abs();
@@ -186,13 +135,6 @@ impl Drawing {
             match item {
                 Item::Shape(path, style) => svg.path(path, style),
                 Item::Text(at, label, style) => svg.label(label, *at, *style)?,
-                Item::Lines(middle, lines) => {
-                    let pitch = Vec2::new(0.0, 1.25 * TEXT_SIZE);
-                    let first = *middle - 0.5 * (lines.len() as f64 - 1.0) * pitch;
-                    for (index, line) in lines.iter().enumerate() {
-                        svg.label(line, first + index as f64 * pitch, TextStyle::new(Anchor::Centre))?;
-                    }
-                }
             }
         }
         Ok(())
@@ -215,10 +157,9 @@ mod tests {
 
     #[test]
     fn ellipses_and_boxes_have_their_size_on_the_page() {
-        let words = TextBox::new((5.0, 5.0), (4.0, 2.0), ["words"]).corner(1.5);
         let drawing = Drawing::new(Rect::new(0.0, 0.0, 100.0, 50.0), (0.0, 10.0), (0.0, 10.0))
             .ellipse((5.0, 5.0), (2.0, 1.0), Colour::GREY)
-            .text_box(words);
+            .text_box((5.0, 5.0), (4.0, 2.0), 1.5, Stroke::default(), ["words"]);
         let expected = kurbo::Rect::new(30.0, 20.0, 70.0, 30.0);
         for item in &drawing.items {
             let Item::Shape(path, _) = item else { continue };

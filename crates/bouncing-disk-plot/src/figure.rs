@@ -1,9 +1,12 @@
-//! A figure: panels and drawings on a page.
+//! A figure: panels and drawings on a page, as SVG and, rendered by resvg, as PNG.
 
+use resvg::{tiny_skia, usvg};
+
+use crate::builders::builders;
 use crate::drawing::Drawing;
 use crate::error::DrawError;
+use crate::font;
 use crate::panel::Panel;
-use crate::picture;
 use crate::svg::Svg;
 
 /// The width of one column of the journal, 8.6 cm, in points.
@@ -28,30 +31,20 @@ enum Part {
     Drawing(Drawing),
 }
 
+builders!(Figure {
+    /// Adds a panel; later parts cover earlier ones, so an inset follows its panel.
+    panel(panel: Panel) |own| own.parts.push(Part::Panel(Box::new(panel)));
+    /// Adds several panels.
+    panels(panels: impl IntoIterator<Item = Panel>) |own|
+        own.parts.extend(panels.into_iter().map(|panel| Part::Panel(Box::new(panel))));
+    /// Adds a free drawing.
+    drawing(drawing: Drawing) |own| own.parts.push(Part::Drawing(drawing));
+});
+
 impl Figure {
     /// An empty page.
     pub fn new(width: f64, height: f64) -> Self {
         Self { width, height, parts: Vec::new() }
-    }
-
-    /// Adds a panel; later parts cover earlier ones, so an inset follows its panel.
-    #[must_use]
-    pub fn panel(mut self, panel: Panel) -> Self {
-        self.parts.push(Part::Panel(Box::new(panel)));
-        self
-    }
-
-    /// Adds several panels.
-    #[must_use]
-    pub fn panels(self, panels: impl IntoIterator<Item = Panel>) -> Self {
-        panels.into_iter().fold(self, Self::panel)
-    }
-
-    /// Adds a free drawing.
-    #[must_use]
-    pub fn drawing(mut self, drawing: Drawing) -> Self {
-        self.parts.push(Part::Drawing(drawing));
-        self
     }
 
     /// The figure as SVG: the same text whenever the figure is the same.
@@ -80,7 +73,7 @@ impl Figure {
     ///
     /// As [`Figure::to_svg`], and when rendering fails.
     pub fn to_png(&self) -> Result<Vec<u8>, DrawError> {
-        picture::png(&self.to_svg()?, f32::MAX)
+        png(&self.to_svg()?, f32::MAX)
     }
 
     /// As [`Figure::to_png`], made smaller where it would be wider than so many pixels.
@@ -89,6 +82,33 @@ impl Figure {
     ///
     /// As [`Figure::to_png`].
     pub fn to_png_within(&self, pixels: u16) -> Result<Vec<u8>, DrawError> {
-        picture::png(&self.to_svg()?, f32::from(pixels))
+        png(&self.to_svg()?, f32::from(pixels))
     }
+}
+
+/// Pixels of a PNG per point.
+const SCALE: f32 = 4.0;
+
+/// The picture of an SVG text with the bundled fonts only, as wide as `most_pixels` at most.
+fn png(svg: &str, most_pixels: f32) -> Result<Vec<u8>, DrawError> {
+    let options = usvg::Options {
+        font_family: font::FAMILY.to_owned(),
+        fontdb: font::database(),
+        // One user unit is one point.
+        dpi: 72.0,
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(svg, &options)
+        .map_err(|error| DrawError::Render { message: error.to_string() })?;
+    let size = tree.size();
+    let scale = SCALE.min(most_pixels / size.width());
+    let (width, height) = (size.width() * scale, size.height() * scale);
+    let pixels = tiny_skia::Pixmap::new(width.ceil() as u32, height.ceil() as u32);
+    let mut pixels = pixels.ok_or(DrawError::Size {
+        what: "the picture",
+        width: f64::from(width),
+        height: f64::from(height),
+    })?;
+    resvg::render(&tree, tiny_skia::Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|error| DrawError::Render { message: error.to_string() })
 }

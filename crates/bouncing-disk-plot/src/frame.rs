@@ -3,9 +3,10 @@
 use kurbo::{Affine, Point};
 
 use crate::axis::Axis;
+use crate::builders::builders;
 
 /// A rectangle on the page, in points from the upper left corner of the figure.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rect {
     /// The left edge.
     pub left: f64,
@@ -80,6 +81,20 @@ pub struct Grid {
     gap_down: f64,
 }
 
+builders!(Grid {
+    /// Sets the room around the grid.
+    margins(margins: Margins) |own| own.margins = margins;
+    /// Sets the room between columns and between rows, in points.
+    gaps(between_columns: f64, between_rows: f64) |own|
+        (own.gap_across, own.gap_down) = (between_columns, between_rows);
+    /// Relative heights of the rows; missing ones stay 1.
+    row_weights(weights: &[f64]) |own|
+        own.rows.iter_mut().zip(weights).for_each(|(row, weight)| *row = *weight);
+    /// Relative widths of the columns; missing ones stay 1.
+    column_weights(weights: &[f64]) |own|
+        own.columns.iter_mut().zip(weights).for_each(|(column, weight)| *column = *weight);
+});
+
 impl Grid {
     /// `rows` times `columns` equal cells in a figure of this size.
     pub fn new(width: f64, height: f64, rows: usize, columns: usize) -> Self {
@@ -92,35 +107,6 @@ impl Grid {
             gap_across: 46.0,
             gap_down: 34.0,
         }
-    }
-
-    /// Sets the room around the grid.
-    #[must_use]
-    pub fn margins(mut self, margins: Margins) -> Self {
-        self.margins = margins;
-        self
-    }
-
-    /// Sets the room between columns and between rows, in points.
-    #[must_use]
-    pub fn gaps(mut self, between_columns: f64, between_rows: f64) -> Self {
-        self.gap_across = between_columns;
-        self.gap_down = between_rows;
-        self
-    }
-
-    /// Relative heights of the rows; missing ones stay 1.
-    #[must_use]
-    pub fn row_weights(mut self, weights: &[f64]) -> Self {
-        self.rows.iter_mut().zip(weights).for_each(|(row, weight)| *row = *weight);
-        self
-    }
-
-    /// Relative widths of the columns; missing ones stay 1.
-    #[must_use]
-    pub fn column_weights(mut self, weights: &[f64]) -> Self {
-        self.columns.iter_mut().zip(weights).for_each(|(column, weight)| *column = *weight);
-        self
     }
 
     /// The frame in a row and column, counted from 0 at the upper left; a cell outside the grid is the last

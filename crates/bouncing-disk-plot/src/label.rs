@@ -99,26 +99,19 @@ impl From<String> for Label {
 fn parse(source: &str) -> Result<Vec<Span>, DrawError> {
     let mut spans = Vec::new();
     let mut rest = source;
-    let mut mathematics = false;
-    while !rest.is_empty() {
+    for mathematics in [false, true].into_iter().cycle() {
         let end = dollar(rest);
+        if mathematics && end.is_none() {
+            return Err(malformed(source, "a dollar sign is not closed"));
+        }
         let (part, after) = rest.split_at(end.unwrap_or(rest.len()));
         if mathematics {
-            if end.is_none() {
-                return Err(malformed(source, "a dollar sign is not closed"));
-            }
-            let mut parser = Parser { source, rest: part };
-            spans.extend(parser.list(Level::Base, false)?);
+            spans.extend(Parser { source, rest: part }.list(Level::Base, false)?);
         } else {
             push(&mut spans, &part.replace("\\$", "$"), FontStyle::Roman, Level::Base);
         }
-        rest = after.strip_prefix('$').unwrap_or(after);
-        if end.is_some() {
-            mathematics = !mathematics;
-        }
-    }
-    if mathematics {
-        return Err(malformed(source, "a dollar sign is not closed"));
+        let Some(after) = after.strip_prefix('$') else { break };
+        rest = after;
     }
     Ok(spans)
 }
@@ -311,60 +304,18 @@ fn is_function(name: &str) -> bool {
     )
 }
 
+/// Names of characters, each before its character.
+const SYMBOLS: &str = "
+    alpha α beta β gamma γ delta δ epsilon ε varepsilon ε zeta ζ eta η theta θ kappa κ lambda λ mu μ nu ν xi ξ
+    pi π rho ρ sigma σ tau τ phi ϕ varphi φ chi χ psi ψ omega ω
+    Gamma Γ Delta Δ Theta Θ Lambda Λ Pi Π Sigma Σ Phi Φ Psi Ψ Omega Ω
+    times × cdot · pm ± le ≤ leq ≤ ge ≥ geq ≥ approx ≈ sim ∼ ne ≠ neq ≠ propto ∝ ll ≪ gg ≫ to → rightarrow →
+    infty ∞ partial ∂ degree ° prime ′ langle ⟨ rangle ⟩ ldots … dots …";
+
 fn symbol(name: &str) -> Option<char> {
-    Some(match name {
-        "alpha" => 'α',
-        "beta" => 'β',
-        "gamma" => 'γ',
-        "delta" => 'δ',
-        "epsilon" | "varepsilon" => 'ε',
-        "zeta" => 'ζ',
-        "eta" => 'η',
-        "theta" => 'θ',
-        "kappa" => 'κ',
-        "lambda" => 'λ',
-        "mu" => 'μ',
-        "nu" => 'ν',
-        "xi" => 'ξ',
-        "pi" => 'π',
-        "rho" => 'ρ',
-        "sigma" => 'σ',
-        "tau" => 'τ',
-        "phi" => 'ϕ',
-        "varphi" => 'φ',
-        "chi" => 'χ',
-        "psi" => 'ψ',
-        "omega" => 'ω',
-        "Gamma" => 'Γ',
-        "Delta" => 'Δ',
-        "Theta" => 'Θ',
-        "Lambda" => 'Λ',
-        "Pi" => 'Π',
-        "Sigma" => 'Σ',
-        "Phi" => 'Φ',
-        "Psi" => 'Ψ',
-        "Omega" => 'Ω',
-        "times" => '×',
-        "cdot" => '·',
-        "pm" => '±',
-        "le" | "leq" => '≤',
-        "ge" | "geq" => '≥',
-        "approx" => '≈',
-        "sim" => '∼',
-        "ne" | "neq" => '≠',
-        "propto" => '∝',
-        "ll" => '≪',
-        "gg" => '≫',
-        "to" | "rightarrow" => '→',
-        "infty" => '∞',
-        "partial" => '∂',
-        "degree" => '°',
-        "prime" => '′',
-        "langle" => '⟨',
-        "rangle" => '⟩',
-        "ldots" | "dots" => '…',
-        _ => return None,
-    })
+    let mut words = SYMBOLS.split_whitespace();
+    words.find(|word| *word == name)?;
+    words.next()?.chars().next()
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use kurbo::Point;
 
+use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Rect;
@@ -9,9 +10,8 @@ use crate::label::Label;
 use crate::layer::Layer;
 use crate::line::{Band, Line, Rule};
 use crate::path::polyline;
-use crate::style::{Stroke, Style};
+use crate::style::{Anchor, Stroke, Style, TextStyle};
 use crate::svg::{NUMBER_SIZE, Svg};
-use crate::text_style::{Anchor, TextStyle};
 
 /// The diameter in points of the dot that stands for points too small to be seen alone.
 const DENSE_SAMPLE: f64 = 3.0;
@@ -52,24 +52,17 @@ pub struct Legend {
     inset: f64,
 }
 
+builders!(Legend {
+    /// Leaves out the frame and its background.
+    without_frame() |own| own.framed = false;
+    /// Sets the distance from the panel's edges in points.
+    inset(points: f64) |own| own.inset = points;
+});
+
 impl Legend {
     /// A legend with a frame in a corner of the panel.
     pub fn at(corner: Corner) -> Self {
         Self { corner, framed: true, inset: 7.0 }
-    }
-
-    /// Leaves out the frame and its background.
-    #[must_use]
-    pub fn without_frame(mut self) -> Self {
-        self.framed = false;
-        self
-    }
-
-    /// Sets the distance from the panel's edges in points.
-    #[must_use]
-    pub fn inset(mut self, points: f64) -> Self {
-        self.inset = points;
-        self
     }
 
     /// Draws the legend of these layers into the area of their panel.

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers as people read them, and their extent.
 
 /// A number with so many significant digits at most, without trailing zeros; powers of ten only where they are
 /// needed.
@@ -17,6 +17,12 @@ pub fn in_math(value: f64) -> String {
         Some((mantissa, exponent)) => format!(r"{mantissa}\times 10^{{{exponent}}}"),
         None => text,
     }
+}
+
+/// The least and the largest of the finite values; infinite and the wrong way round where there is none.
+pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let finite = values.into_iter().filter(|value| value.is_finite());
+    finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
 }
 
 #[cfg(test)]

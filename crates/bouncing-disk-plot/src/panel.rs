@@ -3,6 +3,7 @@
 use kurbo::{BezPath, Point, Vec2};
 
 use crate::axis::Axis;
+use crate::builders::builders;
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::{Frame, Rect};
@@ -10,9 +11,8 @@ use crate::label::Label;
 use crate::layer::Layer;
 use crate::legend::{Corner, Legend};
 use crate::path::polyline;
-use crate::style::{Stroke, Style};
+use crate::style::{Anchor, Stroke, Style, TextStyle};
 use crate::svg::{NUMBER_SIZE, Svg, TEXT_SIZE};
-use crate::text_style::{Anchor, TextStyle};
 use crate::ticks::PlacedTicks;
 
 /// Lengths in points.
@@ -22,7 +22,7 @@ const MINOR_TICK: f64 = 2.2;
 const NUMBER_DISTANCE: f64 = 4.0;
 
 /// A frame with axes, layers, and optionally a letter, a title and a legend.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Panel {
     area: Rect,
     x: Axis,
@@ -78,105 +78,39 @@ impl Edge {
     }
 }
 
+builders!(Panel {
+    /// Sets the horizontal axis.
+    x(axis: Axis) |own| own.x = axis;
+    /// Sets the vertical axis.
+    y(axis: Axis) |own| own.y = axis;
+    /// Adds a second vertical axis, on the right.
+    right(axis: Axis) |own| own.right = Some(axis);
+    /// Adds a second horizontal axis, above: another unit of the same quantity. Layers keep to the lower one.
+    top(axis: Axis) |own| own.top = Some(axis);
+    /// Adds a layer.
+    layer(layer: impl Into<Layer>) |own| own.layers.push((layer.into(), false));
+    /// Adds a layer whose vertical coordinate belongs to the axis on the right.
+    layer_right(layer: impl Into<Layer>) |own| own.layers.push((layer.into(), true));
+    /// Adds several layers.
+    layers(layers: impl IntoIterator<Item = impl Into<Layer>>) |own|
+        own.layers.extend(layers.into_iter().map(|layer| (layer.into(), false)));
+    /// Sets the letter, "a" for (a), in the upper left corner.
+    letter(letter: &str) |own| own.letter = Some((letter.to_owned(), Corner::TopLeft));
+    /// Sets the letter in another corner.
+    letter_in(letter: &str, corner: Corner) |own| own.letter = Some((letter.to_owned(), corner));
+    /// Sets a line of text above the frame.
+    title(title: impl Into<Label>) |own| own.title = Some(title.into());
+    /// Lists the named layers.
+    legend(legend: Legend) |own| own.legend = Some(legend);
+    /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
+    /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
+    markers_on_top() |own| own.markers_on_top = true;
+});
+
 impl Panel {
     /// An empty panel whose frame is `area`.
     pub fn new(area: Rect) -> Self {
-        Self {
-            area,
-            x: Axis::default(),
-            y: Axis::default(),
-            right: None,
-            top: None,
-            layers: Vec::new(),
-            letter: None,
-            title: None,
-            legend: None,
-            markers_on_top: false,
-        }
-    }
-
-    /// Sets the horizontal axis.
-    #[must_use]
-    pub fn x(mut self, axis: Axis) -> Self {
-        self.x = axis;
-        self
-    }
-
-    /// Sets the vertical axis.
-    #[must_use]
-    pub fn y(mut self, axis: Axis) -> Self {
-        self.y = axis;
-        self
-    }
-
-    /// Adds a second vertical axis, on the right.
-    #[must_use]
-    pub fn right(mut self, axis: Axis) -> Self {
-        self.right = Some(axis);
-        self
-    }
-
-    /// Adds a second horizontal axis, above: another unit of the same quantity. Layers keep to the lower one.
-    #[must_use]
-    pub fn top(mut self, axis: Axis) -> Self {
-        self.top = Some(axis);
-        self
-    }
-
-    /// Adds a layer.
-    #[must_use]
-    pub fn layer(mut self, layer: impl Into<Layer>) -> Self {
-        self.layers.push((layer.into(), false));
-        self
-    }
-
-    /// Adds a layer whose vertical coordinate belongs to the axis on the right.
-    #[must_use]
-    pub fn layer_right(mut self, layer: impl Into<Layer>) -> Self {
-        self.layers.push((layer.into(), true));
-        self
-    }
-
-    /// Adds several layers.
-    #[must_use]
-    pub fn layers<L: Into<Layer>>(mut self, layers: impl IntoIterator<Item = L>) -> Self {
-        self.layers.extend(layers.into_iter().map(|layer| (layer.into(), false)));
-        self
-    }
-
-    /// Sets the letter, "a" for (a), in the upper left corner.
-    #[must_use]
-    pub fn letter(self, letter: &str) -> Self {
-        self.letter_in(letter, Corner::TopLeft)
-    }
-
-    /// Sets the letter in another corner.
-    #[must_use]
-    pub fn letter_in(mut self, letter: &str, corner: Corner) -> Self {
-        self.letter = Some((letter.to_owned(), corner));
-        self
-    }
-
-    /// Sets a line of text above the frame.
-    #[must_use]
-    pub fn title(mut self, title: impl Into<Label>) -> Self {
-        self.title = Some(title.into());
-        self
-    }
-
-    /// Lists the named layers.
-    #[must_use]
-    pub fn legend(mut self, legend: Legend) -> Self {
-        self.legend = Some(legend);
-        self
-    }
-
-    /// Draws the markers of [`Scatter`](super::Scatter) layers above the frame and its ticks instead of
-    /// below, so that those at an edge are seen whole; those of the axis on the right stay below.
-    #[must_use]
-    pub fn markers_on_top(mut self) -> Self {
-        self.markers_on_top = true;
-        self
+        Self { area, ..Self::default() }
     }
 
     pub(crate) fn render(&self, svg: &mut Svg) -> Result<(), DrawError> {
@@ -299,7 +233,7 @@ impl<'a> Side<'a> {
     fn render(&self, area: Rect, svg: &mut Svg) -> Result<(), DrawError> {
         let size = NUMBER_SIZE;
         let mut widest: f64 = 0.0;
-        if self.axis.shows_numbers() {
+        if self.axis.shows_numbers {
             let (below, anchor) = match self.edge {
                 Edge::Bottom => (0.75 * size, Anchor::Middle),
                 Edge::Top => (0.0, Anchor::Middle),
@@ -335,23 +269,23 @@ impl<'a> Side<'a> {
     fn render_label(&self, area: Rect, widest: f64, svg: &mut Svg) -> Result<(), DrawError> {
         let level = matches!(self.edge, Edge::Bottom | Edge::Top);
         let extent = if level { 0.7 * NUMBER_SIZE } else { widest };
-        let numbers = if self.axis.shows_numbers() { NUMBER_DISTANCE + extent } else { 0.0 };
+        let numbers = if self.axis.shows_numbers { NUMBER_DISTANCE + extent } else { 0.0 };
         let room = match self.edge {
             Edge::Bottom => 1.45,
             Edge::Left => 0.7,
             Edge::Right => 1.3,
             Edge::Top => 0.45,
         };
-        let distance = self.axis.distance().unwrap_or(numbers + room * TEXT_SIZE);
+        let distance = self.axis.label_distance.unwrap_or(numbers + room * TEXT_SIZE);
         let mut place = self.edge.place(area, 0.5) + distance * self.edge.outward();
         // However wide the numbers are, the label stays on the page.
         match self.edge {
-            Edge::Bottom => place.y = place.y.min(svg.height() - 0.3 * TEXT_SIZE),
+            Edge::Bottom => place.y = place.y.min(svg.height - 0.3 * TEXT_SIZE),
             Edge::Left => place.x = place.x.max(0.85 * TEXT_SIZE),
-            Edge::Right => place.x = place.x.min(svg.width() - 0.35 * TEXT_SIZE),
+            Edge::Right => place.x = place.x.min(svg.width - 0.35 * TEXT_SIZE),
             Edge::Top => place.y = place.y.max(TEXT_SIZE),
         }
         let rotation = if level { 0.0 } else { 90.0 };
-        svg.label(self.axis.label_text(), place, TextStyle::new(Anchor::Middle).rotated(rotation))
+        svg.label(&self.axis.label, place, TextStyle::new(Anchor::Middle).rotated(rotation))
     }
 }

@@ -3,7 +3,6 @@
 use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::frame::Frame;
-use crate::png_image;
 use crate::svg::Svg;
 
 /// Cells of equal size, each with a colour of a palette, embedded as one PNG.
@@ -58,8 +57,6 @@ impl Raster {
             return Err(DrawError::Size { what: "a raster", width: area.width(), height: area.height() });
         }
         let palette: Vec<_> = self.palette.iter().map(|colour| (*colour, 255)).collect();
-        let png = png_image::indexed(width, height, &pixels, &palette)?;
-        svg.image(area, &png, true);
-        Ok(())
+        svg.image(area, [width, height], &pixels, &palette, true)
     }
 }

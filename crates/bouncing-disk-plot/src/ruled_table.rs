@@ -6,9 +6,8 @@ use crate::figure::Figure;
 use crate::frame::Rect;
 use crate::label::Label;
 use crate::path::Path;
-use crate::style::Stroke;
+use crate::style::{Anchor, Stroke};
 use crate::svg::TEXT_SIZE;
-use crate::text_style::Anchor;
 
 /// Lengths in points.
 const ROW: f64 = 14.0;
@@ -54,8 +53,10 @@ mod tests {
     fn all_cells_are_shown() {
         let header = [Label::new("parameter"), Label::new(r"$\epsilon$")];
         let rows = vec![vec![Label::new("amplitude"), Label::new(r"$10^{-8}$ m")], vec![Label::new("alone")]];
-        let svg = ruled_table(&header, &rows).to_svg().expect("draws");
-        for text in ["parameter", "ε", "amplitude", "−8", "alone"] {
+        let figure = ruled_table(&header, &rows);
+        assert!(figure.to_png().expect("draws").starts_with(b"\x89PNG"));
+        let svg = figure.to_svg().expect("draws");
+        for text in ["STIX Two Text", "parameter", "ε", "amplitude", "−8", "alone"] {
             assert!(svg.contains(text), "{text}");
         }
     }

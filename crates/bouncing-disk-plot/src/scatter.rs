@@ -44,6 +44,19 @@ pub struct Scatter {
 
 builders!(Scatter: style, colour, width, name);
 
+builders!(Scatter {
+    /// Sets the shape.
+    marker(marker: Marker) |own| own.marker = marker;
+    /// Sets the extent in points.
+    size(points: f64) |own| own.size = points;
+    /// Fills open markers with white, so that curves end at them.
+    filled_white() |own| own.style = own.style.fill(Colour::WHITE);
+    /// Adds horizontal error bars: one half-length per point, in data units.
+    errors_x(errors: impl IntoIterator<Item = f64>) |own| own.errors_x = Some(errors.into_iter().collect());
+    /// Adds vertical error bars: one half-length per point, in data units.
+    errors_y(errors: impl IntoIterator<Item = f64>) |own| own.errors_y = Some(errors.into_iter().collect());
+});
+
 impl Scatter {
     /// Points in data coordinates; points outside the panel are not shown.
     pub fn new(points: impl IntoIterator<Item = (f64, f64)>) -> Self {
@@ -56,41 +69,6 @@ impl Scatter {
             errors_y: None,
             name: None,
         }
-    }
-
-    /// Sets the shape.
-    #[must_use]
-    pub fn marker(mut self, marker: Marker) -> Self {
-        self.marker = marker;
-        self
-    }
-
-    /// Sets the extent in points.
-    #[must_use]
-    pub fn size(mut self, points: f64) -> Self {
-        self.size = points;
-        self
-    }
-
-    /// Fills open markers with white, so that curves end at them.
-    #[must_use]
-    pub fn filled_white(mut self) -> Self {
-        self.style = self.style.fill(Colour::WHITE);
-        self
-    }
-
-    /// Adds horizontal error bars: one half-length per point, in data units.
-    #[must_use]
-    pub fn errors_x(mut self, errors: impl IntoIterator<Item = f64>) -> Self {
-        self.errors_x = Some(errors.into_iter().collect());
-        self
-    }
-
-    /// Adds vertical error bars: one half-length per point, in data units.
-    #[must_use]
-    pub fn errors_y(mut self, errors: impl IntoIterator<Item = f64>) -> Self {
-        self.errors_y = Some(errors.into_iter().collect());
-        self
     }
 
     /// Draws the markers at points of the page.

@@ -1,5 +1,6 @@
-//! How shapes are drawn: one type for the lines and the areas of every layer.
+//! How shapes are drawn, with one type for the lines and the areas of every layer, and how words are set.
 
+use crate::builders::builders;
 use crate::colour::Colour;
 
 /// The dashes of a line.
@@ -47,17 +48,15 @@ impl Default for Stroke {
     }
 }
 
+builders!(Stroke {
+    /// With dashes.
+    dashed(dash: Dash) |own| own.dash = dash;
+});
+
 impl Stroke {
     /// A solid line.
     pub fn new(colour: Colour, width: f64) -> Self {
         Self { colour, width, ..Self::default() }
-    }
-
-    /// With dashes.
-    #[must_use]
-    pub fn dashed(mut self, dash: Dash) -> Self {
-        self.dash = dash;
-        self
     }
 
     /// An area like the line, for the heads of arrows and for dots.
@@ -106,55 +105,28 @@ pub struct Style {
     pub fill: Option<Fill>,
 }
 
-impl Style {
+builders!(Style {
     /// Sets the colour of the line, or of the area where there is no line.
-    #[must_use]
-    pub fn colour(mut self, colour: Colour) -> Self {
-        match (&mut self.stroke, &mut self.fill) {
-            (None, Some(fill)) => fill.colour = colour,
-            (stroke, _) => stroke.get_or_insert_default().colour = colour,
-        }
-        self
-    }
-
+    colour(colour: Colour) |own| match own {
+        Self { stroke: None, fill: Some(fill) } => fill.colour = colour,
+        Self { stroke, .. } => stroke.get_or_insert_default().colour = colour,
+    };
     /// Sets the opacity, 0 to 1, of the line, or of the area where there is no line.
-    #[must_use]
-    pub fn opacity(mut self, opacity: f64) -> Self {
-        match (&mut self.stroke, &mut self.fill) {
-            (None, Some(fill)) => fill.opacity = opacity,
-            (stroke, _) => stroke.get_or_insert_default().opacity = opacity,
-        }
-        self
-    }
-
+    opacity(opacity: f64) |own| match own {
+        Self { stroke: None, fill: Some(fill) } => fill.opacity = opacity,
+        Self { stroke, .. } => stroke.get_or_insert_default().opacity = opacity,
+    };
     /// Sets the width of the line in points; there is a line from then on.
-    #[must_use]
-    pub fn width(mut self, points: f64) -> Self {
-        self.stroke.get_or_insert_default().width = points;
-        self
-    }
-
+    width(points: f64) |own| own.stroke.get_or_insert_default().width = points;
     /// Sets the dashes of the line; there is a line from then on.
-    #[must_use]
-    pub fn dash(mut self, dash: Dash) -> Self {
-        self.stroke.get_or_insert_default().dash = dash;
-        self
-    }
-
+    dash(dash: Dash) |own| own.stroke.get_or_insert_default().dash = dash;
     /// Sets the whole line.
-    #[must_use]
-    pub fn stroke(mut self, stroke: Stroke) -> Self {
-        self.stroke = Some(stroke);
-        self
-    }
-
+    stroke(stroke: Stroke) |own| own.stroke = Some(stroke);
     /// Fills the area.
-    #[must_use]
-    pub fn fill(mut self, fill: impl Into<Fill>) -> Self {
-        self.fill = Some(fill.into());
-        self
-    }
+    fill(fill: impl Into<Fill>) |own| own.fill = Some(fill.into());
+});
 
+impl Style {
     /// What [`colour`](Self::colour) and [`opacity`](Self::opacity) set, as an area.
     pub(crate) fn solid(&self) -> Fill {
         match (self.stroke, self.fill) {
@@ -179,6 +151,68 @@ impl From<Fill> for Style {
 impl From<Colour> for Style {
     fn from(colour: Colour) -> Self {
         Fill::from(colour).into()
+    }
+}
+
+/// Which point of a text is placed: on its baseline, or (`..Centre`) at half the height of its capitals.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Anchor {
+    /// The left end of the baseline.
+    Left,
+    /// The middle of the baseline.
+    Middle,
+    /// The right end of the baseline.
+    Right,
+    /// The left end, centred vertically.
+    LeftCentre,
+    /// The middle, centred vertically.
+    Centre,
+    /// The right end, centred vertically.
+    RightCentre,
+}
+
+/// How a text is set.
+///
+/// ```
+/// use bouncing_disk_plot::{Anchor, Colour, TextStyle};
+///
+/// let small = TextStyle::new(Anchor::LeftCentre).size(8.0).colour(Colour::DARK_GREY);
+/// assert_eq!(TextStyle::from(Anchor::LeftCentre), TextStyle::new(Anchor::LeftCentre));
+/// assert_ne!(small, Anchor::LeftCentre.into());
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextStyle {
+    pub(crate) anchor: Anchor,
+    /// The font size in points; that of the figure unless set.
+    pub(crate) size: Option<f64>,
+    pub(crate) colour: Colour,
+    /// Degrees, anticlockwise.
+    pub(crate) rotation: f64,
+    /// A rim around the letters that keeps them legible on a picture.
+    pub(crate) halo: Option<Colour>,
+}
+
+builders!(TextStyle {
+    /// Sets the font size in points.
+    size(points: f64) |own| own.size = Some(points);
+    /// Sets the colour.
+    colour(colour: Colour) |own| own.colour = colour;
+    /// Turns the text anticlockwise.
+    rotated(degrees: f64) |own| own.rotation = degrees;
+    /// Puts a rim around the letters, which keeps them legible on a picture.
+    halo(colour: Colour) |own| own.halo = Some(colour);
+});
+
+impl TextStyle {
+    /// Black, level, in the size of the figure.
+    pub fn new(anchor: Anchor) -> Self {
+        Self { anchor, size: None, colour: Colour::BLACK, rotation: 0.0, halo: None }
+    }
+}
+
+impl From<Anchor> for TextStyle {
+    fn from(anchor: Anchor) -> Self {
+        Self::new(anchor)
     }
 }
 

@@ -5,13 +5,13 @@ use std::fmt::Write as _;
 use base64::Engine as _;
 use kurbo::{BezPath, PathEl, Point, Shape};
 
+use crate::colour::Colour;
 use crate::error::DrawError;
 use crate::font::{FAMILIES, FontStyle};
 use crate::frame::Rect;
 use crate::label::{Label, Level, SCRIPT_SIZE};
 use crate::path::polyline;
-use crate::style::{Dash, Fill, Stroke, Style};
-use crate::text_style::{Anchor, TextStyle};
+use crate::style::{Anchor, Dash, Fill, Stroke, Style, TextStyle};
 
 /// How far a curve may lie beside the circle that it stands for, in points.
 pub(crate) const TOLERANCE: f64 = 0.01;
@@ -27,8 +27,9 @@ pub(crate) const NUMBER_SIZE: f64 = 0.92 * TEXT_SIZE;
 pub(crate) struct Svg {
     text: String,
     clips: usize,
-    width: f64,
-    height: f64,
+    /// The size of the page.
+    pub(crate) width: f64,
+    pub(crate) height: f64,
 }
 
 /// Heights in units of the font size: of capitals, for centring; of subscripts and superscripts.
@@ -46,16 +47,6 @@ impl Svg {
              <rect width=\"{wide}\" height=\"{high}\" fill=\"#ffffff\"/>\n"
         );
         Self { text, clips: 0, width, height }
-    }
-
-    /// The width of the page.
-    pub(crate) fn width(&self) -> f64 {
-        self.width
-    }
-
-    /// The height of the page.
-    pub(crate) fn height(&self) -> f64 {
-        self.height
     }
 
     pub(crate) fn finish(mut self) -> String {
@@ -121,8 +112,16 @@ impl Svg {
         self.path(&area.outline().to_path(TOLERANCE), style);
     }
 
-    /// An image stretched over a rectangle. `sharp` shows its cells as squares.
-    pub(crate) fn image(&mut self, area: kurbo::Rect, png: &[u8], sharp: bool) {
+    /// An image stretched over a rectangle, of which `sharp` shows the cells as squares; see [`indexed`].
+    pub(crate) fn image(
+        &mut self,
+        area: kurbo::Rect,
+        size: [usize; 2],
+        pixels: &[u8],
+        palette: &[(Colour, u8)],
+        sharp: bool,
+    ) -> Result<(), DrawError> {
+        let png = indexed(size, pixels, palette)?;
         let data = base64::engine::general_purpose::STANDARD.encode(png);
         let style = if sharp { " style=\"image-rendering:pixelated\"" } else { "" };
         let _ = writeln!(
@@ -130,6 +129,7 @@ impl Svg {
             "<image {} preserveAspectRatio=\"none\"{style} href=\"data:image/png;base64,{data}\"/>",
             attributes(area)
         );
+        Ok(())
     }
 
     /// A label whose baseline (or middle) is at a point; left out where the point is not finite.
@@ -182,15 +182,36 @@ impl Svg {
             if span.level != Level::Base {
                 let _ = write!(self.text, " font-size=\"{}\"", short(SCRIPT_SIZE * size));
             }
-            match span.style {
-                FontStyle::Roman => {}
-                FontStyle::Italic => self.text.push_str(" font-style=\"italic\""),
+            if span.style == FontStyle::Italic {
+                self.text.push_str(" font-style=\"italic\"");
             }
             let _ = write!(self.text, ">{}</tspan>", escaped(&span.text));
         }
         self.text.push_str("</text>\n");
         Ok(())
     }
+}
+
+/// An indexed image as PNG: one byte per pixel, each a colour with an opacity (0 to 255).
+fn indexed(size: [usize; 2], pixels: &[u8], palette: &[(Colour, u8)]) -> Result<Vec<u8>, DrawError> {
+    let failed = |error: png::EncodingError| DrawError::Render { message: error.to_string() };
+    let [Ok(width), Ok(height)] = size.map(u32::try_from) else {
+        let [width, height] = size.map(|length| length as f64);
+        return Err(DrawError::Size { what: "an embedded image", width, height });
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Indexed);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::High);
+    encoder.set_palette(palette.iter().flat_map(|(c, _)| [c.red, c.green, c.blue]).collect::<Vec<_>>());
+    if palette.iter().any(|(_, opacity)| *opacity < 255) {
+        encoder.set_trns(palette.iter().map(|(_, opacity)| *opacity).collect::<Vec<_>>());
+    }
+    let mut writer = encoder.write_header().map_err(failed)?;
+    writer.write_image_data(pixels).map_err(failed)?;
+    writer.finish().map_err(failed)?;
+    Ok(bytes)
 }
 
 /// Place and size of a rectangle.
@@ -229,7 +250,6 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::Colour;
 
     #[test]
     fn lengths_are_short() {

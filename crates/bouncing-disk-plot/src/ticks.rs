@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
+use crate::builders::builders;
 use crate::label::Label;
 
 /// Most ticks that an axis can show; more is a wrong step.
 const MOST_TICKS: f64 = 400.0;
 
-/// The choice of ticks of an axis.
+/// The choice of ticks of an axis: round steps with about five labels unless another is made.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ticks {
     pub(crate) choice: Choice,
@@ -17,27 +18,25 @@ pub struct Ticks {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) enum Choice {
+    /// Round steps, about five labels.
     #[default]
     Automatic,
-    None,
     Every(f64),
-    PiFractions {
-        numerator: u32,
-        denominator: u32,
-    },
+    /// Of numerator and denominator.
+    PiFractions(u32, u32),
     PiDecimals(f64),
     At(Vec<(f64, Label)>),
 }
 
-impl Ticks {
-    /// Round steps, about five labels.
-    pub fn automatic() -> Self {
-        Self::default()
-    }
+builders!(Ticks {
+    /// Divides the distance of labelled ticks into `parts` by minor ticks; 1 for none.
+    minor(parts: u32) |own| own.parts = Some(parts);
+});
 
+impl Ticks {
     /// No ticks.
     pub fn none() -> Self {
-        Choice::None.into()
+        Choice::At(Vec::new()).into()
     }
 
     /// Round steps that divide a span at most five times.
@@ -53,7 +52,7 @@ impl Ticks {
 
     /// A label at every multiple of `numerator`/`denominator` π, written as a fraction: `π/2`, `π`, `3π/2`.
     pub fn pi(numerator: u32, denominator: u32) -> Self {
-        Choice::PiFractions { numerator, denominator }.into()
+        Choice::PiFractions(numerator, denominator).into()
     }
 
     /// A label at every multiple of `step` π, written as a decimal: `0.2π`.
@@ -64,13 +63,6 @@ impl Ticks {
     /// Labels at given values.
     pub fn at<L: Into<Label>>(ticks: impl IntoIterator<Item = (f64, L)>) -> Self {
         Choice::At(ticks.into_iter().map(|(value, label)| (value, label.into())).collect()).into()
-    }
-
-    /// Divides the distance of labelled ticks into `parts` by minor ticks; 1 for none.
-    #[must_use]
-    pub fn minor(mut self, parts: u32) -> Self {
-        self.parts = Some(parts);
-        self
     }
 }
 
@@ -88,29 +80,20 @@ pub(crate) struct Tick {
 }
 
 /// The ticks of an axis, and the power of ten that their numbers leave out.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlacedTicks {
     pub(crate) ticks: Vec<Tick>,
     pub(crate) power: Option<i32>,
-}
-
-impl From<Vec<Tick>> for PlacedTicks {
-    fn from(ticks: Vec<Tick>) -> Self {
-        Self { ticks, power: None }
-    }
 }
 
 /// The ticks of a linear axis; `Err` holds the step that does not work.
 pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<PlacedTicks, f64> {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
     let (step, parts) = match ticks.choice {
-        Choice::None => return Ok(PlacedTicks::default()),
-        Choice::At(ref given) => return Ok(within(given, low, high).into()),
+        Choice::At(ref given) => return Ok(within(given, low, high)),
         Choice::Automatic => automatic_step(low, high, room),
         Choice::Every(step) => (step, 2),
-        Choice::PiFractions { numerator, denominator } => {
-            (PI * f64::from(numerator) / f64::from(denominator), 2)
-        }
+        Choice::PiFractions(top, bottom) => (PI * f64::from(top) / f64::from(bottom), 2),
         Choice::PiDecimals(step) => (PI * step, 2),
     };
     let parts = ticks.parts.unwrap_or(parts).max(1);
@@ -123,7 +106,7 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
     let minor_step = step / f64::from(parts);
     let first = (low / minor_step - slack).ceil() as i64;
     let last = (high / minor_step + slack).floor() as i64;
-    let pi = matches!(ticks.choice, Choice::PiFractions { .. } | Choice::PiDecimals(_));
+    let pi = matches!(ticks.choice, Choice::PiFractions(..) | Choice::PiDecimals(_));
     let power = if pi { None } else { common_power(low.abs().max(high.abs())) };
     let ticks = (first..=last).map(|index| {
         if index % i64::from(parts) != 0 {
@@ -132,7 +115,7 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
         let multiple = index / i64::from(parts);
         let value = multiple as f64 * step;
         let label = match ticks.choice {
-            Choice::PiFractions { numerator, denominator } => pi_fraction(multiple, numerator, denominator),
+            Choice::PiFractions(numerator, denominator) => pi_fraction(multiple, numerator, denominator),
             Choice::PiDecimals(step) => pi_decimal(multiple, step),
             _ => Label::plain(&number(value, step, power)),
         };
@@ -142,12 +125,10 @@ pub(crate) fn linear(ticks: &Ticks, low: f64, high: f64, room: usize) -> Result<
 }
 
 /// The ticks of a logarithmic axis: decades, and the eight values between them.
-pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> Vec<Tick> {
+pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> PlacedTicks {
     let (low, high) = if low < high { (low, high) } else { (high, low) };
-    match &ticks.choice {
-        Choice::None => return Vec::new(),
-        Choice::At(given) => return within(given, low, high),
-        _ => {}
+    if let Choice::At(given) = &ticks.choice {
+        return within(given, low, high);
     }
     let inside = |value: f64| value >= low * (1.0 - 1e-9) && value <= high * (1.0 + 1e-9);
     let first = libm::floor(libm::log10(low) - 1e-9) as i32;
@@ -171,13 +152,14 @@ pub(crate) fn logarithmic(ticks: &Ticks, low: f64, high: f64) -> Vec<Tick> {
             ticks.push(Tick { value, label: label.map(|text| Label::new(&text)) });
         }
     }
-    ticks
+    PlacedTicks { ticks, power: None }
 }
 
 /// Those of the given ticks that lie on the axis.
-fn within(given: &[(f64, Label)], low: f64, high: f64) -> Vec<Tick> {
+fn within(given: &[(f64, Label)], low: f64, high: f64) -> PlacedTicks {
     let inside = given.iter().filter(|(value, _)| (low..=high).contains(value));
-    inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) }).collect()
+    let ticks = inside.map(|(value, label)| Tick { value: *value, label: Some(label.clone()) });
+    PlacedTicks { ticks: ticks.collect(), power: None }
 }
 
 /// The exact power of ten nearest in double precision.
@@ -265,10 +247,7 @@ fn greatest_common_divisor(a: u64, b: u64) -> u64 {
 
 fn pi_decimal(multiple: i64, step: f64) -> Label {
     let text = match decimal(multiple as f64 * step, decimals(step)) {
-        zero if multiple == 0 => {
-            drop(zero);
-            "0".to_owned()
-        }
+        _ if multiple == 0 => "0".to_owned(),
         // A whole multiple of one, whatever its decimals.
         one if one.trim_end_matches('0') == "1." || one == "1" => "$\\pi$".to_owned(),
         one if one.trim_end_matches('0') == "−1." || one == "−1" => "−$\\pi$".to_owned(),
@@ -281,32 +260,27 @@ fn pi_decimal(multiple: i64, step: f64) -> Label {
 mod tests {
     use super::*;
 
-    fn labels(ticks: impl Into<PlacedTicks>) -> Vec<String> {
-        ticks
-            .into()
-            .ticks
-            .iter()
-            .filter_map(|tick| tick.label.as_ref())
-            .map(|label| label.source().replace('$', ""))
-            .collect()
+    fn labels(placed: &PlacedTicks) -> Vec<String> {
+        let labels = placed.ticks.iter().filter_map(|tick| tick.label.as_ref());
+        labels.map(|label| label.source().replace('$', "")).collect()
     }
 
     #[test]
     fn automatic_steps_are_round() {
-        let ticks = linear(&Ticks::automatic(), 0.3, 0.6, 6).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["0.30", "0.35", "0.40", "0.45", "0.50", "0.55", "0.60"]);
-        let ticks = linear(&Ticks::automatic(), -22.0, 22.0, 5).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["−20", "−10", "0", "10", "20"]);
-        let ticks = linear(&Ticks::automatic(), 0.0, 2e-8, 5).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
+        let ticks = linear(&Ticks::default(), 0.3, 0.6, 6).expect("ticks");
+        assert_eq!(labels(&ticks), ["0.30", "0.35", "0.40", "0.45", "0.50", "0.55", "0.60"]);
+        let ticks = linear(&Ticks::default(), -22.0, 22.0, 5).expect("ticks");
+        assert_eq!(labels(&ticks), ["−20", "−10", "0", "10", "20"]);
+        let ticks = linear(&Ticks::default(), 0.0, 2e-8, 5).expect("ticks");
+        assert_eq!(labels(&ticks), ["0.0", "0.5", "1.0", "1.5", "2.0"]);
         assert_eq!(ticks.power, Some(-8));
     }
 
     /// Room for three labels asks for a step of 2, of which only 0 lies on the axis.
     #[test]
     fn no_automatic_scale_has_a_single_label() {
-        let ticks = linear(&Ticks::automatic(), -1.575, 1.575, 3).expect("ticks");
-        assert_eq!(labels(ticks), ["−1", "0", "1"]);
+        let ticks = linear(&Ticks::default(), -1.575, 1.575, 3).expect("ticks");
+        assert_eq!(labels(&ticks), ["−1", "0", "1"]);
     }
 
     #[test]
@@ -320,20 +294,20 @@ mod tests {
     #[test]
     fn multiples_of_pi() {
         let ticks = linear(&Ticks::pi(1, 2), -PI, 2.0 * PI, 5).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["−\\pi", "−\\pi/2", "0", "\\pi/2", "\\pi", "3\\pi/2", "2\\pi"]);
+        assert_eq!(labels(&ticks), ["−\\pi", "−\\pi/2", "0", "\\pi/2", "\\pi", "3\\pi/2", "2\\pi"]);
         let ticks = linear(&Ticks::pi_decimal(0.1), 0.0, 0.5 * PI, 5).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["0", "0.1\\pi", "0.2\\pi", "0.3\\pi", "0.4\\pi", "0.5\\pi"]);
+        assert_eq!(labels(&ticks), ["0", "0.1\\pi", "0.2\\pi", "0.3\\pi", "0.4\\pi", "0.5\\pi"]);
         let ticks = linear(&Ticks::pi_decimal(0.5), -PI, PI, 5).expect("ticks");
-        assert_eq!(labels(ticks.clone()), ["−\\pi", "−0.5\\pi", "0", "0.5\\pi", "\\pi"]);
+        assert_eq!(labels(&ticks), ["−\\pi", "−0.5\\pi", "0", "0.5\\pi", "\\pi"]);
     }
 
     #[test]
     fn logarithmic_ticks_are_decades() {
-        let ticks = logarithmic(&Ticks::automatic(), 1e-9, 1e-7);
-        assert_eq!(labels(ticks.clone()), ["10^{-9}", "10^{-8}", "10^{-7}"]);
-        assert_eq!(ticks.len(), 19);
-        let ticks = logarithmic(&Ticks::automatic(), 0.3, 0.8);
-        assert_eq!(labels(ticks.clone()), ["5\\times 10^{-1}"]);
+        let ticks = logarithmic(&Ticks::default(), 1e-9, 1e-7);
+        assert_eq!(labels(&ticks), ["10^{-9}", "10^{-8}", "10^{-7}"]);
+        assert_eq!(ticks.ticks.len(), 19);
+        let ticks = logarithmic(&Ticks::default(), 0.3, 0.8);
+        assert_eq!(labels(&ticks), ["5\\times 10^{-1}"]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 use anyhow::{Context, Result, bail};
 
 use super::TARGET;
-use crate::workspace::{cargo, in_workspace};
+use crate::workspace::cargo;
 
 /// The oldest Node that the build tools of the page run on.
 const OLDEST_NODE: u32 = 20;
@@ -28,7 +28,7 @@ pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Resu
         Some(version) if version < OLDEST_NODE => {
             missing.push(format!("Node {OLDEST_NODE} or later; this is {version} (https://nodejs.org)"));
         }
-        Some(_) if !runs(&mut npm()) => {
+        Some(_) if printed(npm().arg("--version")).is_none() => {
             missing.push("npm (it comes with Node, https://nodejs.org)".to_owned())
         }
         Some(_) => {}
@@ -36,15 +36,9 @@ pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Resu
     if missing.is_empty() { Ok(()) } else { bail!("the explorer needs {}", missing.join(", and ")) }
 }
 
-fn runs(command: &mut Command) -> bool {
-    let quiet = command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
-    quiet.status().is_ok_and(|status| status.success())
-}
-
 /// The first number of Node's version: `v20.20.2`.
 fn node_version() -> Option<u32> {
-    let printed = Command::new("node").arg("--version").output().ok()?;
-    let version = String::from_utf8(printed.stdout).ok()?;
+    let version = printed(Command::new("node").arg("--version"))?;
     version.trim().strip_prefix('v')?.split('.').next()?.parse().ok()
 }
 
@@ -52,9 +46,8 @@ fn node_version() -> Option<u32> {
 fn has_target(rustc: Option<&Path>) -> bool {
     let environment = std::env::var_os("RUSTC");
     let rustc = rustc.map(Path::as_os_str).or(environment.as_deref()).unwrap_or(OsStr::new("rustc"));
-    let printed = Command::new(rustc).args(["--print", "target-libdir", "--target", TARGET]).output();
-    let Ok(printed) = printed else { return false };
-    let Ok(folder) = String::from_utf8(printed.stdout) else { return false };
+    let folder = printed(Command::new(rustc).args(["--print", "target-libdir", "--target", TARGET]));
+    let Some(folder) = folder else { return false };
     let Ok(mut files) = std::fs::read_dir(folder.trim()) else { return false };
     files.any(|file| file.is_ok_and(|file| file.file_name().to_string_lossy().starts_with("libstd")))
 }
@@ -79,19 +72,17 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// The version of a package in Cargo.lock.
+/// The version of a package in Cargo.lock: the last part of `registry+https://...#wasm-bindgen@0.2.100`.
 fn locked_version(package: &str) -> Result<String> {
-    let lock = in_workspace("Cargo.lock");
-    let text =
-        std::fs::read_to_string(&lock).with_context(|| format!("{} cannot be read", lock.display()))?;
-    version_in(&text, package).with_context(|| format!("Cargo.lock has no {package}"))
+    let id = printed(cargo().args(["pkgid", "--locked", "--package", package]));
+    let version = id.as_deref().and_then(|id| id.trim().rsplit_once('@'));
+    Ok(version.with_context(|| format!("Cargo.lock has no {package}"))?.1.to_owned())
 }
 
-fn version_in(lock: &str, package: &str) -> Option<String> {
-    let name = format!("name = \"{package}\"");
-    let mut lines = lock.lines().skip_while(|line| *line != name);
-    lines.next()?;
-    Some(lines.next()?.strip_prefix("version = \"")?.strip_suffix('"')?.to_owned())
+/// What a program prints, if it can be run and succeeds.
+fn printed(command: &mut Command) -> Option<String> {
+    let output = command.stderr(Stdio::null()).output().ok().filter(|output| output.status.success())?;
+    String::from_utf8(output.stdout).ok()
 }
 
 #[cfg(test)]
@@ -100,10 +91,8 @@ mod tests {
 
     #[test]
     fn the_version_of_a_package_is_that_of_the_lock_file() {
-        let lock = "[[package]]\nname = \"wasm-bindgen-macro\"\nversion = \"0.1.0\"\n\n[[package]]\nname = \"wasm-bindgen\"\nversion = \"0.2.7\"\n";
-        assert_eq!(version_in(lock, "wasm-bindgen").as_deref(), Some("0.2.7"));
-        assert_eq!(version_in(lock, "wasm"), None);
         assert!(locked_version("wasm-bindgen").expect("in the lock file").starts_with("0.2."));
+        assert!(locked_version("wasm").is_err());
     }
 
     #[test]

@@ -1,9 +1,5 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
-use std::io::Write;
-use std::ops::Range as Rows;
-use std::rc::Rc;
-
 use bouncing_disk::core::attractors::{
     ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
     UNDECIDED,
@@ -11,16 +7,12 @@ use bouncing_disk::core::attractors::{
 use bouncing_disk::core::orbits::PeriodicOrbit;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
 
 use super::map::{MapArgs, VERTICAL, map};
 use super::prelude::*;
 
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
 const FORCING: f64 = 0.486;
-
-/// Cells that are labelled together.
-const TOGETHER: usize = 100_000;
 
 /// Attractors and their basins, in the plane of impact phase and speed
 #[derive(Debug, Args)]
@@ -44,11 +36,13 @@ pub(crate) struct BasinsArgs {
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 300)]
     cells: usize,
     /// Impact phases of the window, in periods
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true)]
-    phase: Interval,
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", default_value = "0:1", allow_hyphen_values = true,
+          value_parser = interval)]
+    phase: [f64; 2],
     /// Normalised impact speeds of the window
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5")]
-    speed: Interval,
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", default_value = "0:5",
+          value_parser = interval)]
+    speed: [f64; 2],
     /// Impacts after which a start is left undecided
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = BasinSettings::default().max_impacts)]
     impacts: u32,
@@ -61,23 +55,21 @@ pub(crate) struct BasinsArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
-    let (axial_forcing, restitution) = args.map.single_values(&system, args.axial_forcing, FORCING)?;
+    let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let job = BasinsJob {
         axial_forcing,
         restitution,
         cells: args.cells,
-        phase_periods: args.phase.0,
-        normalised_speed: args.speed.0,
+        phase_periods: args.phase,
+        normalised_speed: args.speed,
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// The inputs of basins.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BasinsJob {
@@ -91,7 +83,7 @@ pub(crate) struct BasinsJob {
 }
 
 impl BasinsJob {
-    fn window(&self) -> Result<Grid, Failure> {
+    fn window(&self) -> Result<Grid> {
         let axis = |option: &str, [low, high]: [f64; 2]| {
             let axis = Axis::new(low, high, self.cells)?;
             // Cells that are finer than the numbers would have one middle.
@@ -99,7 +91,7 @@ impl BasinsJob {
                 return Ok(axis);
             }
             let cells = self.cells;
-            Err(Failure::usage(format!(
+            Err(Failure::Usage(format!(
                 "{option}: {cells} cells from {low:?} to {high:?} are nearer than numbers can be"
             )))
         };
@@ -120,28 +112,14 @@ impl GridJob for BasinsJob {
         self.cells
     }
 
-    fn together(&self) -> usize {
-        // Each time the whole grid takes place in memory, so that few rows of a large one would cost more
-        // than they are.
-        TOGETHER.div_ceil(self.cells.max(1)).max(self.cells / 64)
-    }
-
-    fn prepare(&self, observer: &dyn Observer) -> Result<Attractors, Failure> {
+    fn prepare(&self, observer: &dyn Observer) -> Result<Attractors> {
         self.window()?;
         // The search is a small part of the work, and has no part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
         Ok(map(self.axial_forcing, self.restitution)?.attractors(&self.search, &silent)?)
     }
 
-    fn compute(
-        &self,
-        attractors: &Attractors,
-        rows: Rows<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<String>, Failure> {
-        if rows.is_empty() {
-            return Ok(Vec::new());
-        }
+    fn compute(&self, attractors: &Attractors, rows: Rows, observer: &dyn Observer) -> Result<Vec<String>> {
         let own = rows.len() as u64;
         // A row may count twice there.
         let within = |Progress { done, total }| {
@@ -151,68 +129,67 @@ impl GridJob for BasinsJob {
         Ok(labelled.labels().chunks(self.cells).map(hexadecimal).collect())
     }
 
-    fn report(self, attractors: Attractors, rows: Vec<String>) -> Result<Report, Failure> {
+    fn report<'a>(&'a self, attractors: &'a Attractors, rows: &'a [String]) -> Result<Report<'a>> {
         let window = self.window()?;
-        let labels: Vec<Label> = rows.iter().flat_map(|row| of_hexadecimal(row)).collect();
-        if labels.len() != self.cells * self.cells {
-            return Err(Failure::usage(format!(
-                "{} labels are there, of {} by {1} cells",
-                labels.len(),
-                self.cells
-            )));
+        let labels = move || rows.iter().flat_map(|row| of_hexadecimal(row));
+        let count = labels().count();
+        if count != self.cells * self.cells {
+            let cells = self.cells;
+            return Err(Failure::Usage(format!("{count} labels are there, of {cells} by {cells} cells")));
         }
         let mut counts = [0_u64; 256];
-        labels.iter().for_each(|label| counts[usize::from(*label)] += 1);
+        labels().for_each(|label| counts[usize::from(label)] += 1);
+        let legend = legend(attractors);
         let counted = |(label, words): &(Label, String)| (*label, words.clone(), counts[usize::from(*label)]);
-        let legend = legend(&attractors);
         let all: Vec<(Label, String, u64)> = legend.iter().map(counted).collect();
-        let cells = labels.len() as f64;
         let columns = Columns::<(Label, String, u64)>::new()
             .column("label", "1", |row| u64::from(row.0))
             .column("attractor", "1", |row| row.1.clone())
             .column("cells", "1", |row| row.2)
-            .column("share", "%", move |row| 100.0 * row.2 as f64 / cells);
+            .column("share", "%", move |row| 100.0 * row.2 as f64 / count as f64);
         // Undecided cells are listed only if there are any.
         let shown = columns.to_text(all.iter().filter(|(label, _, count)| *label != UNDECIDED || *count > 0));
         let text = format!(
             "axial forcing {}, restitution {}, {} by {2} cells\n{shown}",
             self.axial_forcing, self.restitution, self.cells
         );
-        let listed = all
-            .iter()
-            .map(|(label, words, count)| json!({ "label": label, "attractor": words, "cells": count }));
-        let data = vec![
-            ("labels", Value::from_iter(listed).into()),
-            ("attractors", stored(&attractors)?),
-            ("hexadecimal_labels_by_speed", stored(&rows)?),
-        ];
-        drop(rows);
-        let provenance = provenance("bouncing-disk basins", &self)?.with_chatter_policy(self.settings.policy);
-        let labels: Rc<[Label]> = labels.into();
-        let (drawn, impacts) = (Rc::clone(&labels), impacts(&attractors));
+        let listed = move || {
+            let all = all.clone().into_iter();
+            all.map(|(label, words, count)| json!({ "label": label, "attractor": words, "cells": count }))
+        };
         let figure = move || {
             let basins = pictures::Basins {
                 title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution),
                 phases: self.phase_periods,
                 speeds: self.normalised_speed,
-                labels: &drawn,
+                labels: &labels().collect::<Vec<_>>(),
                 legend: &legend,
-                impacts: &impacts,
+                impacts: &impacts(attractors),
             };
             basins.draw()
         };
-        let table = Box::new(move |to: &mut dyn Write| {
+        let table = move |to: &mut dyn Write| {
             let columns = Columns::<(f64, f64, Label)>::new()
                 .column("impact_phase", "periods", |row| row.0)
                 .column("normalised_impact_speed", "1", |row| row.1)
                 .column("label", "1", |row| u64::from(row.2));
             let (phases, speeds) = (window.phase(), window.speed());
-            let cell = |(index, label): (usize, &Label)| {
-                (phases.centre(index % phases.cells()), speeds.centre(index / phases.cells()), *label)
+            let cell = |(index, label): (usize, Label)| {
+                (phases.centre(index % phases.cells()), speeds.centre(index / phases.cells()), label)
             };
-            columns.write_csv(to, labels.iter().enumerate().map(cell))
-        });
-        Ok(Report { provenance, text, table, data, figure: Some(Box::new(figure)) })
+            columns.write_csv(to, labels().enumerate().map(cell))
+        };
+        Ok(Report {
+            provenance: provenance("bouncing-disk basins", self)?.with_chatter_policy(self.settings.policy),
+            text,
+            table: Box::new(table),
+            data: vec![
+                ("labels", json::list(listed)),
+                ("attractors", stored(attractors)?),
+                ("hexadecimal_labels_by_speed", stored(rows)?),
+            ],
+            figure: Some(Box::new(figure)),
+        })
     }
 }
 

@@ -1,16 +1,12 @@
 //! `bouncing-disk design`: the hand motion that tosses best.
 
-use std::rc::Rc;
-
 use bouncing_disk::System;
 use bouncing_disk::toss::{
     InitialSpin, OverFriction, TossConstraints, TossDesign, TossObjective, best_toss, toss_trajectory,
 };
 
 use super::prelude::*;
-use super::toss::{
-    MOST_INSTANTS, SPINS, Sample, instants, motion, picture, quantities, samples, write_table,
-};
+use super::toss::{MOST_INSTANTS, SPINS, instants, picture, quantities, samples, write_table};
 
 /// The quantities that a toss can maximise.
 const OBJECTIVES: Words<TossObjective> = &[
@@ -40,14 +36,14 @@ pub(crate) struct DesignArgs {
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES", default_value_t = TossConstraints::pizza_toss().stroke)]
     stroke: f64,
     /// Coefficient of friction; that of the dough unless given
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH")]
-    friction: Option<Interval>,
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", value_parser = interval)]
+    friction: Option<[f64; 2]>,
     /// Angular frequency (rad/s); 15, that of Table I, unless given
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH")]
-    angular_frequency: Option<Interval>,
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "LOW:HIGH", value_parser = interval)]
+    angular_frequency: Option<[f64; 2]>,
     /// Phase lag of the twist (rad); half a circle unless given
-    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_hyphen_values = true)]
-    phase_lag: Option<Interval>,
+    #[arg(help_heading = OWN, long, value_name = "LOW:HIGH", allow_hyphen_values = true, value_parser = interval)]
+    phase_lag: Option<[f64; 2]>,
     /// The highest that the dough may fly above the place where it leaves the hand (m)
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "METRES")]
     highest_flight: Option<f64>,
@@ -72,15 +68,13 @@ impl DesignArgs {
     fn constraints(&self, system: &System) -> TossConstraints {
         let paper = TossConstraints::pizza_toss();
         let dough = system.disk().parameters();
-        let ends =
-            |given: Option<Interval>, otherwise: [f64; 2]| given.map_or(otherwise, |interval| interval.0);
         TossConstraints {
             dough,
             initial: self.spin,
             stroke: self.stroke,
-            friction: ends(self.friction, [dough.friction; 2]),
-            angular_frequency: ends(self.angular_frequency, paper.angular_frequency),
-            phase_lag: ends(self.phase_lag, paper.phase_lag),
+            friction: self.friction.unwrap_or([dough.friction; 2]),
+            angular_frequency: self.angular_frequency.unwrap_or(paper.angular_frequency),
+            phase_lag: self.phase_lag.unwrap_or(paper.phase_lag),
             highest_flight: self.highest_flight,
             objective: self.objective,
             over_friction: self.over_friction,
@@ -88,25 +82,22 @@ impl DesignArgs {
     }
 }
 
-/// Runs the command.
-pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<(), Failure> {
+pub(crate) fn run(args: &DesignArgs, context: Context) -> Result<()> {
     let Some(system) = args.system.begin(&args.output, true, context)? else { return Ok(()) };
     let constraints = args.constraints(&system);
     let design = best_toss(&constraints, &context.watch("design"))?;
     let system = design.system()?;
     let trajectory = toss_trajectory(&system, constraints.initial)?;
-    let samples: Rc<[Sample]> = {
-        let periods = trajectory.end().since(&trajectory.start()).periods;
-        samples(&system, trajectory.uniform(instants(args.samples, periods) as usize)).into()
-    };
+    let periods = trajectory.end().since(&trajectory.start()).periods;
+    let samples = samples(&system, trajectory.uniform(instants(args.samples, periods) as usize));
     let report = Report {
         provenance: provenance("bouncing-disk design", &json!({ "constraints": constraints }))?,
         text: list(&design, &system).to_text(),
         table: write_table(&samples),
-        data: vec![("design", stored(&design)?), ("motion", motion(&samples))],
-        figure: Some(Box::new(move || picture(&samples, None))),
+        data: vec![("design", stored(&design)?), ("motion", json::list(|| samples.iter()))],
+        figure: Some(Box::new(|| picture(&samples, None))),
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.output, context)
 }
 
 fn list(design: &TossDesign, system: &System) -> Quantities {

@@ -1,9 +1,5 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
-use std::io::Write;
-use std::ops::Range as Rows;
-use std::rc::Rc;
-
 use bouncing_disk::Observer;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
@@ -15,16 +11,11 @@ use bouncing_disk_plot::Figure;
 use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, VERTICAL, map, single};
+use super::map::{MapArgs, STARTS, Start, VERTICAL, map, single};
 use super::prelude::*;
-use super::start::{STARTS, Start};
-use crate::output::json::Data;
 
 /// Forcings of the paper's Fig. 6.
 const FORCINGS: &str = "0.30:0.62:641";
-
-/// Orbits that are followed together.
-const TOGETHER: usize = 256;
 
 /// An orbit diagram: the impacts for good, over the axial forcing
 #[derive(Debug, Args)]
@@ -59,10 +50,9 @@ pub(crate) struct DiagramArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
-    let otherwise = FORCINGS.parse().map_err(Failure::usage)?;
+    let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let starts = if args.start.is_empty() { vec![Start::Rest, Start::PeriodOne] } else { args.start.clone() };
     let job = DiagramJob {
@@ -81,7 +71,6 @@ const SAME_PHASE: f64 = 1e-6;
 /// What an impact takes (bytes): a phase and a speed.
 const IMPACT: u64 = 16;
 
-/// The inputs of a diagram.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramJob {
@@ -107,34 +96,28 @@ impl Impacts {
             normalised_impact_speed: states.iter().map(ImpactState::normalised_speed).collect(),
         }
     }
-
-    /// How many phases differ by more than a millionth of a period from the next one.
-    fn distinct(&self) -> usize {
-        distinct(self.impact_phase_periods.iter().copied(), SAME_PHASE)
-    }
 }
 
 /// The impacts of each start of one forcing; none where it has no such start.
 type Column = Vec<Option<Impacts>>;
 
-/// The columns of the diagram, each with its forcing, and the starts.
-struct Diagram {
-    axial_forcings: Range,
-    starts: Vec<Start>,
-    rows: Vec<Column>,
+#[derive(Clone, Copy)]
+struct Diagram<'a> {
+    job: &'a DiagramJob,
+    rows: &'a [Column],
 }
 
-impl Diagram {
+impl<'a> Diagram<'a> {
     /// Forcing, place of the start and impacts of all orbits that there are.
-    fn orbits(&self) -> impl Iterator<Item = (f64, usize, &Impacts)> {
-        self.axial_forcings.values().zip(&self.rows).flat_map(|(forcing, row)| {
+    fn orbits(self) -> impl Iterator<Item = (f64, usize, &'a Impacts)> {
+        self.job.axial_forcings.values().zip(self.rows).flat_map(|(forcing, row)| {
             let there = row.iter().enumerate();
             there.filter_map(move |(start, impacts)| Some((forcing, start, impacts.as_ref()?)))
         })
     }
 
     /// Forcing, place of the start, phase and speed of all impacts.
-    fn impacts(&self) -> impl Iterator<Item = (f64, usize, f64, f64)> {
+    fn impacts(self) -> impl Iterator<Item = (f64, usize, f64, f64)> + 'a {
         self.orbits().flat_map(|(forcing, start, impacts)| {
             let both = impacts.impact_phase_periods.iter().zip(&impacts.normalised_impact_speed);
             both.map(move |(phase, speed)| (forcing, start, *phase, *speed))
@@ -142,28 +125,33 @@ impl Diagram {
     }
 
     /// Each orbit a row.
-    fn text(&self) -> String {
-        type Row<'r> = (f64, Start, &'r Impacts);
+    fn text(self) -> String {
+        type Row<'r> = (f64, Start, &'r [f64], &'r [f64]);
         let columns = Columns::<Row<'_>>::new()
             .column("axial_forcing", "1", |row| row.0)
             .column("start", "1", |row| row.1.to_string())
-            .column("impacts", "1", |row| row.2.impact_phase_periods.len())
-            .column("distinct_phases", "1", |row| row.2.distinct())
-            .column("least_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.0))
-            .column("largest_phase", "periods", |row| ends(&row.2.impact_phase_periods).map(|ends| ends.1))
-            .column("largest_speed", "1", |row| ends(&row.2.normalised_impact_speed).map(|ends| ends.1));
-        let rows = self.orbits().map(|(forcing, start, impacts)| (forcing, self.starts[start], impacts));
-        columns.to_text(&rows.collect::<Vec<_>>())
+            .column("impacts", "1", |row| row.2.len())
+            .column("distinct_phases", "1", |row| distinct(row.2.iter().copied(), SAME_PHASE))
+            .column("least_phase", "periods", |row| ends(row.2).map(|ends| ends.0))
+            .column("largest_phase", "periods", |row| ends(row.2).map(|ends| ends.1))
+            .column("largest_speed", "1", |row| ends(row.3).map(|ends| ends.1));
+        let rows = self.orbits().map(
+            |(forcing, start, Impacts { impact_phase_periods, normalised_impact_speed })| {
+                (forcing, self.job.starts[start], &impact_phase_periods[..], &normalised_impact_speed[..])
+            },
+        );
+        columns.to_text(rows)
     }
 
-    fn draw(&self, restitution: f64) -> Figure {
+    fn draw(self) -> Figure {
+        let DiagramJob { axial_forcings, restitution, starts, .. } = self.job;
         let named = |start: &Start| (start.in_words(), Vec::new());
-        let mut starts: Vec<OrbitsFrom> = self.starts.iter().map(named).collect();
+        let mut starts: Vec<OrbitsFrom> = starts.iter().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
             starts[start].1.push((forcing, phase, speed));
         }
-        let axial_forcings = self.axial_forcings.cell_ends(0.01);
-        OrbitDiagram { axial_forcings, restitution, starts: &starts }.draw()
+        let axial_forcings = axial_forcings.cell_ends(0.01);
+        OrbitDiagram { axial_forcings, restitution: *restitution, starts: &starts }.draw()
     }
 }
 
@@ -178,12 +166,8 @@ impl GridJob for DiagramJob {
         self.axial_forcings.count()
     }
 
-    fn together(&self) -> usize {
-        TOGETHER
-    }
-
     /// Sees that all is legal before hours are spent.
-    fn prepare(&self, _: &dyn Observer) -> Result<(), Failure> {
+    fn prepare(&self, _: &dyn Observer) -> Result<()> {
         let (low, high) = self.axial_forcings.ends();
         for forcing in [low, high] {
             map(forcing, self.restitution)?;
@@ -197,12 +181,7 @@ impl GridJob for DiagramJob {
         )
     }
 
-    fn compute(
-        &self,
-        (): &(),
-        rows: Rows<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<Self::Row>, Failure> {
+    fn compute(&self, (): &(), rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
         let mut orbits: Vec<Orbit> = Vec::new();
         let mut places = Vec::new();
         for row in rows.clone() {
@@ -222,32 +201,32 @@ impl GridJob for DiagramJob {
         Ok(columns)
     }
 
-    fn report(self, (): (), rows: Vec<Self::Row>) -> Result<Report, Failure> {
-        let provenance =
-            provenance("bouncing-disk diagram", &self)?.with_chatter_policy(ChatterPolicy::Complete);
-        let restitution = self.restitution;
-        let diagram = Rc::new(Diagram { axial_forcings: self.axial_forcings, starts: self.starts, rows });
-        let (tabled, listed, drawn) = (Rc::clone(&diagram), Rc::clone(&diagram), Rc::clone(&diagram));
+    fn report<'a>(&'a self, (): &'a (), rows: &'a [Column]) -> Result<Report<'a>> {
+        let diagram = Diagram { job: self, rows };
         let table = move |to: &mut dyn Write| {
-            let own = Rc::clone(&tabled);
-            let columns = Columns::<(f64, usize, f64, f64)>::new()
+            let columns = Columns::<(f64, Start, f64, f64)>::new()
                 .column("axial_forcing", "1", |row| row.0)
-                .column("start", "1", move |row| own.starts[row.1].to_string())
+                .column("start", "1", |row| row.1.to_string())
                 .column("impact_phase", "periods", |row| row.2)
                 .column("normalised_impact_speed", "1", |row| row.3);
-            columns.write_csv(to, tabled.impacts())
+            let impacts = diagram.impacts();
+            columns.write_csv(
+                to,
+                impacts.map(|(forcing, start, phase, speed)| (forcing, self.starts[start], phase, speed)),
+            )
         };
-        let list = Data::List(Box::new(move |each| {
-            listed.orbits().try_for_each(|(forcing, start, impacts)| {
-                each(&json!({ "axial_forcing": forcing, "start": listed.starts[start].to_string(), "impacts": impacts }))
+        let listed = move || {
+            diagram.orbits().map(|(forcing, start, impacts)| {
+                json!({ "axial_forcing": forcing, "start": self.starts[start].to_string(), "impacts": impacts })
             })
-        }));
+        };
         Ok(Report {
-            provenance,
+            provenance: provenance("bouncing-disk diagram", self)?
+                .with_chatter_policy(ChatterPolicy::Complete),
             text: diagram.text(),
             table: Box::new(table),
-            data: vec![("columns", list)],
-            figure: Some(Box::new(move || drawn.draw(restitution))),
+            data: vec![("columns", json::list(listed))],
+            figure: Some(Box::new(move || diagram.draw())),
         })
     }
 }

@@ -29,10 +29,9 @@ pub(crate) struct DoublingsArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
-    let (_, restitution) = args.map.single_values(&system, None, 0.0)?;
+    let (_, restitution) = args.map.pair(&system, None, 0.0)?;
     let found = doubling_cascade(restitution, args.count, &context.watch("doublings"))?;
     let estimates = feigenbaum_estimates(&found);
     let of = |doubling: &CascadeDoubling| estimates.iter().find(|own| own.number == doubling.number).copied();
@@ -46,7 +45,7 @@ pub(super) fn run(args: &DoublingsArgs, context: Context) -> Result<(), Failure>
         data: vec![("doublings", stored(&found)?), ("feigenbaum_estimates", stored(&estimates)?)],
         figure: Some(Box::new(move || pictures::doublings(restitution, &forcings))),
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.output, context)
 }
 
 fn text(found: &[CascadeDoubling], estimates: &[FeigenbaumEstimate]) -> String {

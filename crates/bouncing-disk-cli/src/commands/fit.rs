@@ -1,7 +1,6 @@
 //! `bouncing-disk fit`: steady speed and time constant, or parameters of a motor, from measured run-ups.
 
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 
 use bouncing_disk::Motor;
 use bouncing_disk::estimate::{
@@ -11,7 +10,8 @@ use bouncing_disk::estimate::{
 use bouncing_disk_plot::Figure;
 
 use super::prelude::*;
-use crate::parameters::source::{Described as _, Setting};
+use crate::failure::with_causes;
+use crate::parameters::{Described as _, Setting, setting};
 
 /// Fits measured run-ups: steady speed and time constant, or parameters of a motor
 #[derive(Debug, Args)]
@@ -47,8 +47,8 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, value_name = "UNIT")]
     speed_unit: Option<SpeedUnit>,
     /// A parameter of the motor that is fitted, and its range; may be repeated
-    #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH")]
-    parameter: Vec<Fitted>,
+    #[arg(help_heading = OWN, long, value_name = "FIELD=LOW:HIGH", value_parser = fitted)]
+    parameter: Vec<FitRange>,
     /// With --parameter: the data sheet of the motor, from whose values the search begins
     #[arg(help_heading = OWN, long, value_name = "FILE", requires = "parameter")]
     motor: Option<PathBuf>,
@@ -56,7 +56,7 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, value_name = "NAME", requires = "parameter", conflicts_with = "motor", value_parser = one_of(Motor::PRESETS))]
     preset: Option<fn() -> Motor>,
     /// With --parameter: gives a field of the data sheet another value
-    #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter")]
+    #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
     /// With --parameter: most evaluations of all motors that the search may take, 1 to 10000
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
@@ -72,34 +72,24 @@ pub(crate) struct FitArgs {
     output: OutputArgs,
 }
 
-/// A parameter and its range.
-#[derive(Debug, Clone, Copy)]
-struct Fitted(FitRange);
-
-impl FromStr for Fitted {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = || "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4".to_owned();
-        let (name, range) = text.split_once('=').ok_or_else(form)?;
-        let all = [
-            FitParameter::Friction,
-            FitParameter::Restitution,
-            FitParameter::PhaseLag,
-            FitParameter::Amplitude,
-            FitParameter::TwistAmplitude,
-        ];
-        let parameter =
-            all.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
-                format!("{name:?} cannot be fitted; possible are {}", all.map(FitParameter::name).join(", "))
-            })?;
-        let Interval([low, high]) = range.parse()?;
-        Ok(Self(FitRange { parameter, low, high }))
-    }
+fn fitted(text: &str) -> Result<FitRange, String> {
+    let form = || "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4".to_owned();
+    let (name, range) = text.split_once('=').ok_or_else(form)?;
+    let all = [
+        FitParameter::Friction,
+        FitParameter::Restitution,
+        FitParameter::PhaseLag,
+        FitParameter::Amplitude,
+        FitParameter::TwistAmplitude,
+    ];
+    let parameter = all.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
+        format!("{name:?} cannot be fitted; possible are {}", all.map(FitParameter::name).join(", "))
+    })?;
+    let [low, high] = interval(range)?;
+    Ok(FitRange { parameter, low, high })
 }
 
-/// Runs the command.
-pub(super) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     let inputs: Vec<&Path> =
         [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
     // A fit of parameters is one of a certain motor. Data of another fit the paper's badly, and nobody sees why.
@@ -115,25 +105,20 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<(), Failure> {
         time_unit: args.time_unit,
         speed_unit: args.speed_unit,
     };
-    let speeds = MeasuredSpeeds::from_csv_with(&args.file, &columns)?;
-    let report = if args.parameter.is_empty() {
-        rise(args, speeds, context)?
-    } else {
-        parameters(args, speeds, context)?
-    };
-    report.deliver(&args.output, context.quiet)
+    let speeds = MeasuredSpeeds::from_csv_with(&args.file, &columns)
+        .map_err(|error| Failure::Usage(with_causes(error)))?;
+    let fit = if args.parameter.is_empty() { rise } else { parameters };
+    fit(args, speeds, context)?.deliver(&args.output, context)
 }
 
-fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
+fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report<'static>> {
     let settings = FitSettings {
         resamples: args.resamples,
         seed: args.seed,
         from_rest: args.from_rest,
         ..FitSettings::default()
     };
-    let watcher = context.watch("fit");
-    let fit = speeds.fit(&settings, &watcher)?;
-    drop(watcher);
+    let fit = speeds.fit(&settings, &context.watch("fit"))?;
     let mut list = Quantities::default();
     list.push("runs", speeds.runs().len(), "1");
     list.push("points", fit.points, "1");
@@ -156,7 +141,6 @@ fn rise(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Repo
     })
 }
 
-/// The results of a fit of a run-up.
 pub(super) fn estimates(fit: &TransientFit, list: &mut Quantities) {
     list.push_interval("steady_speed", fit.steady_speed(), "rad/s");
     list.push_interval("time_constant", fit.time_constant(), "s");
@@ -181,20 +165,19 @@ fn draw(speeds: &MeasuredSpeeds, fit: &TransientFit) -> Figure {
 }
 
 /// The words of a fit that is refused; another error is a failure.
-pub(super) fn refusal(error: &FitError) -> Result<String, Failure> {
+pub(super) fn refusal(error: &FitError) -> Result<String> {
     match error {
         FitError::Refused(_) => Ok(error.to_string()),
         other => Err((*other).into()),
     }
 }
 
-fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report, Failure> {
+fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report<'static>> {
     let sheet =
         MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false };
     let motor = sheet.get()?;
     let warnings = motor.warnings().into_iter().chain(motor.warnings_on(&speeds));
     warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
-    let ranges: Vec<FitRange> = args.parameter.iter().map(|fitted| fitted.0).collect();
     let settings = ParameterFitSettings {
         seed: args.seed,
         resamples: args.resamples,
@@ -206,7 +189,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     let fit = ParameterFit::new(
         &motor,
         std::slice::from_ref(&transient),
-        &ranges,
+        &args.parameter,
         &settings,
         &context.watch("fit"),
     )?;
@@ -225,7 +208,8 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
         text += &format!("not determined: {}\n", parts.join(", "));
     }
     text += &format!("misfit {:.3} for {} degrees of freedom\n", fit.misfit, fit.degrees_of_freedom);
-    let job = json!({ "speeds": transient.runs, "motor": motor, "ranges": ranges, "settings": settings });
+    let job =
+        json!({ "speeds": transient.runs, "motor": motor, "ranges": args.parameter, "settings": settings });
     Ok(Report {
         provenance: provenance("bouncing-disk parameter fit", &job)?.with_seed(args.seed),
         text,

@@ -1,8 +1,15 @@
-//! The parameters of the vertical motion, which has no units: axial forcing and restitution.
+//! The vertical motion, which has no units: its forcing, its restitution and the impact it starts with.
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+use std::str::FromStr;
+
+use bouncing_disk::System;
+use bouncing_disk::core::{Error, ImpactMap, ImpactState, Phase, Vibration};
+use serde::{Deserialize, Serialize};
 
 use super::prelude::*;
-use bouncing_disk::System;
-use bouncing_disk::core::{Error, ImpactMap, Vibration};
+use crate::range::number;
 
 /// The heading of forcing and restitution in the help.
 pub(super) const VERTICAL: &str = "Vertical motion (no units)";
@@ -30,28 +37,130 @@ impl MapArgs {
     }
 
     /// The same where each is a single number.
-    pub(super) fn single_values(
-        &self,
-        system: &System,
-        given: Option<Range>,
-        otherwise: f64,
-    ) -> Result<(f64, f64), Failure> {
+    pub(super) fn pair(&self, system: &System, given: Option<Range>, otherwise: f64) -> Result<(f64, f64)> {
         let (forcings, restitutions) = self.values(system, given, Range::single(otherwise));
         Ok((single(forcings, "--axial-forcing")?, single(restitutions, "--restitution")?))
     }
 }
 
-/// The only value of a range.
-///
-/// # Errors
-/// [`Failure::Usage`] if there are several.
-pub(super) fn single(range: Range, option: &str) -> Result<f64, Failure> {
-    range
-        .only()
-        .ok_or_else(|| Failure::usage(format!("{option} {range}: this command takes a single number")))
+pub(super) fn single(range: Range, option: &str) -> Result<f64> {
+    let several = || Failure::Usage(format!("{option} {range}: this command takes a single number"));
+    range.only().ok_or_else(several)
 }
 
-/// The impact map of a disk.
 pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Error> {
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
+}
+
+/// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the
+/// disk leaves it at once.
+const BESIDE: f64 = 1.01;
+
+/// A start, of which every map makes its own.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub(crate) enum Start {
+    /// At rest on the platform.
+    Rest,
+    /// An impact as the platform rises fastest, with the speed of the period-1 orbit.
+    Rise,
+    /// One per cent faster than the impact of the period-1 orbit; there is none below its birth.
+    PeriodOne,
+    /// Impact phase in periods, and normalised impact speed.
+    At(f64, f64),
+}
+
+/// The possible starts, for the help.
+pub(crate) const STARTS: &str = "`rest` on the platform; `rise`, an impact as the platform rises fastest, with the speed of the \
+    period-1 orbit; `period-1`, 1 % faster than the impact of the period-1 orbit, where there is one; or PHASE,SPEED, the impact phase \
+    in periods (tau/2pi) and the normalised impact speed |w_A Gamma/(omega A)|";
+
+impl Start {
+    /// The impact in a map; `None` where the map has no such start.
+    pub(crate) fn of(self, map: &ImpactMap) -> Result<Option<ImpactState>, Error> {
+        match self {
+            Self::Rest => ImpactState::new(Phase::new(0.0)?, 0.0).map(Some),
+            Self::Rise => ImpactState::new(Phase::new(0.0)?, -map.period_one_impact_speed(1)).map(Some),
+            Self::PeriodOne => map
+                .period_one(1)
+                .map(|orbit| ImpactState::new(orbit.phase(), BESIDE * orbit.velocity()))
+                .transpose(),
+            Self::At(phase, speed) => ImpactState::from_normalised(TAU * phase, speed).map(Some),
+        }
+    }
+
+    /// From where an orbit starts, as a legend says it.
+    pub(crate) fn in_words(&self) -> String {
+        match self {
+            Self::Rest => "from rest".to_owned(),
+            Self::Rise => "from a rise".to_owned(),
+            Self::PeriodOne => "from the period-1 orbit".to_owned(),
+            Self::At(phase, speed) => format!("from {phase}, {speed}"),
+        }
+    }
+}
+
+impl FromStr for Start {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let named = [Self::Rest, Self::Rise, Self::PeriodOne].into_iter().find(|own| own.to_string() == text);
+        if let Some(named) = named {
+            return Ok(named);
+        }
+        let form = || format!("{text:?} is no start; possible are rest, rise, period-1 and PHASE,SPEED");
+        let (phase, speed) = text.split_once(',').ok_or_else(form)?;
+        let (phase, speed) = (number(phase)?, number(speed)?);
+        ImpactState::from_normalised(TAU * phase, speed).map_err(|error| error.to_string())?;
+        Ok(Self::At(phase, speed))
+    }
+}
+
+impl Display for Start {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Rest => f.write_str("rest"),
+            Self::Rise => f.write_str("rise"),
+            Self::PeriodOne => f.write_str("period-1"),
+            Self::At(phase, speed) => write!(f, "{phase},{speed}"),
+        }
+    }
+}
+
+impl TryFrom<String> for Start {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<Start> for String {
+    fn from(start: Start) -> Self {
+        start.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn starts_are_written_and_read() {
+        for start in [Start::Rest, Start::Rise, Start::PeriodOne, Start::At(0.1, 1.0 / 3.0)] {
+            assert_eq!(start.to_string().parse(), Ok(start));
+            let stored = serde_json::to_string(&start).unwrap();
+            assert_eq!(serde_json::from_str::<Start>(&stored).unwrap(), start);
+        }
+        for text in ["", "up", "1", "1,-1", "nan,1", "1,inf", "1,2,3"] {
+            assert!(text.parse::<Start>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn below_its_birth_there_is_no_period_one_orbit() {
+        let of = |forcing: f64| Start::PeriodOne.of(&map(forcing, 0.5).unwrap()).unwrap();
+        assert!(of(0.3).is_none() && of(0.4).is_some());
+        assert!(Start::Rise.of(&map(0.0, 0.5).unwrap()).unwrap().is_some());
+    }
 }

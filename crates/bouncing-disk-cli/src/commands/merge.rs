@@ -8,7 +8,7 @@ use super::motor::sweep::SweepJob;
 use super::motor::transient::TransientJob;
 use super::prelude::*;
 use super::verdicts::VerdictsJob;
-use crate::grid::{GridJob, computation_of, merged};
+use crate::grid::computation_of;
 
 /// Puts the chunks of a computation together
 #[derive(Debug, Args)]
@@ -27,21 +27,17 @@ pub(crate) struct MergeArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<(), Failure> {
+pub(crate) fn run(args: &MergeArgs, context: Context) -> Result<()> {
     let inputs: Vec<&Path> = args.files.iter().map(PathBuf::as_path).collect();
     args.output.check(true, &inputs, None)?;
     let (command, job) = computation_of(&args.files[0])?;
-    let watcher = context.watch("merge");
-    let (job, parts) = (&job, &args.files[..]);
-    let report = match command.as_str() {
-        DiagramJob::COMMAND => merged::<DiagramJob>(job, parts, &watcher),
-        VerdictsJob::COMMAND => merged::<VerdictsJob>(job, parts, &watcher),
-        BasinsJob::COMMAND => merged::<BasinsJob>(job, parts, &watcher),
-        SweepJob::COMMAND => merged::<SweepJob>(job, parts, &watcher),
-        TransientJob::COMMAND => merged::<TransientJob>(job, parts, &watcher),
-        other => Err(Failure::usage(format!("chunks of the command {other:?} are not known"))),
-    }?;
-    drop(watcher);
-    report.deliver(&args.output, context.quiet)
+    let merge = match command.as_str() {
+        DiagramJob::COMMAND => grid::merge::<DiagramJob>,
+        VerdictsJob::COMMAND => grid::merge::<VerdictsJob>,
+        BasinsJob::COMMAND => grid::merge::<BasinsJob>,
+        SweepJob::COMMAND => grid::merge::<SweepJob>,
+        TransientJob::COMMAND => grid::merge::<TransientJob>,
+        other => return Err(Failure::Usage(format!("chunks of the command {other:?} are not known"))),
+    };
+    merge(&job, &args.files, &args.output, context)
 }

@@ -1,47 +1,77 @@
 //! `bouncing-disk motor`: a motor from its data sheet.
 
 mod curve;
-mod lag;
-mod report;
+mod operations;
 mod settings;
-mod stall;
 pub(super) mod sweep;
 pub(super) mod transient;
-mod traps;
 
-use clap::{Args, Subcommand};
+use clap::Subcommand;
 
-use crate::context::Context;
-use crate::failure::Failure;
-
-/// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
-#[derive(Debug, Args)]
-#[command(subcommand_required = true, arg_required_else_help = true)]
-pub(crate) struct MotorCommand {
-    #[command(subcommand)]
-    command: Motors,
-}
+use super::prelude::*;
 
 #[derive(Debug, Subcommand)]
-enum Motors {
-    Report(report::ReportArgs),
+pub(crate) enum MotorCommand {
+    Report(ReportArgs),
     Transient(transient::TransientArgs),
     Curve(curve::CurveArgs),
-    Stall(stall::StallArgs),
-    PhaseLag(lag::LagArgs),
-    Traps(traps::TrapsArgs),
+    Stall(operations::StallArgs),
+    PhaseLag(operations::LagArgs),
+    Traps(operations::TrapsArgs),
     Sweep(sweep::SweepArgs),
 }
 
-/// Runs the command.
-pub(super) fn run(command: MotorCommand, context: Context) -> Result<(), Failure> {
-    match command.command {
-        Motors::Report(args) => report::run(&args, context),
-        Motors::Transient(args) => transient::run(&args, context),
-        Motors::Curve(args) => curve::run(&args, context),
-        Motors::Stall(args) => stall::run(&args, context),
-        Motors::PhaseLag(args) => lag::run(&args, context),
-        Motors::Traps(args) => traps::run(&args, context),
-        Motors::Sweep(args) => sweep::run(&args, context),
+pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
+    match command {
+        MotorCommand::Report(args) => report(&args, context),
+        MotorCommand::Transient(args) => transient::run(&args, context),
+        MotorCommand::Curve(args) => curve::run(&args, context),
+        MotorCommand::Stall(args) => operations::stall(&args, context),
+        MotorCommand::PhaseLag(args) => operations::phase_lag(&args, context),
+        MotorCommand::Traps(args) => operations::traps(&args, context),
+        MotorCommand::Sweep(args) => sweep::run(&args, context),
     }
+}
+
+/// Forcing, regime, largest torque and warnings that follow from the data sheet
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
+meant. See docs/designing-a-motor.md.
+
+Examples:
+  bouncing-disk motor report --template > motor.toml
+  bouncing-disk motor report motor.toml
+  bouncing-disk motor report motor.toml --set preload_force=5 --out report.json")]
+pub(crate) struct ReportArgs {
+    #[command(flatten)]
+    motor: MotorArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+fn report(args: &ReportArgs, context: Context) -> Result<()> {
+    let Some(motor) = args.motor.begin(&args.output, false, context)? else { return Ok(()) };
+    let report = motor.report(&context.watch("motor report"))?;
+    let mut list = Quantities::default();
+    list.push("axial_forcing", report.axial_forcing, "1");
+    list.push("angular_forcing", report.angular_forcing, "1");
+    // In units of the preload acceleration, which the paper calls g: P has no unit.
+    list.push("peak_acceleration_over_preload", report.peak_acceleration, "1");
+    list.push("regime", report.regime.to_string(), "1");
+    list.push("periods_per_flight", report.periods_per_flight, "periods");
+    list.push("largest_torque", report.largest_torque, "N m");
+    list.push("static_deflection", report.static_deflection, "m");
+    list.push("preload_change_bound", report.preload_change_bound, "1");
+    for warning in &report.warnings {
+        list.push("warning", warning.to_string(), "1");
+    }
+    let report = Report {
+        provenance: provenance("bouncing-disk motor report", &json!({ "motor": motor }))?,
+        text: report.to_string(),
+        data: vec![("quantities", json::whole(list.to_json()))],
+        table: list.into_csv(),
+        figure: None,
+    };
+    report.deliver(&args.output, context)
 }

@@ -1,7 +1,5 @@
 //! `bouncing-disk orbits`: the periodic orbits, stable and unstable.
 
-use std::rc::Rc;
-
 use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound, PeriodicOrbit, Stability};
 use bouncing_disk_plot::Figure;
 
@@ -42,27 +40,25 @@ pub(crate) struct OrbitsArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
-    let (axial_forcing, restitution) = args.map.single_values(&system, args.axial_forcing, FORCING)?;
+    let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =
         OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
     let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &context.watch("orbits"))?;
     let job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
-    let numbered = found.orbits.iter().cloned().map(Rc::new).enumerate();
-    let rows = numbered.flat_map(|(number, orbit)| {
-        (0..orbit.states.len()).map(move |impact| (number, Rc::clone(&orbit), impact))
-    });
-    let rows: Vec<Row> = rows.collect();
+    let numbered = found.orbits.iter().enumerate();
+    let rows = numbered
+        .flat_map(|(number, orbit)| (0..orbit.states.len()).map(move |impact| (number, orbit, impact)))
+        .collect();
     let report = Report {
         provenance: provenance("bouncing-disk orbits", &job)?,
         text: text(&found),
         table: impacts().csv_of(rows),
         data: vec![("orbits", stored(&found.orbits)?), ("coverage", stored(&found.coverage)?)],
-        figure: Some(Box::new(move || draw(axial_forcing, restitution, &found))),
+        figure: Some(Box::new(|| draw(axial_forcing, restitution, &found))),
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.output, context)
 }
 
 fn text(found: &OrbitsFound) -> String {
@@ -94,12 +90,12 @@ fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) -> Figure {
 }
 
 /// An orbit with its number, and the place of one of its impacts in it.
-type Row = (usize, Rc<PeriodicOrbit>, usize);
+type Row<'r> = (usize, &'r PeriodicOrbit, usize);
 
 /// The columns of a file: each impact is a row.
-fn impacts() -> Columns<Row> {
-    Columns::new()
-        .column("orbit", "1", |row: &Row| row.0 + 1)
+fn impacts<'r>() -> Columns<Row<'r>> {
+    Columns::<Row<'_>>::new()
+        .column("orbit", "1", |row| row.0 + 1)
         .column("impacts", "1", |row| row.1.period())
         .column("platform_periods", "1", |row| row.1.platform_periods)
         .column("spectral_radius", "1", |row| row.1.multipliers().spectral_radius())

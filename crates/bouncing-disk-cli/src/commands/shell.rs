@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use clap::{Args, Command};
 use clap_complete::Shell;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
 
 /// Completions for a shell, on standard output
 #[derive(Debug, Args)]
@@ -28,8 +28,7 @@ pub(crate) struct ManArgs {
     command: Vec<String>,
 }
 
-/// Writes completions.
-pub(crate) fn completions(args: &CompletionsArgs, mut command: Command) -> Result<(), Failure> {
+pub(crate) fn completions(args: &CompletionsArgs, mut command: Command) -> Result<()> {
     let mut text = Vec::new();
     clap_complete::generate(args.shell, &mut command, "bouncing-disk", &mut text);
     // For bash clap_complete writes the hyphen of the program's name in two ways, and finds no subcommand.
@@ -37,13 +36,12 @@ pub(crate) fn completions(args: &CompletionsArgs, mut command: Command) -> Resul
     Ok(io::stdout().write_all(text.as_bytes())?)
 }
 
-/// Writes a manual page.
-pub(crate) fn man(args: &ManArgs, mut command: Command) -> Result<(), Failure> {
+pub(crate) fn man(args: &ManArgs, mut command: Command) -> Result<()> {
     command.build();
     let mut name = "bouncing-disk".to_owned();
     for word in &args.command {
         let found = command.find_subcommand(word).cloned();
-        command = found.ok_or_else(|| Failure::usage(format!("there is no command {word:?} of {name}")))?;
+        command = found.ok_or_else(|| Failure::Usage(format!("there is no command {word:?} of {name}")))?;
         name = format!("{name}-{word}");
     }
     let mut text = Vec::new();

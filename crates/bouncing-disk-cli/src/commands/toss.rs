@@ -1,7 +1,6 @@
 //! `bouncing-disk toss`: a single toss, or many on end.
 
 use std::f64::consts::TAU;
-use std::rc::Rc;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::motion::{PhaseSpan, Snapshot};
@@ -14,8 +13,7 @@ use bouncing_disk_plot::Figure;
 use serde::Serialize;
 
 use super::prelude::*;
-use crate::output::json::Data;
-use crate::output::table::WriteTable;
+use crate::output::WriteTable;
 
 /// How the disk turns at the start.
 pub(super) const SPINS: Words<InitialSpin> = &[
@@ -23,7 +21,6 @@ pub(super) const SPINS: Words<InitialSpin> = &[
     ("rest-relative-to-hand", "It turns with the platform", InitialSpin::RestRelativeToHand),
 ];
 
-/// Most instants of a motion in a file.
 pub(super) const MOST_INSTANTS: i64 = 1_000_000;
 
 /// Instants of a motion over so many periods of the platform, unless they are given: fewer would show another
@@ -73,20 +70,18 @@ pub(crate) struct TossArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &TossArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &TossArgs, context: Context) -> Result<()> {
     let Some(system) = args.system.begin(&args.output, true, context)? else { return Ok(()) };
-    let report = if args.many { many(&system, args, context)? } else { single(&system, args)? };
-    report.deliver(&args.output, context.quiet)
+    if args.many { many(&system, args, context) } else { single(&system, args, context) }
 }
 
-fn single(system: &System, args: &TossArgs) -> Result<Report, Failure> {
+fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let toss = single_toss(system, args.spin)?;
     let trajectory = toss_trajectory(system, args.spin)?;
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
     let text = quantities(system, &toss).to_text();
-    report(system, args, samples, text, vec![("performance", stored(&toss)?)])
+    deliver(system, args, context, &samples, text, ("performance", stored(&toss)?))
 }
 
 /// The numbers of a toss, in the order in which the paper speaks of them.
@@ -107,7 +102,7 @@ pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities 
     list
 }
 
-fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Failure> {
+fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let settings = MultiTossSettings {
         transient_impacts: args.transient,
         examined_impacts: args.examined,
@@ -121,11 +116,11 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<Report, Fa
     let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
     let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
     let text = described(system, &orbit).to_text();
-    report(system, args, samples(system, motion), text, vec![("orbit", stored(&orbit)?)])
+    deliver(system, args, context, &samples(system, motion), text, ("orbit", stored(&orbit)?))
 }
 
 /// At rest on the platform at its lowest point, as a single toss starts.
-fn start(system: &System, spin: InitialSpin) -> Result<InitialCondition, Failure> {
+fn start(system: &System, spin: InitialSpin) -> Result<InitialCondition> {
     let phase = Phase::new(TOSS_START)?;
     let angular_speed = match spin {
         InitialSpin::AbsoluteRest => 0.0,
@@ -205,13 +200,14 @@ pub(super) fn samples(system: &System, motion: impl IntoIterator<Item = Snapshot
     motion.into_iter().map(sample).collect()
 }
 
-fn report(
+fn deliver(
     system: &System,
     args: &TossArgs,
-    samples: Vec<Sample>,
+    context: Context,
+    samples: &[Sample],
     text: String,
-    found: Vec<(&'static str, Data)>,
-) -> Result<Report, Failure> {
+    found: (&'static str, json::Data<'_>),
+) -> Result<()> {
     let many = |value: u64| args.many.then_some(value);
     let job = json!({
         "system": system,
@@ -222,17 +218,15 @@ fn report(
         "examined_impacts": many(args.examined as u64),
         "periods": many(args.periods),
     });
-    let samples: Rc<[Sample]> = samples.into();
     let period = args.many.then(|| TAU / system.platform().angular_frequency());
-    let mut data = found;
-    data.push(("motion", motion(&samples)));
-    Ok(Report {
+    let report = Report {
         provenance: provenance("bouncing-disk toss", &job)?,
         text,
-        table: write_table(&samples),
-        data,
-        figure: Some(Box::new(move || picture(&samples, period))),
-    })
+        table: write_table(samples),
+        data: vec![found, ("motion", json::list(|| samples.iter()))],
+        figure: Some(Box::new(move || picture(samples, period))),
+    };
+    report.deliver(&args.output, context)
 }
 
 /// The picture of a motion; see [`pictures::toss`].
@@ -246,15 +240,7 @@ pub(super) fn picture(samples: &[Sample], period: Option<f64>) -> Figure {
     pictures::toss(&samples.iter().map(instant).collect::<Vec<_>>(), period)
 }
 
-/// The motion as a list for a file of JSON.
-pub(super) fn motion(samples: &Rc<[Sample]>) -> Data {
-    let samples = Rc::clone(samples);
-    Data::list(samples.len(), move |index| Ok(serde_json::to_value(samples[index])?))
-}
-
-/// The motion as comma-separated text.
-pub(super) fn write_table(samples: &Rc<[Sample]>) -> WriteTable {
-    let samples = Rc::clone(samples);
+pub(super) fn write_table(samples: &[Sample]) -> WriteTable<'_> {
     Box::new(move |to| {
         let mut csv = csv::Writer::from_writer(to);
         samples.iter().try_for_each(|sample| csv.serialize(sample))?;

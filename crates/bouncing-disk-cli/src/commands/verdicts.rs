@@ -1,9 +1,5 @@
 //! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
 
-use std::io::Write;
-use std::ops::Range as Rows;
-use std::rc::Rc;
-
 use bouncing_disk::Observer;
 use bouncing_disk::core::{
     ChatterPolicy,
@@ -11,16 +7,10 @@ use bouncing_disk::core::{
 };
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, VERTICAL, map};
+use super::map::{MapArgs, STARTS, Start, VERTICAL, map};
 use super::prelude::*;
-use super::start::{STARTS, Start};
-use crate::output::json::Data;
 
-/// Forcings unless given.
 const FORCINGS: &str = "0.30:0.62:33";
-
-/// Orbits that are followed together.
-const TOGETHER: usize = 4_096;
 
 /// Most cells that keep their evidence.
 const MOST_DETAILED: u64 = 1 << 24;
@@ -72,10 +62,9 @@ pub(crate) struct VerdictsArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<()> {
     let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
-    let otherwise = FORCINGS.parse().map_err(Failure::usage)?;
+    let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
     let job = VerdictsJob {
         axial_forcings,
@@ -92,7 +81,6 @@ pub(super) fn run(args: &VerdictsArgs, context: Context) -> Result<(), Failure> 
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
-/// The inputs of verdicts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VerdictsJob {
@@ -116,11 +104,7 @@ impl GridJob for VerdictsJob {
         if self.is_map() { self.restitutions.count() } else { self.axial_forcings.count() }
     }
 
-    fn together(&self) -> usize {
-        (TOGETHER / self.columns()).max(1)
-    }
-
-    fn prepare(&self, _: &dyn Observer) -> Result<(), Failure> {
+    fn prepare(&self, _: &dyn Observer) -> Result<()> {
         self.settings.check()?;
         let ((low, high), (least, largest)) = (self.axial_forcings.ends(), self.restitutions.ends());
         for (forcing, restitution) in [(low, least), (high, largest)] {
@@ -134,12 +118,7 @@ impl GridJob for VerdictsJob {
         }
     }
 
-    fn compute(
-        &self,
-        (): &(),
-        rows: Rows<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<Self::Row>, Failure> {
+    fn compute(&self, (): &(), rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
         let columns = self.columns();
         let start = |index: usize| {
             let (forcing, restitution) = self.cell(rows.start + index / columns, index % columns);
@@ -154,7 +133,7 @@ impl GridJob for VerdictsJob {
             seen += 1;
             match all.last_mut() {
                 Some(Row::Verdicts(row)) => row.push(cell),
-                Some(Row::Kinds(row)) => row.push(digit(kind(cell.as_ref()))),
+                Some(Row::Kinds(row)) => row.push(char::from(b'0' + kind(cell.as_ref()))),
                 None => {}
             }
         };
@@ -162,57 +141,41 @@ impl GridJob for VerdictsJob {
         Ok(all)
     }
 
-    fn report(self, (): (), rows: Vec<Row>) -> Result<Report, Failure> {
-        let (mut kinds, mut verdicts, mut digits) = (Vec::new(), Vec::new(), Vec::new());
-        for row in rows {
-            match row {
-                Row::Verdicts(cells) => {
-                    kinds.extend(cells.iter().map(|cell| kind(cell.as_ref())));
-                    verdicts.extend(cells);
-                }
-                Row::Kinds(row) => {
-                    kinds.extend(row.chars().filter_map(of_digit));
-                    digits.push(row);
-                }
-            }
+    fn report<'a>(&'a self, (): &'a (), rows: &'a [Row]) -> Result<Report<'a>> {
+        let columns = self.columns();
+        if let Some(row) = rows.iter().position(|row| !row.is_whole(columns, self.details)) {
+            return Err(Failure::Usage(format!("row {} does not have its {columns} verdicts", row + 1)));
         }
-        let (expected, complete) =
-            (self.rows() * self.columns(), !self.details || verdicts.len() == kinds.len());
-        if kinds.len() != expected || !complete {
-            return Err(Failure::usage(format!("{} verdicts are there, of {expected}", kinds.len())));
-        }
-        let provenance =
-            provenance("bouncing-disk verdicts", &self)?.with_chatter_policy(ChatterPolicy::Complete);
+        let found = Found { job: self, rows };
         let mut data = vec![("kinds", stored(&KINDS)?)];
-        if !self.details {
-            data.push(("kinds_by_restitution", stored(&digits)?));
-        }
-        let found = Rc::new(Found { job: self, kinds, verdicts });
         if self.details {
-            let listed = Rc::clone(&found);
-            let cell = move |index| {
-                let (forcing, restitution) = listed.place(index);
-                let verdict = serde_json::to_value(listed.verdicts.get(index))?;
-                Ok(json!({ "axial_forcing": forcing, "restitution": restitution, "verdict": verdict }))
+            let listed = move || {
+                found.cells().map(|(forcing, restitution, _, verdict)| {
+                    json!({ "axial_forcing": forcing, "restitution": restitution, "verdict": verdict })
+                })
             };
-            data.push(("cells", Data::list(found.kinds.len(), cell)));
+            data.push(("cells", json::list(listed)));
+        } else {
+            data.push(("kinds_by_restitution", stored(rows)?));
         }
-        let (text, drawn) = (found.text(), Rc::clone(&found));
         let figure = move || {
             let regimes = pictures::Regimes {
                 axial_forcings: self.axial_forcings.cell_ends(0.01),
                 restitutions: self.restitutions.cell_ends(1.0),
                 only: self.restitutions.only(),
                 rows: self.restitutions.count(),
-                cells: &drawn.kinds,
+                cells: &found.kinds().collect::<Vec<_>>(),
             };
             regimes.draw()
         };
-        let table = move |to: &mut dyn Write| {
-            let columns = found.columns();
-            columns.write_csv(to, (0..found.kinds.len()).map(|index| found.row(index)))
-        };
-        Ok(Report { provenance, text, table: Box::new(table), data, figure: Some(Box::new(figure)) })
+        Ok(Report {
+            provenance: provenance("bouncing-disk verdicts", self)?
+                .with_chatter_policy(ChatterPolicy::Complete),
+            text: found.text(),
+            table: Box::new(move |to| found.columns().write_csv(to, found.cells())),
+            data,
+            figure: Some(Box::new(figure)),
+        })
     }
 }
 
@@ -226,8 +189,27 @@ pub(crate) enum Row {
     Verdicts(Vec<Option<Verdict>>),
 }
 
+impl Row {
+    /// Whether it has so many cells, with their evidence or without.
+    fn is_whole(&self, columns: usize, details: bool) -> bool {
+        match self {
+            Self::Kinds(kinds) => {
+                !details && kinds.len() == columns && kinds.bytes().all(|kind| kind.is_ascii_digit())
+            }
+            Self::Verdicts(cells) => details && cells.len() == columns,
+        }
+    }
+
+    /// The kind of a cell, and the evidence where it is kept.
+    fn cell(&self, column: usize) -> (u8, Option<Verdict>) {
+        match self {
+            Self::Kinds(kinds) => (kinds.as_bytes()[column] - b'0', None),
+            Self::Verdicts(cells) => (kind(cells[column].as_ref()), cells[column]),
+        }
+    }
+}
+
 impl VerdictsJob {
-    /// Whether both vary.
     fn is_map(&self) -> bool {
         self.restitutions.count() > 1
     }
@@ -236,7 +218,6 @@ impl VerdictsJob {
         if self.is_map() { self.axial_forcings.count() } else { 1 }
     }
 
-    /// Forcing and restitution of a cell.
     fn cell(&self, row: usize, column: usize) -> (f64, f64) {
         if self.is_map() {
             (self.axial_forcings.value(column), self.restitutions.value(row))
@@ -246,79 +227,80 @@ impl VerdictsJob {
     }
 }
 
-/// The verdicts, cell by cell in the order of the rows.
-struct Found {
-    job: VerdictsJob,
-    kinds: Vec<u8>,
-    /// Of each cell, where the job keeps the evidence; else none at all.
-    verdicts: Vec<Option<Verdict>>,
-}
-
 /// Forcing and restitution of a cell, what the disk does there, and the evidence where it is kept.
 type Cell = (f64, f64, u8, Option<Verdict>);
 
-impl Found {
-    /// Forcing and restitution of a cell.
-    fn place(&self, index: usize) -> (f64, f64) {
-        self.job.cell(index / self.job.columns(), index % self.job.columns())
+/// The verdicts, cell by cell in the order of the rows.
+#[derive(Clone, Copy)]
+struct Found<'a> {
+    job: &'a VerdictsJob,
+    rows: &'a [Row],
+}
+
+impl<'a> Found<'a> {
+    fn cells(self) -> impl Iterator<Item = Cell> + 'a {
+        let columns = self.job.columns();
+        (0..self.rows.len() * columns).map(move |index| {
+            let (row, column) = (index / columns, index % columns);
+            let (forcing, restitution) = self.job.cell(row, column);
+            let (kind, verdict) = self.rows[row].cell(column);
+            (forcing, restitution, kind, verdict)
+        })
     }
 
-    fn row(&self, index: usize) -> Cell {
-        let (forcing, restitution) = self.place(index);
-        (forcing, restitution, self.kinds[index], self.verdicts.get(index).copied().flatten())
+    fn kinds(self) -> impl Iterator<Item = u8> + 'a {
+        self.cells().map(|cell| cell.2)
     }
 
     /// The text: of a map how many cells there are of each kind that there is, else each verdict in words.
-    fn text(&self) -> String {
+    fn text(self) -> String {
         if !self.job.is_map() {
             let columns = Columns::<Cell>::new().column("axial_forcing", "1", |row| row.0);
             let columns = columns.column("verdict", "1", |row| {
-                row.3.map_or(name(row.2).to_owned(), |verdict| verdict.to_string())
+                row.3.map_or(KINDS[usize::from(row.2)].to_owned(), |verdict| verdict.to_string())
             });
-            return columns.to_text(&(0..self.kinds.len()).map(|index| self.row(index)).collect::<Vec<_>>());
+            return columns.to_text(self.cells());
         }
-        let all = self.kinds.len() as f64;
+        let mut counts = [0_usize; KINDS.len()];
+        self.kinds().for_each(|kind| counts[usize::from(kind)] += 1);
+        let all: usize = counts.iter().sum();
         let columns = Columns::<(&str, usize)>::new()
             .column("verdict", "1", |row| row.0)
             .column("cells", "1", |row| row.1)
-            .column("share", "%", move |row| 100.0 * row.1 as f64 / all);
-        let count = |(kind, name)| (name, self.kinds.iter().filter(|own| **own == kind).count());
-        let there = (0..).zip(KINDS).map(count).filter(|(_, count)| *count > 0);
-        columns.to_text(&there.collect::<Vec<_>>())
+            .column("share", "%", move |row| 100.0 * row.1 as f64 / all as f64);
+        let there = KINDS.into_iter().zip(counts).filter(|(_, count)| *count > 0);
+        columns.to_text(there)
     }
 
     /// The columns of a file: each cell is a row, with the details where there are any.
-    fn columns(&self) -> Columns<Cell> {
+    fn columns(self) -> Columns<Cell> {
         let plain = Columns::<Cell>::new()
             .column("axial_forcing", "1", |row| row.0)
             .column("restitution", "1", |row| row.1)
-            .column("verdict", "1", |row| name(row.2));
+            .column("verdict", "1", |row| KINDS[usize::from(row.2)]);
         if !self.job.details {
             return plain;
         }
+        // Impacts and periods of the platform of a cycle; the spectral radius; an exponent and its error.
+        let cycle = |row: &Cell| match row.3? {
+            Verdict::Periodic { impacts, platform_periods, .. } => Some((impacts, platform_periods)),
+            Verdict::Chattering { cycle, .. } => Some((cycle.impacts, cycle.platform_periods)),
+            _ => None,
+        };
+        let radius = |row: &Cell| match row.3? {
+            Verdict::Periodic { multipliers, .. } => Some(multipliers.spectral_radius()),
+            _ => None,
+        };
+        let exponent = |row: &Cell| match row.3? {
+            Verdict::Chaotic { exponent, standard_error, .. } => Some((exponent, standard_error)),
+            _ => None,
+        };
         plain
-            .column("impacts", "1", |row| match row.3? {
-                Verdict::Periodic { impacts, .. } => Some(impacts),
-                Verdict::Chattering { cycle, .. } => Some(cycle.impacts),
-                _ => None,
-            })
-            .column("platform_periods", "1", |row| match row.3? {
-                Verdict::Periodic { platform_periods, .. } => Some(platform_periods),
-                Verdict::Chattering { cycle, .. } => Some(cycle.platform_periods),
-                _ => None,
-            })
-            .column("spectral_radius", "1", |row| match row.3? {
-                Verdict::Periodic { multipliers, .. } => Some(multipliers.spectral_radius()),
-                _ => None,
-            })
-            .column("exponent", "per impact", |row| match row.3? {
-                Verdict::Chaotic { exponent, .. } => Some(exponent),
-                _ => None,
-            })
-            .column("exponent_error", "per impact", |row| match row.3? {
-                Verdict::Chaotic { standard_error, .. } => Some(standard_error),
-                _ => None,
-            })
+            .column("impacts", "1", move |row| cycle(row).map(|own| own.0))
+            .column("platform_periods", "1", move |row| cycle(row).map(|own| own.1))
+            .column("spectral_radius", "1", radius)
+            .column("exponent", "per impact", move |row| exponent(row).map(|own| own.0))
+            .column("exponent_error", "per impact", move |row| exponent(row).map(|own| own.1))
             .column("words", "1", |row| row.3.map(|verdict| verdict.to_string()))
     }
 }
@@ -338,7 +320,7 @@ const KINDS: [&str; 10] = [
     "no such start",
 ];
 
-/// The place in [`KINDS`].
+/// The place in [`KINDS`], which is a digit.
 fn kind(verdict: Option<&Verdict>) -> u8 {
     match verdict {
         Some(Verdict::AtRest { .. }) => 0,
@@ -351,21 +333,6 @@ fn kind(verdict: Option<&Verdict>) -> u8 {
     }
 }
 
-/// The name of a kind.
-fn name(kind: u8) -> &'static str {
-    KINDS[usize::from(kind)]
-}
-
-/// A kind as a digit.
-fn digit(kind: u8) -> char {
-    char::from(b'0' + kind)
-}
-
-/// The kind of a digit.
-fn of_digit(letter: char) -> Option<u8> {
-    letter.to_digit(10).map(|digit| digit as u8)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -373,9 +340,13 @@ mod tests {
     #[test]
     fn kinds_have_a_digit_each() {
         for kind in 0..KINDS.len() as u8 {
-            assert_eq!(of_digit(digit(kind)), Some(kind));
+            let row = Row::Kinds(char::from(b'0' + kind).to_string());
+            assert!(row.is_whole(1, false) && !row.is_whole(2, false) && !row.is_whole(1, true));
+            assert_eq!(row.cell(0).0, kind);
         }
-        assert_eq!([':', '/', 'a'].map(of_digit), [None; 3]);
+        for letter in [":", "/", "a"] {
+            assert!(!Row::Kinds(letter.to_owned()).is_whole(1, false), "{letter}");
+        }
         assert_eq!(KINDS.len(), pictures::REGIMES.len());
     }
 }

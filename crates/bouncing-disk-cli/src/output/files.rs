@@ -6,12 +6,12 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use clap::builder::{OsStringValueParser, TypedValueParser, ValueParser, ValueParserFactory};
+use clap::builder::{OsStringValueParser, TypedValueParser as _};
 use clap::{Args, ValueEnum};
 use tempfile::NamedTempFile;
 
-use super::lines::{complain, say};
-use crate::failure::Failure;
+use crate::failure::{Failure, Result};
+use crate::lines::{complain, say};
 
 /// Where the result goes.
 #[derive(Debug, Clone, Default, Args)]
@@ -19,7 +19,8 @@ use crate::failure::Failure;
 pub(crate) struct OutputArgs {
     /// Writes the result to a file in place of the terminal; its ending says how: .csv, .json, .png or .svg
     /// (.toml with --template). May be repeated
-    #[arg(long, short, value_name = "FILE")]
+    // Names of files need not be texts.
+    #[arg(long, short, value_name = "FILE", value_parser = OsStringValueParser::new().try_map(Target::new))]
     pub(crate) out: Vec<Target>,
     /// Replaces files that are there already
     #[arg(long)]
@@ -29,15 +30,7 @@ pub(crate) struct OutputArgs {
 impl OutputArgs {
     /// Whether the files can be written, as far as that is seen before anything is computed. None of them may
     /// be an input, or the journal.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] names the file.
-    pub(crate) fn check(
-        &self,
-        has_picture: bool,
-        inputs: &[&Path],
-        journal: Option<&Path>,
-    ) -> Result<(), Failure> {
+    pub(crate) fn check(&self, has_picture: bool, inputs: &[&Path], journal: Option<&Path>) -> Result<()> {
         let others = inputs.iter().map(|path| (*path, "an input"));
         let others = others.chain(journal.map(|path| (path, "the journal")));
         let mut taken: Vec<(PathBuf, String)> = others
@@ -46,13 +39,13 @@ impl OutputArgs {
         for target in &self.out {
             let place = place(&target.path);
             if let Some((_, why)) = taken.iter().find(|(other, _)| *other == place) {
-                return Err(Failure::usage(format!("{target}: {why}")));
+                return Err(Failure::Usage(format!("{target}: {why}")));
             }
             taken.push((place, format!("it is asked for twice, as {target} before")));
             match target.kind {
-                Kind::Toml => return Err(target.no_result()),
+                Kind::Toml => return Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
                 Kind::Png | Kind::Svg if !has_picture => {
-                    return Err(no_picture().in_context(&target.to_string()));
+                    return Err(Failure::Usage(format!("{target}: {NO_PICTURE}")));
                 }
                 _ => target.check(self.force)?,
             }
@@ -61,24 +54,20 @@ impl OutputArgs {
     }
 
     /// Writes a file of parameters, to the terminal or where --out says.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] for a file of another kind, or for several.
-    pub(crate) fn write_template(&self, text: &str, quiet: bool) -> Result<(), Failure> {
+    pub(crate) fn write_template(&self, text: &str, quiet: bool) -> Result<()> {
         match &self.out[..] {
             [] => Ok(say(text)?),
             [target] if target.kind == Kind::Toml => {
                 target.check(self.force)?;
                 target.write(self.force, quiet, |to| to.write_all(text.as_bytes()))
             }
-            _ => Err(Failure::usage(
-                "--template writes TOML, to the terminal or with one --out FILE.toml into a file",
+            _ => Err(Failure::Usage(
+                "--template writes TOML, to the terminal or with one --out FILE.toml into a file".to_owned(),
             )),
         }
     }
 }
 
-/// A kind of file, known by its ending.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Kind {
     Csv,
@@ -89,38 +78,10 @@ pub(crate) enum Kind {
     Toml,
 }
 
-/// A file that is to be written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Target {
     pub(crate) path: PathBuf,
     pub(crate) kind: Kind,
-}
-
-impl Target {
-    /// The file of this name.
-    ///
-    /// # Errors
-    /// Says in words what a name must end in.
-    fn new(name: OsString) -> Result<Self, String> {
-        let path = PathBuf::from(name);
-        let ending = path.extension().unwrap_or_default().to_string_lossy();
-        match Kind::from_str(&ending, true) {
-            Ok(kind) => Ok(Self { path, kind }),
-            Err(_) => {
-                Err("the ending says what is written: .csv, .json, .png or .svg; .toml with --template"
-                    .to_owned())
-            }
-        }
-    }
-}
-
-/// Names of files need not be texts.
-impl ValueParserFactory for Target {
-    type Parser = ValueParser;
-
-    fn value_parser() -> Self::Parser {
-        OsStringValueParser::new().try_map(Self::new).into()
-    }
 }
 
 impl Display for Target {
@@ -133,15 +94,24 @@ impl Display for Target {
 const GATHERED: usize = 1 << 16;
 
 impl Target {
+    fn new(name: OsString) -> Result<Self, String> {
+        let path = PathBuf::from(name);
+        let ending = path.extension().unwrap_or_default().to_string_lossy();
+        match Kind::from_str(&ending, true) {
+            Ok(kind) => Ok(Self { path, kind }),
+            Err(_) => {
+                Err("the ending says what is written: .csv, .json, .png or .svg; .toml with --template"
+                    .to_owned())
+            }
+        }
+    }
+
     /// Whether it can be written, as far as that is seen without writing: better now than after an hour of
     /// computing.
-    ///
-    /// # Errors
-    /// [`Failure::Usage`] if the folder is not there or the file is, unless it may be replaced.
-    fn check(&self, replace: bool) -> Result<(), Failure> {
-        check_place(&self.path)?;
+    fn check(&self, replace: bool) -> Result<()> {
+        check_place(&self.path).map_err(Failure::Usage)?;
         if !replace && fs::symlink_metadata(&self.path).is_ok() {
-            return Err(Failure::usage(format!("{self}: it is there already; --force replaces it")));
+            return Err(Failure::Usage(format!("{self}: it is there already; --force replaces it")));
         }
         // Also finds a folder in which nothing can be written.
         begin(&self.path).map(drop).map_err(|error| self.unwritable(&error))
@@ -149,15 +119,12 @@ impl Target {
 
     /// Writes the file as a whole or not at all, and says so unless `quiet`; `content` gives it to a writer
     /// that gathers small parts.
-    ///
-    /// # Errors
-    /// When the system refuses; when the file is there, unless it may be replaced.
     pub(crate) fn write(
         &self,
         replace: bool,
         quiet: bool,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         self.fill(replace, quiet, |file| {
             let mut writer = BufWriter::with_capacity(GATHERED, file.as_file_mut());
             content(&mut writer)?;
@@ -171,7 +138,7 @@ impl Target {
         replace: bool,
         quiet: bool,
         content: impl FnOnce(&mut NamedTempFile) -> io::Result<()>,
-    ) -> Result<(), Failure> {
+    ) -> Result<()> {
         let write = || {
             let mut file = begin(&self.path)?;
             content(&mut file)?;
@@ -187,21 +154,13 @@ impl Target {
     }
 
     fn unwritable(&self, error: &io::Error) -> Failure {
-        Failure::failed(format!("{self} cannot be written: {error}"))
-    }
-
-    /// Why no result goes into a file of parameters.
-    pub(super) fn no_result(&self) -> Failure {
-        Failure::usage(format!(
-            "{self}: a result is .csv, .json, .png or .svg; .toml is the file of --template"
-        ))
+        Failure::Failed(format!("{self} cannot be written: {error}"))
     }
 }
 
-/// Why there is no picture.
-pub(super) fn no_picture() -> Failure {
-    Failure::usage("this command has no picture; .csv and .json are possible")
-}
+/// Why no result goes into a file of parameters, and why there is no picture.
+pub(super) const NO_RESULT: &str = "a result is .csv, .json, .png or .svg; .toml is the file of --template";
+pub(super) const NO_PICTURE: &str = "this command has no picture; .csv and .json are possible";
 
 /// A new file in the folder of the target, because a file gets another name only within a file system. It is
 /// removed unless it gets that name.
@@ -221,11 +180,8 @@ fn begin(path: &Path) -> io::Result<NamedTempFile> {
 }
 
 /// Whether there can be a file at a path: it names one, in a folder that is there, and is no folder.
-///
-/// # Errors
-/// [`Failure::Usage`] says why not.
-pub(crate) fn check_place(path: &Path) -> Result<(), Failure> {
-    let refused = |why: &str| Err(Failure::usage(format!("{}: {why}", path.display())));
+pub(crate) fn check_place(path: &Path) -> Result<(), String> {
+    let refused = |why: &str| Err(format!("{}: {why}", path.display()));
     let folder = folder_of(path);
     // `a.csv/` and `a.csv/.` have the same last part, and yet name a folder.
     let bytes = path.as_os_str().as_encoded_bytes();
@@ -248,17 +204,9 @@ fn place(path: &Path) -> PathBuf {
     }
 }
 
-/// The [`place`] that a path leads to if it is opened: where the last of its links ends, whether there is a
-/// file or not.
+/// The [`place`] that a path leads to if it is opened: where the last of its links ends, if there is a file.
 fn opened_place(path: &Path) -> PathBuf {
-    /// Systems follow no more links than this.
-    const LINKS: usize = 40;
-    let mut found = place(path);
-    for _ in 0..LINKS {
-        let Ok(next) = fs::read_link(&found) else { break };
-        found = place(&folder_of(&found).join(next));
-    }
-    found
+    fs::canonicalize(path).unwrap_or_else(|_| place(path))
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -3,59 +3,43 @@
 
 use std::io::{self, Write};
 
+use serde::Serialize;
 use serde_json::Value;
 
-/// The value of a field.
-pub(crate) enum Data {
-    Whole(Value),
-    /// A list whose elements are tables or lists, each made when it is written: all of them together may take
-    /// more memory than what they are made from.
-    List(Box<List>),
+/// Writes the value of a field.
+pub(crate) type Data<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
+
+pub(crate) fn whole<'a>(value: Value) -> Data<'a> {
+    Box::new(move |to| match &value {
+        Value::Array(elements) if elements.iter().any(|own| own.is_array() || own.is_object()) => {
+            below(to, ["[", "]"], elements.iter().map(|element| Ok(element.to_string())))
+        }
+        Value::Object(fields) => {
+            let line =
+                |(name, value): (&String, &Value)| Ok(format!("{}: {value}", Value::from(name.as_str())));
+            below(to, ["{", "}"], fields.iter().map(line))
+        }
+        other => write!(to, "{other}"),
+    })
 }
 
-/// Gives a function the elements of a list one by one.
-pub(crate) type List = dyn Fn(&mut dyn FnMut(&Value) -> io::Result<()>) -> io::Result<()>;
-
-impl From<Value> for Data {
-    fn from(value: Value) -> Self {
-        Self::Whole(value)
-    }
-}
-
-impl Data {
-    /// A list of `count` elements, made from their indices.
-    pub(crate) fn list(count: usize, of: impl Fn(usize) -> io::Result<Value> + 'static) -> Self {
-        Self::List(Box::new(move |each| (0..count).try_for_each(|index| each(&of(index)?))))
-    }
+/// A list whose elements are tables or lists, each made when it is written: all of them together may take more
+/// memory than what they are made from.
+pub(crate) fn list<'a, T: Serialize, I: Iterator<Item = T>>(elements: impl Fn() -> I + 'a) -> Data<'a> {
+    let line = |element: T| Ok(serde_json::to_value(element)?.to_string());
+    Box::new(move |to| below(to, ["[", "]"], elements().map(line)))
 }
 
 /// Writes an object with these fields, in this order.
 pub(crate) fn write<'a>(
     to: &mut dyn Write,
-    fields: impl IntoIterator<Item = (&'a str, &'a Data)>,
+    fields: impl IntoIterator<Item = (&'a str, &'a Data<'a>)>,
 ) -> io::Result<()> {
     let mut before = "{";
     for (name, data) in fields {
         write!(to, "{before}\n  {}: ", Value::from(name))?;
+        data(to)?;
         before = ",";
-        match data {
-            Data::List(elements) => {
-                below(to, ["[", "]"], |each| elements(&mut |element| each(element.to_string())))
-            }
-            Data::Whole(Value::Array(elements))
-                if elements.iter().any(|own| own.is_array() || own.is_object()) =>
-            {
-                below(to, ["[", "]"], |each| {
-                    elements.iter().try_for_each(|element| each(element.to_string()))
-                })
-            }
-            Data::Whole(Value::Object(fields)) => below(to, ["{", "}"], |each| {
-                fields
-                    .iter()
-                    .try_for_each(|(name, value)| each(format!("{}: {value}", Value::from(name.as_str()))))
-            }),
-            Data::Whole(other) => write!(to, "{other}"),
-        }?;
     }
     to.write_all(b"\n}\n")
 }
@@ -64,19 +48,20 @@ pub(crate) fn write<'a>(
 fn below(
     to: &mut dyn Write,
     [open, close]: [&str; 2],
-    parts: impl FnOnce(&mut dyn FnMut(String) -> io::Result<()>) -> io::Result<()>,
+    parts: impl Iterator<Item = io::Result<String>>,
 ) -> io::Result<()> {
     let mut before = open;
-    parts(&mut |part| {
-        write!(to, "{before}\n    {part}")?;
+    for part in parts {
+        write!(to, "{before}\n    {}", part?)?;
         before = ",";
-        Ok(())
-    })?;
+    }
     if before == open { write!(to, "{open}{close}") } else { write!(to, "\n  {close}") }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::BTreeMap;
+
     use serde_json::json;
 
     use super::*;
@@ -84,11 +69,11 @@ mod tests {
     #[test]
     fn what_is_written_is_what_was_given() {
         let fields: [(&str, Data); 5] = [
-            ("b \"", json!({"x": 0.1, "y": [1, 2]}).into()),
-            ("a", json!([[1.5, null], [2, 3]]).into()),
-            ("c", json!([]).into()),
-            ("d", json!({}).into()),
-            ("e", Data::list(2, |index| Ok(json!({"index": index})))),
+            ("b \"", whole(json!({"x": 0.1, "y": [1, 2]}))),
+            ("a", whole(json!([[1.5, null], [2, 3]]))),
+            ("c", whole(json!([]))),
+            ("d", whole(json!({}))),
+            ("e", list(|| (0..2).map(|index| json!({"index": index})))),
         ];
         let mut bytes = Vec::new();
         write(&mut bytes, fields.iter().map(|(name, data)| (*name, data))).unwrap();
@@ -101,7 +86,8 @@ mod tests {
         assert_eq!(read, expected);
         assert!(text.starts_with("{\n  \"b \\\"\": {\n    \"x\": 0.1,\n"), "{text}");
         assert!(text.contains("    [1.5,null],\n    [2,3]\n  ]"), "{text}");
-        let fails = Data::list(1, |_| Err(io::Error::other("no such element")));
+        // A map whose keys are no texts is none of JSON.
+        let fails = list(|| std::iter::once(BTreeMap::from([([1], 2)])));
         assert!(write(&mut Vec::new(), [("a", &fails)]).is_err());
     }
 }

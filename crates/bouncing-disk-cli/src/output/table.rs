@@ -1,5 +1,6 @@
 //! Results as rows of named columns with units: aligned for people, comma-separated for programs.
 
+use std::borrow::Borrow;
 use std::io::{self, Write};
 
 use bouncing_disk::estimate::IntervalEstimate;
@@ -29,7 +30,7 @@ fn exact_cell(cell: &Value) -> String {
 }
 
 /// Writes comma-separated text.
-pub(crate) type WriteTable = Box<dyn Fn(&mut dyn Write) -> io::Result<()>>;
+pub(crate) type WriteTable<'a> = Box<dyn Fn(&mut dyn Write) -> io::Result<()> + 'a>;
 
 /// A column: its name, its unit (`1` where it has none), and the cell of a row.
 struct Column<R> {
@@ -63,7 +64,6 @@ impl<R> Columns<R> {
         Self(Vec::new())
     }
 
-    /// Adds a column.
     pub(crate) fn column<T: Into<Value>>(
         mut self,
         name: impl Into<String>,
@@ -76,30 +76,31 @@ impl<R> Columns<R> {
 
     /// Comma-separated, with a line of names. It is written row by row: a large table never is in memory as a
     /// whole.
-    pub(crate) fn write_csv(&self, to: &mut dyn Write, rows: impl IntoIterator<Item = R>) -> io::Result<()> {
+    pub(crate) fn write_csv(
+        &self,
+        to: &mut dyn Write,
+        rows: impl IntoIterator<Item = impl Borrow<R>>,
+    ) -> io::Result<()> {
         let mut csv = csv::Writer::from_writer(to);
         csv.write_record(self.0.iter().map(Column::field))?;
         for row in rows {
-            csv.write_record(self.0.iter().map(|column| exact_cell(&(column.cell)(&row))))?;
+            csv.write_record(self.0.iter().map(|column| exact_cell(&(column.cell)(row.borrow()))))?;
         }
         csv.flush()
     }
 
     /// The same of rows that are kept.
-    pub(crate) fn csv_of(self, rows: Vec<R>) -> WriteTable
+    pub(crate) fn csv_of<'a>(self, rows: Vec<R>) -> WriteTable<'a>
     where
-        R: Clone + 'static,
+        R: 'a,
     {
-        Box::new(move |to| self.write_csv(to, rows.iter().cloned()))
+        Box::new(move |to| self.write_csv(to, &rows))
     }
 
     /// Aligned columns: numbers at the right, words at the left.
-    pub(crate) fn to_text<'r>(&self, rows: impl IntoIterator<Item = &'r R>) -> String
-    where
-        R: 'r,
-    {
-        let rows: Vec<Vec<Value>> =
-            rows.into_iter().map(|row| self.0.iter().map(|column| (column.cell)(row)).collect()).collect();
+    pub(crate) fn to_text(&self, rows: impl IntoIterator<Item = impl Borrow<R>>) -> String {
+        let cells = |row: &R| self.0.iter().map(|column| (column.cell)(row)).collect();
+        let rows: Vec<Vec<Value>> = rows.into_iter().map(|row| cells(row.borrow())).collect();
         let columns = self.0.iter().enumerate().map(|(index, column)| {
             let words = rows.iter().any(|row| row[index].is_string() || row[index].is_boolean());
             let cells: Vec<String> =
@@ -120,7 +121,7 @@ impl<R> Columns<R> {
 }
 
 /// A quantity with its unit, `1` where it has none.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 struct Quantity {
     name: String,
     value: Value,
@@ -129,8 +130,7 @@ struct Quantity {
     is_end: bool,
 }
 
-/// A list of quantities.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Default)]
 pub(crate) struct Quantities(Vec<Quantity>);
 
 impl Quantities {
@@ -147,7 +147,6 @@ impl Quantities {
         }
     }
 
-    /// Adds all of another list.
     pub(crate) fn append(&mut self, other: Self) {
         self.0.extend(other.0);
     }
@@ -172,14 +171,12 @@ impl Quantities {
         lines.iter().map(|line| format!("{line}\n")).collect()
     }
 
-    /// As a list of objects.
     pub(crate) fn to_json(&self) -> Value {
         let quantity = |own: &Quantity| json!({ "quantity": own.name, "value": own.value, "unit": own.unit });
         self.0.iter().map(quantity).collect::<Vec<_>>().into()
     }
 
-    /// As a table of three columns.
-    pub(crate) fn into_csv(self) -> WriteTable {
+    pub(crate) fn into_csv(self) -> WriteTable<'static> {
         Columns::<Quantity>::new()
             .column("quantity", "1", |own| own.name.clone())
             .column("value", "1", |own| own.value.clone())
@@ -211,7 +208,7 @@ load torque (N m)  state     speed (rad/s^2)
            1.5e-6  steady            17.1235
                 0  a \"b\", c                -
 ";
-        assert_eq!(columns.to_text(&rows), text);
+        assert_eq!(columns.to_text(rows), text);
         let csv = "\
 load_torque_n_m,state,speed_rad_s2
 1.5e-6,steady,17.1234567
@@ -220,8 +217,9 @@ load_torque_n_m,state,speed_rad_s2
         assert_eq!(written(|to| columns.write_csv(to, rows)), csv);
         // Without rows there are the heads.
         let columns = Columns::<Row>::new().column("spring_constant", "N/m", |row| row.0);
-        assert_eq!(columns.to_text([]), "spring constant (N/m)\n");
-        assert_eq!(written(|to| columns.write_csv(to, [])), "spring_constant_n_per_m\n");
+        let none: [Row; 0] = [];
+        assert_eq!(columns.to_text(none), "spring constant (N/m)\n");
+        assert_eq!(written(|to| columns.write_csv(to, none)), "spring_constant_n_per_m\n");
     }
 
     #[test]

@@ -1,17 +1,16 @@
 //! A motor's data sheet, which the library reads.
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{MotorField, MotorFileError};
+use bouncing_disk::motor::MotorField;
 
-use super::source::{Described, Format, Refusal, Setting, SourceArgs};
+use super::{Described, Format, Setting, SourceArgs};
 use crate::range::Words;
 
-/// A motor's data sheet.
 pub(crate) type MotorArgs = SourceArgs<Motor>;
 
 fn changes(settings: &[Setting]) -> Result<Vec<(MotorField, f64)>, String> {
-    let change = |setting: &Setting| match setting.key.parse::<MotorField>() {
-        Ok(field) => Ok((field, setting.value)),
+    let change = |(key, value): &Setting| match key.parse::<MotorField>() {
+        Ok(field) => Ok((field, *value)),
         Err(unknown) => Err(unknown.to_string()),
     };
     settings.iter().map(change).collect()
@@ -23,24 +22,13 @@ impl Described for Motor {
         ("paper-184-khz", "The same at its second operating frequency, 184 kHz", Self::paper_184_khz),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
-        let changes = changes(settings).map_err(Refusal::Value)?;
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
+        let changes = changes(settings)?;
         let read = match format {
             Format::Json => Self::from_json_with(text, &changes),
             Format::Toml => Self::from_toml_with(text, &changes),
         };
-        read.map_err(|error| match error {
-            MotorFileError::Illegal(_) => Refusal::Value(error.to_string()),
-            _ => Refusal::Text(error.to_string()),
-        })
-    }
-
-    fn with(self, settings: &[Setting]) -> Result<Self, String> {
-        let mut sheet = self.parameters();
-        for (field, value) in changes(settings)? {
-            field.set(&mut sheet, value);
-        }
-        sheet.build().map_err(|error| error.to_string())
+        read.map_err(|error| error.to_string())
     }
 
     fn template(&self) -> String {

@@ -4,10 +4,9 @@ use bouncing_disk::System;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-use super::source::{Described, Format, Refusal, Setting, SourceArgs, parse, unknown};
+use super::{Described, Format, Setting, SourceArgs, parse, unknown};
 use crate::range::Words;
 
-/// Disk and platform.
 pub(crate) type SystemArgs = SourceArgs<System>;
 
 /// The parameters: table and key, unit, meaning.
@@ -60,7 +59,7 @@ fn tables(of: &impl Serialize) -> Result<Table, String> {
 /// Sets values, and checks all.
 fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
     let paths = || FIELDS.iter().map(|(path, ..)| *path);
-    for Setting { key, value } in settings {
+    for (key, value) in settings {
         let Some((table, name)) = paths().find(|path| path == key).and_then(|path| path.split_once('.'))
         else {
             return Err(unknown(key, paths()));
@@ -78,15 +77,11 @@ impl Described for System {
         ("motor", "The motor of Table III at 70 kHz", Self::motor),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, Refusal> {
-        let mut file: File = parse(text, format).map_err(Refusal::Text)?;
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
+        let mut file: File = parse(text, format)?;
         // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
-        tables(&file).and_then(|tables| build(tables, settings)).map_err(Refusal::Value)
-    }
-
-    fn with(self, settings: &[Setting]) -> Result<Self, String> {
-        build(tables(&self)?, settings)
+        tables(&file).and_then(|tables| build(tables, settings))
     }
 
     fn template(&self) -> String {
@@ -112,9 +107,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str, format: Format) -> Result<System, String> {
-        System::read(text, format, &[]).map_err(|refusal| match refusal {
-            Refusal::Text(why) | Refusal::Value(why) => why,
-        })
+        System::read(text, format, &[])
     }
 
     #[test]

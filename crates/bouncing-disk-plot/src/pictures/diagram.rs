@@ -11,21 +11,11 @@ use crate::line::Line;
 use crate::numbers::in_math;
 use crate::panel::Panel;
 use crate::scatter::Scatter;
-use crate::text_style::Anchor;
+use crate::style::Anchor;
 use crate::ticks::Ticks;
 
-/// The colours of the starts, in their order. The first lies on top of the others: beyond the crisis a start at rest and
-/// one beside the period-1 orbit are on the same attractor, and light points say so.
-const COLOURS: [Colour; 8] = [
-    Colour::LIGHT_GREY,
-    OrbitDiagram::ALONE,
-    Colour::BLUE,
-    Colour::VERMILION,
-    Colour::GREEN,
-    Colour::PURPLE,
-    Colour::ORANGE,
-    Colour::SKY,
-];
+/// Colours of starts before they come again in a darker shade.
+const COLOURS: usize = 8;
 
 /// Starts whose names have room beside the letter of the panel.
 const BESIDE: usize = 2;
@@ -52,13 +42,20 @@ impl OrbitDiagram<'_> {
     /// The colour of a start that is alone.
     pub const ALONE: Colour = Colour::rgb(40, 40, 40);
 
-    /// The colour of a start; beyond the eighth the same in a darker shade, and again.
+    /// The colour of a start; beyond the eighth the same in a darker shade, and again. The first start lies on
+    /// top of the others: beyond the crisis a start at rest and one beside the period-1 orbit are on the same
+    /// attractor, and light points say so.
     fn colour(index: usize, starts: usize) -> Colour {
         if starts == 1 {
             return Self::ALONE;
         }
-        let rounds = (index / COLOURS.len()) as f64;
-        COLOURS[index % COLOURS.len()].mixed(Colour::BLACK, 1.0 - 1.0 / (1.0 + 0.6 * rounds))
+        let rounds = (index / COLOURS) as f64;
+        let colour = match index % COLOURS {
+            0 => Colour::LIGHT_GREY,
+            1 => Self::ALONE,
+            other => Colour::cycle(other - 1),
+        };
+        colour.mixed(Colour::BLACK, 1.0 - 1.0 / (1.0 + 0.6 * rounds))
     }
 
     /// The axes of the phases and of the speeds up to `fastest`.

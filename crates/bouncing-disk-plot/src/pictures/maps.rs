@@ -7,7 +7,7 @@ use crate::colour::Colour;
 use crate::figure::{DOUBLE_COLUMN, Figure, SINGLE_COLUMN};
 use crate::frame::Rect;
 use crate::label::Label;
-use crate::numbers::in_math;
+use crate::numbers::{extent, in_math};
 use crate::panel::Panel;
 use crate::raster::Raster;
 use crate::ticks::Ticks;
@@ -165,10 +165,8 @@ pub fn heat_map(columns: &Quantity<'_>, rows: &Quantity<'_>, cells: &Quantity<'_
     let (x, x_label) = columns.shown();
     let (y, y_label) = rows.shown();
     let (values, label) = cells.shown();
-    let known = || values.iter().copied().filter(|value| value.is_finite());
-    let (least, most) = (known().fold(f64::INFINITY, f64::min), known().fold(f64::NEG_INFINITY, f64::max));
     // All cells alike, or none with a value.
-    let (least, most) = match (least, most) {
+    let (least, most) = match extent(values.iter().copied()) {
         (least, most) if least < most => (least, most),
         (least, _) if least.is_finite() && least.abs() > 0.0 => {
             (least - 0.5 * least.abs(), least + 0.5 * least.abs())

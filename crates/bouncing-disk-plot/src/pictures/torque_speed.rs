@@ -8,11 +8,10 @@ use crate::frame::{Grid, Margins, Rect};
 use crate::layer::Layer;
 use crate::legend::{Corner, Legend};
 use crate::line::{Band, Line, Rule};
-use crate::numbers::rounded;
+use crate::numbers::{extent, rounded};
 use crate::panel::Panel;
 use crate::scatter::{Marker, Scatter};
-use crate::style::{Fill, Stroke};
-use crate::text_style::Anchor;
+use crate::style::{Anchor, Fill, Stroke};
 
 /// Values of one quantity in its plain unit.
 #[derive(Debug)]
@@ -87,6 +86,8 @@ pub struct LoadPoint {
     pub load_torque: f64,
     /// The mean speed (rad/s).
     pub speed: Option<(f64, f64)>,
+    /// The ends of the range of the speed (rad/s) over motors within the tolerance of their inputs.
+    pub spread: Option<[f64; 2]>,
     /// The power that the stator puts in (W).
     pub input_power: Option<(f64, f64)>,
     /// The mechanical power (W).
@@ -101,12 +102,12 @@ const UNDER_LEGEND: f64 = 0.68;
 /// The distance of the foot of a rotated name from its rule (points): room for what is below its line.
 const NEXT_TO_RULE: f64 = 3.0;
 
-/// Two panels over the load: speed, and powers with the efficiency. Beyond `largest_torque` (N m) the load
-/// overpowers the motor.
+/// Two panels over the load: speed with its spread over motors, and powers with the efficiency. Beyond
+/// `largest_torque` (N m) the load overpowers the motor.
 pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
-    const HEIGHT: f64 = 330.0;
-    let margins = Margins { left: 46.0, right: 44.0, top: 10.0, bottom: 34.0 };
-    let grid = Grid::new(SINGLE_COLUMN + 30.0, HEIGHT, 2, 1).margins(margins).gaps(10.0, 12.0);
+    const HEIGHT: f64 = 338.0;
+    let margins = Margins { left: 46.0, right: 44.0, top: 14.0, bottom: 34.0 };
+    let grid = Grid::new(SINGLE_COLUMN + 30.0, HEIGHT, 2, 1).margins(margins).gaps(10.0, 16.0);
     let loads: Vec<f64> = found.iter().map(|own| own.load_torque).collect();
     let loads = Quantity { name: "load torque $T$", unit: "N m", values: &loads };
     let (torque, torque_unit) = loads.prefixed();
@@ -119,13 +120,17 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
         interval_curve(points, colour, Fill::new(colour, 0.2), name)
     };
     let speeds = points(|own| own.speed, 1.0);
+    let spread = found.iter().zip(&loads).filter_map(|(own, load)| Some((*load, own.spread?)));
+    let spread: Vec<Point> = spread.map(|(load, [from, to])| (load, from, to)).collect();
     let (first, last) = Axis::ends_around(loads.iter().copied());
     let x = || Axis::spanned(first, last);
     // Beyond the loads that were asked for there is nothing to see.
     let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
-    let rule = || limit.map(|limit| Rule::vertical(limit).stroke(Stroke::new(Colour::DARK_GREY, 0.8)));
-    let (slowest, fastest) =
-        Axis::ends_around(speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2, 0.0]));
+    let ends = speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2]);
+    let ends = ends.chain(spread.iter().flat_map(|(_, from, to)| [*from, *to]));
+    let (slowest, fastest) = Axis::ends_around(ends.chain([0.0]));
+    let spread = (spread.len() > 1).then(|| Band::new(spread).colour(Colour::BLUE).opacity(0.15));
+    let spread = spread.map(|spread| spread.name("spread of motors"));
     // To the left of a rule, where nothing but the curve is: at the upper end, or in the middle of what is
     // below zero.
     let beside = |load: f64, label: String, below_zero: bool| {
@@ -138,7 +143,10 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
         Text::at_axes(left, height, label).anchor(anchor).rotated(90.0).size(7.5).halo(Colour::WHITE)
     };
     let stall = stall(&speeds);
-    let stall_rule = || stall.map(|stall| Rule::vertical(stall).stroke(Stroke::new(Colour::GREY, 0.5)));
+    let rule = |(load, colour, width): (Option<f64>, Colour, f64)| {
+        Some(Rule::vertical(load?).stroke(Stroke::new(colour, width)))
+    };
+    let rules = [(limit, Colour::DARK_GREY, 0.8), (stall, Colour::GREY, 0.5)].into_iter().filter_map(rule);
     // Two digits are what a straight line between two loads is good for. There is more room on one side; left of
     // the stall the speed is above zero.
     let stall_name =
@@ -150,44 +158,40 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
     let upper = Panel::new(grid.cell(0, 0))
         .x(x().without_numbers())
         .y(Axis::spanned(slowest, fastest).label(r"mean speed $\dot{\alpha}$ (rad/s)"))
-        .letter_in("a", Corner::BottomLeft)
+        .title("(a)")
         .layer(Rule::horizontal(0.0).stroke(Stroke::new(Colour::GREY, 0.5)))
-        .layers(rule())
-        .layers(stall_rule())
+        .layers(rules.clone())
+        .layers(spread)
         .layers(curve(&speeds, Colour::BLUE, None))
         .layers(stall.map(|stall| {
             Scatter::new([(stall, 0.0)]).marker(Marker::Circle).size(4.5).colour(Colour::BLUE).filled_white()
         }))
         .layers(stall.map(stall_name))
         .layers(limit.map(|limit| beside(limit, r"largest torque $\mu m g a_e$".to_owned(), false)))
-        .layers(nothing());
+        .layers(nothing())
+        .legend(Legend::at(Corner::BottomLeft).without_frame().inset(4.0));
     let powers: Vec<f64> = found.iter().filter_map(|own| Some(own.input_power?.0)).collect();
     let power = Quantity { name: "power", unit: "W", values: &powers };
     let (scale, power_label) = (power.prefixed().0, power.shown().1);
     let (input, output) = (points(|own| own.input_power, scale), points(|own| own.mechanical_power, scale));
     let efficiency = points(|own| own.efficiency, 100.0);
     // Both zeros at one height, and room above for the names.
-    let ends = |points: &mut dyn Iterator<Item = f64>| {
-        points.fold((0.0_f64, 0.0_f64), |(low, high), value| (low.min(value), high.max(value)))
-    };
-    let (low, high) = ends(&mut input.iter().chain(&output).map(|point| point.1));
+    let (low, high) = extent(input.iter().chain(&output).map(|point| point.1).chain([0.0]));
     let low = 1.1 * low;
     let high = low + (or_one(high) - low) / UNDER_LEGEND;
     let below = -low / high;
-    let best = 1.1 * or_one(ends(&mut efficiency.iter().map(|point| point.1)).1)
+    let best = 1.1 * or_one(extent(efficiency.iter().map(|point| point.1).chain([0.0])).1)
         / (UNDER_LEGEND - (1.0 - UNDER_LEGEND) * below).max(0.2);
-    let share = || efficiency.iter().map(|point| (point.0, point.1));
     let lower = Panel::new(grid.cell(1, 0))
         .x(x().label(load_label))
         .y(Axis::spanned(low, high).label(power_label))
         .right(Axis::spanned(low / high * best, best).label("efficiency (%)"))
-        .letter_in("b", Corner::BottomLeft)
-        .layers(rule())
-        .layers(stall_rule())
+        .title("(b)")
+        .layers(rules)
         .layers(curve(&input, Colour::GREY, Some("put in")))
-        .layers(curve(&output, Colour::BLUE, Some("mechanical")))
-        .layer_right(Line::new(share()).width(0.8).colour(Colour::VERMILION))
-        .layer_right(Scatter::new(share()).size(2.6).colour(Colour::VERMILION).name("efficiency"));
+        .layers(curve(&output, Colour::BLUE, Some("mechanical")));
+    let efficiency = curve(&efficiency, Colour::VERMILION, Some("efficiency"));
+    let lower = efficiency.into_iter().fold(lower, Panel::layer_right);
     let legend = Legend::at(Corner::TopLeft).without_frame().inset(4.0);
     let lower = if speeds.is_empty() { lower } else { lower.legend(legend) };
     Figure::new(SINGLE_COLUMN + 30.0, HEIGHT).panels([upper, lower])

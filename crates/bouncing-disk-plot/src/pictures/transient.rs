@@ -7,9 +7,9 @@ use crate::figure::{Figure, SINGLE_COLUMN};
 use crate::frame::Rect;
 use crate::legend::{Corner, Legend};
 use crate::line::{Band, Line};
+use crate::numbers::extent;
 use crate::panel::Panel;
-use crate::style::Dash;
-use crate::text_style::Anchor;
+use crate::style::{Anchor, Dash};
 
 /// A fit to a run-up.
 #[derive(Clone, Debug)]
@@ -66,11 +66,7 @@ impl RunUp<'_> {
     pub fn draw(&self) -> Figure {
         let fit = self.fit.as_ref().map(|(fit, _)| fit);
         let at_end = fit.and_then(|fit| fit.points.last()).map_or(0.0, |last| last.1);
-        let speeds = self.runs.iter().copied().flatten().copied();
-        let (low, high) = speeds
-            .chain([at_end])
-            .filter(|speed| speed.is_finite())
-            .fold((0.0_f64, 0.0_f64), |(low, high), speed| (low.min(speed), high.max(speed)));
+        let (low, high) = extent(self.runs.iter().copied().flatten().copied().chain([at_end, 0.0]));
         let span = (high - low).max(f64::MIN_POSITIVE);
         // The words stand where the curve does not go: below it, or above one that falls.
         let falls = fit.map_or(low < -high, |fit| fit.steady_speed < 0.0);
@@ -78,8 +74,8 @@ impl RunUp<'_> {
             if falls { (0.06, Corner::BottomLeft, 0.75) } else { (0.02, Corner::TopLeft, 0.07) };
         let (start, end) = (self.times.first().copied(), self.times.last().copied());
         let band = self.times.iter().enumerate().map(|(index, time)| {
-            let at = || self.runs.iter().filter_map(|run| run.get(index)).copied();
-            (*time, at().fold(f64::INFINITY, f64::min), at().fold(f64::NEG_INFINITY, f64::max))
+            let (low, high) = extent(self.runs.iter().filter_map(|run| run.get(index)).copied());
+            (*time, low, high)
         });
         let band = Band::new(band).colour(Colour::BLUE).opacity(0.25).name("range of all runs");
         let first = self.runs.first().copied().unwrap_or_default();

@@ -2,8 +2,13 @@
 
 use bouncing_disk::motion::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
+<<<<<<< HEAD
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Stroke,
     Style, Text, TextBox, TextStyle, Ticks,
+=======
+    Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
+    Stroke, Style, Text, TextStyle, Ticks,
+>>>>>>> third-model
 };
 
 use super::census::{Census, ChatteringCycle};
@@ -141,7 +146,7 @@ fn chart(census: &Census) -> Drawing {
     ];
     for (centre, corner, lines, colour) in boxes {
         let style = Style::from(stroke).fill(colour.mixed(Colour::WHITE, 0.75));
-        drawing = drawing.text_box(TextBox::new(centre, size, lines).corner(corner).style(style));
+        drawing = drawing.text_box(centre, size, corner, style, lines);
     }
     drawing
 }

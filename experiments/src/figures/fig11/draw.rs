@@ -36,7 +36,7 @@ fn extended(ends: (f64, f64), values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Ticks at every multiple of `step`, or automatic ones where the axis was extended.
 fn ticks(ends: (f64, f64), original: (f64, f64), step: f64, parts: u32) -> Ticks {
-    if ends == original { Ticks::every(step).minor(parts) } else { Ticks::automatic() }
+    if ends == original { Ticks::every(step).minor(parts) } else { Ticks::default() }
 }
 
 /// The value and half-length of the error bar of a point.

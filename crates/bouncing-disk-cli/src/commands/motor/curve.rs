@@ -7,9 +7,6 @@ use bouncing_disk_plot::Figure;
 use super::settings::{SettingsArgs, SpreadArgs, interval, lock_note, state, warn};
 use crate::commands::prelude::*;
 
-/// Loads unless given: points from none to the largest torque.
-const POINTS: usize = 11;
-
 /// The torque-speed curve, with power and efficiency
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -36,13 +33,12 @@ pub(crate) struct CurveArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let Some(motor) = args.motor.begin(&args.output, true, context)? else { return Ok(()) };
     warn(&motor, context);
     let load_torques = match args.loads {
         Some(loads) => loads,
-        None => Range::new(0.0, motor.largest_torque(), POINTS).map_err(Failure::usage)?,
+        None => Range::new(0.0, motor.largest_torque(), 11).map_err(Failure::Usage)?,
     };
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
@@ -61,25 +57,26 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<(), Failure> {
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
         text: shown().to_text(&rows) + &lock_note(&motor)?,
-        table: columns().csv_of(rows),
+        table: columns().csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
-        figure: Some(Box::new(move || draw(motor.largest_torque(), &found))),
+        figure: Some(Box::new(|| draw(motor.largest_torque(), &rows))),
     };
-    report.deliver(&args.output, context.quiet)
+    report.deliver(&args.output, context)
 }
 
-fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
-    let point = |operation: &Operation| {
+fn draw(largest_torque: f64, rows: &[Row]) -> Figure {
+    let point = |(operation, spread): &Row| {
         let of = |quantity: SweepQuantity| quantity.of(operation).map(interval);
         pictures::LoadPoint {
             load_torque: operation.load_torque(),
             speed: of(SweepQuantity::Speed),
+            spread: spread.map(|spread| spread.from_to),
             input_power: of(SweepQuantity::InputPower),
             mechanical_power: of(SweepQuantity::MechanicalPower),
             efficiency: of(SweepQuantity::Efficiency),
         }
     };
-    pictures::torque_speed(largest_torque, &found.iter().map(point).collect::<Vec<_>>())
+    pictures::torque_speed(largest_torque, &rows.iter().map(point).collect::<Vec<_>>())
 }
 
 /// A load, and the spread over motors within the tolerance, where it was asked for.
@@ -97,7 +94,6 @@ fn end(row: &Row, end: usize) -> Option<f64> {
     row.1.map(|spread| spread.from_to[end])
 }
 
-/// The columns of the text.
 fn shown() -> Columns<Row> {
     Columns::new()
         .column("load_torque", "N m", |row: &Row| row.0.load_torque())

@@ -5,7 +5,6 @@ use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
 use bouncing_disk::motor::{Estimate, InputTolerance, OperatingSettings, Operation};
-use serde::Serialize;
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -70,7 +69,7 @@ pub(super) fn warn(motor: &Motor, context: Context) {
 }
 
 /// A line on a motor that is locked: its errors are tiny, and hold at exactly its inputs.
-pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
+pub(super) fn lock_note(motor: &Motor) -> Result<String> {
     let regime = motor.report(&Unobserved)?.regime;
     let note = "the errors hold at exactly these inputs; `motor traps` lists such preloads";
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
@@ -89,31 +88,4 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
 /// A value, and half the width of its 95 % interval, for a picture.
 pub(super) fn interval(estimate: Estimate) -> (f64, f64) {
     (estimate.value, NORMAL_975 * estimate.standard_error)
-}
-
-/// The arguments of a command that looks for one operation of a motor.
-#[derive(Debug, Clone, Args)]
-pub(super) struct OperationArgs {
-    #[command(flatten)]
-    motor: MotorArgs,
-    #[command(flatten)]
-    settings: SettingsArgs,
-    #[command(flatten)]
-    pub(super) output: OutputArgs,
-}
-
-/// What such an operation depends on.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct OperationJob {
-    pub(super) motor: Motor,
-    pub(super) settings: OperatingSettings,
-}
-
-impl OperationArgs {
-    /// The job, if the result can be written; `None` where the template was asked for, and has been written.
-    pub(super) fn job(&self, context: Context) -> Result<Option<OperationJob>, Failure> {
-        let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
-        warn(&motor, context);
-        Ok(Some(OperationJob { motor, settings: self.settings.settings() }))
-    }
 }

@@ -1,8 +1,5 @@
 //! `bouncing-disk motor sweep`: a motor over one or two fields of its data sheet.
 
-use std::ops::Range as Rows;
-use std::str::FromStr;
-
 use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::motor::{
     MotorField, MotorSweep, MotorSweepResult, MotorSweepRun, OperatingSettings, Operation, SweepAxis,
@@ -31,7 +28,7 @@ pub(crate) struct SweepArgs {
     #[command(flatten)]
     motor: MotorArgs,
     /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; one or two of them
-    #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template")]
+    #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = over)]
     over: Vec<Over>,
     /// The quantity of a picture
     #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
@@ -44,7 +41,6 @@ pub(crate) struct SweepArgs {
     output: OutputArgs,
 }
 
-/// A field and the values that it takes.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Over {
@@ -52,18 +48,13 @@ struct Over {
     values: Range,
 }
 
-impl FromStr for Over {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let form = || "an axis is FIELD=FIRST:LAST:POINTS, such as load_torque=0:30e-6:7".to_owned();
-        let (field, values) = text.split_once('=').ok_or_else(form)?;
-        let field = field.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
-        Ok(Self { field, values: values.parse()? })
-    }
+fn over(text: &str) -> Result<Over, String> {
+    let form = || "an axis is FIELD=FIRST:LAST:POINTS, such as load_torque=0:30e-6:7".to_owned();
+    let (field, values) = text.split_once('=').ok_or_else(form)?;
+    let field = field.trim().parse::<MotorField>().map_err(|unknown| unknown.to_string())?;
+    Ok(Over { field, values: values.parse()? })
 }
 
-/// The quantities that a picture can show.
 const PICTURES: Words<SweepQuantity> = &[
     ("speed", "Mean angular speed", SweepQuantity::Speed),
     ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
@@ -71,8 +62,7 @@ const PICTURES: Words<SweepQuantity> = &[
     ("efficiency", "Mechanical power over the power put in", SweepQuantity::Efficiency),
 ];
 
-/// Runs the command.
-pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
     let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     warn(&motor, context);
     let job = SweepJob {
@@ -89,21 +79,19 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<(), Failure> {
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// The inputs of a sweep.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SweepJob {
     motor: Motor,
     axes: Vec<Over>,
     settings: OperatingSettings,
-    /// The name of the quantity.
     picture: String,
     /// Number of vertical motions, which are the rows.
     groups: usize,
 }
 
 impl SweepJob {
-    fn sweep(&self) -> Result<MotorSweep, Failure> {
+    fn sweep(&self) -> Result<MotorSweep> {
         let axis = |over: &Over| SweepAxis::new(over.field, over.values.values().collect());
         Ok(MotorSweep::new(self.motor, self.axes.iter().map(axis).collect(), self.settings)?)
     }
@@ -121,28 +109,11 @@ impl GridJob for SweepJob {
         self.groups
     }
 
-    fn together(&self) -> usize {
-        rayon::current_num_threads()
+    fn prepare(&self, _: &dyn Observer) -> Result<MotorSweep> {
+        self.sweep()
     }
 
-    fn prepare(&self, _: &dyn Observer) -> Result<MotorSweep, Failure> {
-        let sweep = self.sweep()?;
-        if sweep.groups().len() != self.groups {
-            return Err(Failure::usage(format!(
-                "the sweep has {} vertical motions, where {} are stored",
-                sweep.groups().len(),
-                self.groups
-            )));
-        }
-        Ok(sweep)
-    }
-
-    fn compute(
-        &self,
-        sweep: &MotorSweep,
-        rows: Rows<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<Vec<Operation>>, Failure> {
+    fn compute(&self, sweep: &MotorSweep, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
         let group = |row: usize| {
             let cells = sweep.groups()[row].iter();
             let motors = cells.map(|cell| sweep.motor_of(*cell)).collect::<Result<Vec<_>, _>>()?;
@@ -151,10 +122,10 @@ impl GridJob for SweepJob {
         Ok(rows.into_par_iter().map(group).collect::<Result<_, bouncing_disk::Error>>()?)
     }
 
-    fn report(self, sweep: MotorSweep, rows: Vec<Vec<Operation>>) -> Result<Report, Failure> {
+    fn report<'a>(&'a self, sweep: &'a MotorSweep, rows: &'a [Vec<Operation>]) -> Result<Report<'a>> {
         let mut all = PartialResults::new(rows.len());
-        all.extend(rows.into_iter().enumerate());
-        let result = MotorSweepRun::from(all).into_result(&sweep)?;
+        all.extend(rows.iter().cloned().enumerate());
+        let result = MotorSweepRun::from(all).into_result(sweep)?;
         type Row = (Vec<f64>, Operation);
         let of = |row: &Row, quantity: SweepQuantity| quantity.of(&row.1);
         let mut columns = Columns::<Row>::new();
@@ -175,10 +146,10 @@ impl GridJob for SweepJob {
         let rows: Vec<Row> = result.iter().map(row).collect();
         let csv = result.to_csv();
         let Some(quantity) = SweepQuantity::ALL.into_iter().find(|own| own.name() == self.picture) else {
-            return Err(Failure::usage(format!("there is no quantity {}", self.picture)));
+            return Err(Failure::Usage(format!("there is no quantity {}", self.picture)));
         };
         Ok(Report {
-            provenance: provenance("bouncing-disk motor sweep", &self)?,
+            provenance: provenance("bouncing-disk motor sweep", self)?,
             text: columns.to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],

@@ -1,7 +1,5 @@
 //! `bouncing-disk motor transient`: the run-up of a motor from rest.
 
-use std::ops::Range as Rows;
-
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitSettings, LEAST_MEMBERS, TransientEnsemble, TransientFit};
 use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
@@ -47,8 +45,7 @@ pub(crate) struct TransientArgs {
     output: OutputArgs,
 }
 
-/// Runs the command.
-pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure> {
+pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
     let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
     warn(&motor, context);
     let job = TransientJob {
@@ -65,7 +62,6 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<(), Failure>
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
 
-/// The inputs of a run-up.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct TransientJob {
@@ -74,13 +70,9 @@ pub(crate) struct TransientJob {
     settings: TransientSettings,
 }
 
-/// Members that are computed together.
-const TOGETHER: usize = 64;
-
 impl GridJob for TransientJob {
     const COMMAND: &'static str = "motor transient";
 
-    /// The curve of a member.
     type Row = SpeedCurve;
 
     type Prepared = Vec<TransientMember>;
@@ -89,27 +81,18 @@ impl GridJob for TransientJob {
         self.members
     }
 
-    fn together(&self) -> usize {
-        TOGETHER
-    }
-
-    fn prepare(&self, _: &dyn Observer) -> Result<Vec<TransientMember>, Failure> {
+    fn prepare(&self, _: &dyn Observer) -> Result<Vec<TransientMember>> {
         Ok(TransientMember::of_ensemble(self.motor.system(), &self.settings, self.members)?)
     }
 
-    fn compute(
-        &self,
-        members: &Vec<TransientMember>,
-        rows: Rows<usize>,
-        observer: &dyn Observer,
-    ) -> Result<Vec<SpeedCurve>, Failure> {
-        let curves = transients(&members[rows], observer)?;
+    fn compute(&self, all: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
+        let curves = transients(&all[rows], observer)?;
         Ok(curves.into_iter().collect::<Result<_, _>>()?)
     }
 
-    fn report(self, _: Vec<TransientMember>, rows: Vec<SpeedCurve>) -> Result<Report, Failure> {
-        let fit = (rows.len() >= LEAST_MEMBERS).then(|| TransientFit::new(&rows, &FitSettings::default()));
-        let ensemble = TransientEnsemble::of_results(rows.into_iter().map(Ok).collect(), &Unobserved)?;
+    fn report<'a>(&'a self, _: &'a Vec<TransientMember>, rows: &'a [SpeedCurve]) -> Result<Report<'a>> {
+        let fit = (rows.len() >= LEAST_MEMBERS).then(|| TransientFit::new(rows, &FitSettings::default()));
+        let ensemble = TransientEnsemble::of_results(rows.iter().cloned().map(Ok).collect(), &Unobserved)?;
         let mut list = Quantities::default();
         list.push("members", ensemble.curves.len(), "1");
         list.push("duration", self.settings.duration, "s");
@@ -140,7 +123,7 @@ impl GridJob for TransientJob {
         let fit = fit.and_then(Result::ok);
         let policy = self.settings.policy;
         Ok(Report {
-            provenance: provenance("bouncing-disk motor transient", &self)?
+            provenance: provenance("bouncing-disk motor transient", self)?
                 .with_seed(self.settings.seed)
                 .with_chatter_policy(policy),
             text,

@@ -1,5 +1,4 @@
 //! Runs the program in a folder of its own.
-#![allow(dead_code, reason = "each test file uses a part of this")]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +32,6 @@ impl Folder {
         String::from_utf8(self.read(name)).unwrap()
     }
 
-    /// The names of all that is in it.
     pub(crate) fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.path()).unwrap();
         let mut names: Vec<String> =
@@ -73,6 +71,11 @@ impl Folder {
             assert!(text.contains(told), "{line}: {text}");
         }
     }
+}
+
+/// What is said of a file of another kind in the place of a part.
+pub(crate) fn no_part(name: &str) -> String {
+    format!("{name}: it is not a part of a computation, as --chunk of this version writes it")
 }
 
 pub(crate) fn errors(output: &Output) -> String {

@@ -1,13 +1,9 @@
 //! Signals: nothing is torn, finished rows are kept, and the same command ends in the same bytes.
-#![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use std::process::{Child, Command, Output, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use common::{Folder, errors};
+use crate::common::{Folder, errors};
 
 /// Some seconds of chaos in many rows.
 const LONG: &str = "verdicts -G 0.55:0.56:300 --impacts 90000 --threads 1";
@@ -34,10 +30,6 @@ fn wait_for_lines(folder: &Folder, name: &str, lines: usize) {
     }
 }
 
-fn end(child: Child) -> Output {
-    child.wait_with_output().unwrap()
-}
-
 #[test]
 fn an_interrupted_run_goes_on_to_the_same_bytes() {
     let folder = Folder::new();
@@ -47,7 +39,7 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
         let child = start(&folder, &line);
         wait_for_lines(&folder, "rows.journal", lines);
         signal(&child, name);
-        let output = end(child);
+        let output = child.wait_with_output().unwrap();
         let text = errors(&output);
         assert_eq!(output.status.code(), Some(status), "{text}");
         assert!(text.contains("of 300 rows are kept in rows.journal; the same command resumes"), "{text}");
@@ -76,7 +68,7 @@ fn without_a_journal_the_text_says_how_to_keep_rows() {
     let child = start(&folder, &format!("{LONG} --out map.json"));
     std::thread::sleep(Duration::from_millis(300));
     signal(&child, "INT");
-    let output = end(child);
+    let output = child.wait_with_output().unwrap();
     let text = errors(&output);
     assert_eq!(output.status.code(), Some(130), "{text}");
     assert!(text.contains("nothing is kept. With --journal FILE"), "{text}");
@@ -97,7 +89,7 @@ fn other_long_commands_stop_too() {
         std::thread::sleep(Duration::from_millis(400));
         let sent = Instant::now();
         signal(&child, "INT");
-        let output = end(child);
+        let output = child.wait_with_output().unwrap();
         assert_eq!(output.status.code(), Some(130), "{line}: {}", errors(&output));
         assert!(errors(&output).contains("interrupted: "), "{line}");
         assert!(sent.elapsed() < Duration::from_secs(5), "{line}: {:?}", sent.elapsed());

@@ -1,12 +1,9 @@
 //! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See docs/stability.md.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-mod common;
 
 use std::fs;
 use std::path::Path;
 
-use common::Folder;
+use crate::common::{Folder, no_part};
 
 /// A folder with the files that version 0.1 wrote.
 fn of_0_1() -> Folder {
@@ -40,10 +37,6 @@ fn parts_and_journals_are_refused_by_name() {
     let message = folder.refused(line, 2);
     assert!(message.contains("0.1.0") && message.contains(env!("CARGO_PKG_VERSION")), "{message}");
     // Parts were another kind of file then.
-    let message = folder.refused("merge chunk.json", 2);
-    assert!(
-        message.contains("chunk.json: it is not a part of a computation, as --chunk of this version"),
-        "{message}"
-    );
+    folder.all_refused(2, &[("merge chunk.json", &no_part("chunk.json"))]);
     assert!(folder.read("diagram.journal") == journal);
 }

@@ -3,16 +3,12 @@
 //! In a block marked `console` a line that begins with `$ ` is a command, the lines after it are what it
 //! prints, on either stream. The blocks of a file are run one after the other in one folder.
 //! `UPDATE_DOCUMENTATION=1` writes what is printed into the file in place of comparing it.
-#![cfg(unix)]
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-mod common;
 
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use common::Folder;
+use crate::common::Folder;
 
 /// Runs a command of the documentation; what it prints, each line as it stands in a file.
 fn printed(folder: &Folder, command: &str) -> Vec<String> {
@@ -63,13 +59,12 @@ fn check(path: &str) {
         fs::write(&path, new).unwrap();
         return;
     }
-    for (line, (old, new)) in text.lines().zip(new.lines()).enumerate() {
+    for (line, (old, new)) in (1..).zip(text.lines().zip(new.lines())) {
         assert_eq!(
             old,
             new,
-            "{}, line {}; UPDATE_DOCUMENTATION=1 writes what is printed",
-            path.display(),
-            line + 1
+            "{}, line {line}; UPDATE_DOCUMENTATION=1 writes what is printed",
+            path.display()
         );
     }
     assert_eq!(text.lines().count(), new.lines().count(), "{}", path.display());

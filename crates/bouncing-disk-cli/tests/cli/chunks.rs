@@ -1,9 +1,6 @@
 //! Chunks and their merge: the same bytes as without, and a refusal of foreign parts by name.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::Folder;
+use crate::common::{Folder, no_part};
 
 /// A quick line of each command that can be divided, with its number of rows.
 const GRIDS: [(&str, usize); 6] = [
@@ -63,30 +60,22 @@ fn foreign_parts_are_refused_by_name() {
     folder.done(&format!("{line} --out whole.json"));
     let (one, two, three) = ("merge part-1-of-3.json", "part-2-of-3.json", "part-3-of-3.json");
     let foreign = "is the journal of another computation: its provenance.parameters";
-    folder.all_refused(
-        2,
-        &[
-            (&format!("{one} {three}"), "2 of 7 rows are missing, first 3 to 4"),
-            (one, "5 of 7 rows are missing, first 3 to 7"),
-            (&format!("merge {two}"), "5 of 7 rows are missing, first 1 to 2"),
-            (
-                &format!("{one} other.json {three}"),
-                &format!("\"other.json\" {foreign}.job.restitution is 0.4, but 0.5 is requested"),
-            ),
-            (
-                &format!("{one} verdicts.json {three}"),
-                &format!("\"verdicts.json\" {foreign}.command is \"verdicts\", but \"diagram\" is requested"),
-            ),
-            (
-                "merge whole.json",
-                "whole.json: it is not a part of a computation, as --chunk of this version writes it",
-            ),
-            (
-                &format!("{one} whole.json"),
-                "whole.json: it is not a part of a computation, as --chunk of this version writes it",
-            ),
-        ],
-    );
+    let lines: [(&str, &str); _] = [
+        (&format!("{one} {three}"), "2 of 7 rows are missing, first 3 to 4"),
+        (one, "5 of 7 rows are missing, first 3 to 7"),
+        (&format!("merge {two}"), "5 of 7 rows are missing, first 1 to 2"),
+        (
+            &format!("{one} other.json {three}"),
+            &format!("\"other.json\" {foreign}.job.restitution is 0.4, but 0.5 is requested"),
+        ),
+        (
+            &format!("{one} verdicts.json {three}"),
+            &format!("\"verdicts.json\" {foreign}.command is \"verdicts\", but \"diagram\" is requested"),
+        ),
+        ("merge whole.json", &no_part("whole.json")),
+        (&format!("{one} whole.json"), &no_part("whole.json")),
+    ];
+    folder.all_refused(2, &lines);
 }
 
 /// However the rows are divided, a part is a journal of the same computation.
@@ -112,12 +101,8 @@ fn a_part_that_is_damaged_is_refused() {
     parts(&folder, "verdicts -G 0.3:0.6:4 --impacts 100", 2);
     let whole = folder.text("part-1-of-2.json");
     let digit = whole.rfind("0.").unwrap() + 2;
-    let changed = format!(
-        "{}{}{}",
-        &whole[..digit],
-        if &whole[digit..=digit] == "1" { "2" } else { "1" },
-        &whole[digit + 1..]
-    );
+    let mut changed = whole.clone();
+    changed.replace_range(digit..=digit, if &whole[digit..=digit] == "1" { "2" } else { "1" });
     for (text, told) in [
         (changed, "line 3"),
         (whole.replace("\"start\":\"rise\"", "\"start\":\"rest\""), "line 1"),

@@ -1,11 +1,8 @@
 //! The numbers of the program are those of the library, to the last bit.
 
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-mod common;
-
 use std::f64::consts::TAU;
 
+use crate::common::Folder;
 use bouncing_disk::core::attractors::{
     AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
 };
@@ -16,7 +13,6 @@ use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
 use bouncing_disk::toss::{InitialSpin, TossConstraints, best_toss, single_toss};
 use bouncing_disk::{Motor, System};
-use common::Folder;
 use serde::Serialize;
 use serde_json::{Value, json};
 

@@ -1,11 +1,8 @@
 //! Files and streams: what is written, what is never overwritten, and what happens when nobody reads.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
-
-mod common;
 
 use std::process::Stdio;
 
-use common::{Folder, errors};
+use crate::common::{Folder, errors};
 use serde_json::Value;
 
 /// Every command that computes, made quick.
@@ -57,10 +54,7 @@ fn every_command_writes_every_kind_of_file() {
         let pictures = format!("{line} --out {svg} --out {png}");
         if has_picture {
             folder.done(&pictures);
-            assert!(
-                folder.read(&svg).starts_with(b"<?xml") || folder.read(&svg).starts_with(b"<svg"),
-                "{line}"
-            );
+            assert!(folder.read(&svg).starts_with(b"<svg"), "{line}");
             assert!(folder.read(&png).starts_with(b"\x89PNG"), "{line}");
         } else {
             assert!(folder.refused(&pictures, 2).contains("has no picture"), "{line}");
@@ -76,14 +70,12 @@ fn places_that_cannot_be_written_are_refused_before_anything_is_computed() {
     std::fs::create_dir(folder.join("taken.csv")).unwrap();
     // It would take hours.
     let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --out";
-    folder.all_refused(
-        2,
-        &[
-            (&format!("{long} a.csv"), "a.csv: it is there already; --force replaces it"),
-            (&format!("{long} no/such/a.csv"), "there is no folder no/such"),
-            (&format!("{long} taken.csv"), "it is a folder"),
-        ],
-    );
+    let lines: [(&str, &str); _] = [
+        (&format!("{long} a.csv"), "a.csv: it is there already; --force replaces it"),
+        (&format!("{long} no/such/a.csv"), "there is no folder no/such"),
+        (&format!("{long} taken.csv"), "it is a folder"),
+    ];
+    folder.all_refused(2, &lines);
     if cfg!(target_os = "linux") {
         // A folder in which nobody can write.
         folder.all_refused(1, &[(&format!("{long} /proc/a.csv"), "/proc/a.csv cannot be written")]);
@@ -280,14 +272,12 @@ fn an_input_is_no_result() {
     folder.done("verdicts -G 0.3:0.4:2 --impacts 64 --chunk 1/1 --out part.json");
     folder.write("toss.json", "{}");
     let told = "it cannot be an input and the result";
-    folder.all_refused(
-        2,
-        &[
-            ("fit run.csv --out ./run.csv --force", told),
-            ("merge part.json --out part.json --force", told),
-            ("toss toss.json --out toss.json --force", told),
-        ],
-    );
+    let lines: [(&str, &str); _] = [
+        ("fit run.csv --out ./run.csv --force", told),
+        ("merge part.json --out part.json --force", told),
+        ("toss toss.json --out toss.json --force", told),
+    ];
+    folder.all_refused(2, &lines);
     assert_eq!(folder.read("toss.json"), b"{}");
 }
 
@@ -302,6 +292,7 @@ fn one_file_by_two_names_is_seen_before_anything_is_computed() {
     for (to, name) in links {
         symlink(to, folder.join(name)).unwrap();
     }
+    folder.write("inner/a.json", "");
     // It would take hours.
     let long = "verdicts -G 0:3:20000 -r 0:0.9:20000 --force --out";
     for (options, told) in [

@@ -1,0 +1,173 @@
+//! `bouncing-disk motor stall`, `motor phase-lag` and `motor traps`: the load that stops the motor, the
+//! phase lag at which it turns fastest, and the preloads at which it is locked on a short cycle.
+
+use bouncing_disk::Motor;
+use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings, TrapRange};
+
+use super::settings::{SettingsArgs, SpreadArgs, lock_note, state, warn};
+use crate::commands::prelude::*;
+
+/// The arguments of a command that looks for one operation of a motor.
+#[derive(Debug, Clone, Args)]
+pub(super) struct OperationArgs {
+    #[command(flatten)]
+    motor: MotorArgs,
+    #[command(flatten)]
+    settings: SettingsArgs,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+impl OperationArgs {
+    /// The motor and how it is computed, if the result can be written; `None` where the template was asked for,
+    /// and has been written.
+    fn begin(&self, context: Context) -> Result<Option<(Motor, OperatingSettings)>> {
+        let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
+        warn(&motor, context);
+        Ok(Some((motor, self.settings.settings())))
+    }
+}
+
+/// The load torque that stops the motor
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The true stall: the load torque at which the mean speed vanishes, not the paper's estimate from the run-up without load \
+(`bouncing-disk fit` has that one). Errors are standard errors at exactly these inputs; the spread is over motors whose \
+preload and amplitude lie within the tolerance, and the relaunch perturbation within a decade. See \
+docs/designing-a-motor.md.
+
+Example:
+  bouncing-disk motor stall motor.toml")]
+pub(crate) struct StallArgs {
+    #[command(flatten)]
+    operation: OperationArgs,
+    #[command(flatten)]
+    spread: SpreadArgs,
+}
+
+pub(super) fn stall(args: &StallArgs, context: Context) -> Result<()> {
+    let Some((motor, settings)) = args.operation.begin(context)? else { return Ok(()) };
+    let stall = motor.stall_load(&settings, &context.watch("motor stall"))?;
+    let tolerance = args.spread.tolerance();
+    let watch = context.watch("motor stall: spread");
+    let spread = tolerance.map(|tolerance| motor.stall_spread(&settings, &tolerance, &watch));
+    let spread = spread.transpose()?.flatten();
+    let mut list = Quantities::default();
+    list.push("stall_torque", stall.torque.value, "N m");
+    list.push("stall_torque_error", stall.torque.standard_error, "N m");
+    if let Some(spread) = spread {
+        list.push("spread", spread.standard_deviation.value, "N m");
+        list.push("spread_error", spread.standard_deviation.standard_error, "N m");
+        list.push("draws_from", spread.from_to[0], "N m");
+        list.push("draws_to", spread.from_to[1], "N m");
+        list.push("draws_in_a_trap", format!("{} of {}", spread.trapped, spread.draws + spread.without), "1");
+    }
+    list.push("share_of_largest_torque", stall.share, "1");
+    list.push("surely_turns_at", stall.bracket[0], "N m");
+    list.push("surely_driven_back_at", stall.bracket[1], "N m");
+    list.push("no_load_speed", stall.no_load_speed.value, "rad/s");
+    list.push("no_load_speed_error", stall.no_load_speed.standard_error, "rad/s");
+    let job = json!({ "motor": motor, "settings": settings, "tolerance": tolerance });
+    let report = Report {
+        provenance: provenance("bouncing-disk motor stall", &job)?,
+        text: list.to_text() + &lock_note(&motor)?,
+        table: list.into_csv(),
+        data: vec![("stall_load", stored(&stall)?), ("spread", stored(&spread)?)],
+        figure: None,
+    };
+    report.deliver(&args.operation.output, context)
+}
+
+/// The phase lag at which the motor turns fastest
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Under the load of the data sheet; the other direction is best half a circle away. Errors are standard errors. See \
+docs/designing-a-motor.md.
+
+Example:
+  bouncing-disk motor phase-lag motor.toml --set load_torque=1e-5")]
+pub(crate) struct LagArgs {
+    #[command(flatten)]
+    operation: OperationArgs,
+}
+
+pub(super) fn phase_lag(args: &LagArgs, context: Context) -> Result<()> {
+    let Some((motor, settings)) = args.operation.begin(context)? else { return Ok(()) };
+    let best = motor.best_phase_lag(&settings, &context.watch("motor phase-lag"))?;
+    let mut list = Quantities::default();
+    list.push("best_phase_lag", best.phase_lag.value, "rad");
+    list.push("best_phase_lag_error", best.phase_lag.standard_error, "rad");
+    list.push("speed", best.speed.value, "rad/s");
+    list.push("speed_error", best.speed.standard_error, "rad/s");
+    list.push("within_1_percent_from", best.good_from_to[0], "rad");
+    list.push("within_1_percent_to", best.good_from_to[1], "rad");
+    let report = Report {
+        provenance: provenance(
+            "bouncing-disk motor phase-lag",
+            &json!({ "motor": motor, "settings": settings }),
+        )?,
+        text: list.to_text(),
+        table: list.into_csv(),
+        data: vec![("best_phase_lag", stored(&best)?)],
+        figure: None,
+    };
+    report.deliver(&args.operation.output, context)
+}
+
+/// Ranges of the preload that trap the motor, with the speed inside
+#[derive(Debug, Args)]
+#[command(after_help = "\
+A motor in a trap repeats a short cycle of flights and rest, whose speed may be far from that beside the trap, or near it. A \
+motor whose preload is known to 1 % meets a trap of relative width w with a chance of up to w/2 %. Speeds are \
+those near both edges and in the middle of the range, under the load of the data sheet. See docs/designing-a-motor.md.
+
+Example:
+  bouncing-disk motor traps motor.toml --from 4 --to 6")]
+pub(crate) struct TrapsArgs {
+    #[command(flatten)]
+    operation: OperationArgs,
+    /// Least preload (N); 0.9 times that of the motor unless given
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
+    from: Option<f64>,
+    /// Largest preload (N); 1.1 times that of the motor unless given
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "FORCE")]
+    to: Option<f64>,
+    /// Least width of a range, relative to the preload
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "SHARE", default_value_t = LEAST_TRAP_WIDTH)]
+    least_width: f64,
+}
+
+pub(super) fn traps(args: &TrapsArgs, context: Context) -> Result<()> {
+    let Some((motor, settings)) = args.operation.begin(context)? else { return Ok(()) };
+    let (own, mass) = (motor.preload_force(), motor.mass());
+    let preload_from_to = [args.from.unwrap_or(0.9 * own), args.to.unwrap_or(1.1 * own)];
+    let [from, to] = preload_from_to.map(|force| force / mass);
+    let watch = context.watch("motor traps");
+    let traps = motor.trap_ranges([from, to], args.least_width, &settings, &watch)?;
+    let speed = |trap: &TrapRange, at: usize| trap.operations[at].point().map(|point| point.speed);
+    let columns = Columns::<TrapRange>::new()
+        .column("preload_from", "N", move |trap| mass * trap.preload_from_to[0])
+        .column("preload_to", "N", move |trap| mass * trap.preload_from_to[1])
+        .column("relative_width", "%", |trap| 100.0 * trap.relative_width)
+        .column("long_flights", "1", |trap| trap.verdict.cycle.map(|cycle| cycle.long_flights as f64))
+        .column("platform_periods", "1", |trap| trap.verdict.cycle.map(|cycle| cycle.platform_periods as f64))
+        .column("state", "1", |trap| state(&trap.operations[1]))
+        .column("lower_speed", "rad/s", move |trap| speed(trap, 0).map(|speed| speed.value))
+        .column("middle_speed", "rad/s", move |trap| speed(trap, 1).map(|speed| speed.value))
+        .column("upper_speed", "rad/s", move |trap| speed(trap, 2).map(|speed| speed.value))
+        .column("speed_error", "rad/s", move |trap| speed(trap, 1).map(|speed| speed.standard_error));
+    let job = json!({
+        "motor": motor,
+        "settings": settings,
+        "preload_from_to": preload_from_to,
+        "least_width": args.least_width,
+    });
+    let report = Report {
+        provenance: provenance("bouncing-disk motor traps", &job)?,
+        text: columns.to_text(&traps),
+        data: vec![("traps", stored(&traps)?)],
+        table: columns.csv_of(traps),
+        figure: None,
+    };
+    report.deliver(&args.operation.output, context)
+}

@@ -1,0 +1,195 @@
+//! Bad input is refused with status 2 and a text that says what is wrong, where, and what would be right.
+
+use crate::common::{Folder, no_part};
+
+#[test]
+fn files_of_parameters_that_cannot_be_read() {
+    let folder = Folder::new();
+    std::fs::create_dir(folder.join("folder.toml")).unwrap();
+    std::fs::write(folder.join("bytes.toml"), b"a = \xff").unwrap();
+    let deep = format!("{{\"disk\":{}1{}", "{\"a\":".repeat(100_000), "}".repeat(100_001));
+    let keys: Vec<String> = (0..2_000).map(|key| format!("\"{key}\":1")).collect();
+    let (toss, motor) = (folder.done("toss --template"), folder.done("motor report --template"));
+    for (name, text) in [
+        ("empty.json", ""),
+        ("a.txt", ""),
+        ("deep.json", &deep),
+        ("wide.json", &format!("{{{}}}", keys.join(","))),
+        ("toss.toml", &toss),
+        ("negative.toml", &toss.replace("friction = 0.6", "friction = -1")),
+        ("motor.toml", &motor),
+        ("motor.json", "{\"mass\": 1e-3,\n\"friction\": 0.1}"),
+        ("misspelt.json", "{\"amplitud\": 1e-8}"),
+    ] {
+        folder.write(name, text);
+    }
+    let lines = [
+        ("toss deep.json", "error: deep.json: line 1"),
+        ("toss wide.json", "error: wide.json: line 1: the key \"0\" is unknown"),
+        ("toss missing.toml", "missing.toml cannot be read"),
+        ("toss folder.toml", "not a regular file"),
+        ("toss bytes.toml", "no text in UTF-8"),
+        ("toss empty.json", "empty.json: line 1: "),
+        ("toss a.txt", "ends in .json or .toml"),
+        ("toss a", "ends in .json or .toml"),
+        ("motor report missing.json", "missing.json cannot be read"),
+        ("motor report empty.json", "empty.json: line 1"),
+        ("motor report a.txt", "ends in .json or .toml"),
+        ("fit missing.csv", "missing.csv"),
+        ("merge missing.json", "missing.json: it cannot be read"),
+        ("merge empty.json", &no_part("empty.json")),
+        ("merge folder.toml", "not a regular file"),
+        ("toss negative.toml", "error: negative.toml: friction = -1 is outside its legal range"),
+        ("toss toss.toml --set disk.restitution=1", "toss.toml with --set: restitution = 1 is outside"),
+        (
+            "motor report misspelt.json",
+            "misspelt.json: line 1: the key \"amplitud\" is unknown; did you mean \"amplitude\"?",
+        ),
+        ("motor report motor.toml --set friction=-1", "motor.toml with --set: friction = -1 is outside"),
+        // A file of the other kind.
+        ("toss motor.toml", "the key \"amplitude\" is unknown; the known ones are platform, disk"),
+        ("toss motor.json", "the key \"mass\" is unknown; the known ones are platform, disk"),
+        ("motor report toss.toml", "the key \"disk\" is unknown"),
+    ];
+    folder.all_refused(2, &lines);
+}
+
+#[test]
+fn words_of_the_line_that_are_not_legal() {
+    let folder = Folder::new();
+    let lines = [
+        ("", "Usage"),
+        ("tos", "tip: a similar subcommand exists: 'toss'"),
+        ("toss --out a.txt", ".csv, .json, .png or .svg"),
+        ("toss --out .csv", ".csv, .json, .png or .svg"),
+        ("toss --out a.csv.gz", ".csv, .json, .png or .svg"),
+        ("toss --out a.csv/..", ".csv, .json, .png or .svg"),
+        ("toss --preset pizza", "pizza-toss"),
+        ("toss --preset motor a.toml", "cannot be used with"),
+        ("toss --set friction=0.2", "did you mean \"disk.friction\"?"),
+        ("toss --set disk.friction", "KEY=VALUE"),
+        ("toss --set disk.friction=x", "\"x\" is no number"),
+        ("toss --set disk.friction=nan", "--set: friction = NaN"),
+        ("toss --samples 1", "2..=1000000"),
+        ("motor report --set frction=0.2", "did you mean \"friction\"?"),
+        ("motor sweep", "--over"),
+        ("motor sweep --over load=0:1:3", "load_torque"),
+        ("motor sweep --over load_torque", "FIELD=FIRST:LAST:POINTS"),
+        ("motor sweep --over friction=0:1:2 --over friction=0:1:2", "friction"),
+        ("motor curve --relative-error 2", "relative_error = 2 is"),
+        ("motor transient --duration nan", "duration = NaN"),
+        ("motor transient --members 0", "members"),
+        ("diagram -G 0.6:0.5:3", "reversed"),
+        ("diagram -G nan", "not finite"),
+        ("diagram -G -1", "axial_forcing = -1 is"),
+        ("diagram -r 1", "restitution = 1 is"),
+        ("diagram -r 0.1:0.2:3", "takes a single number"),
+        ("diagram --start up", "rest, rise, period-1 and PHASE,SPEED"),
+        ("diagram --chunk 0/3 --out a.json", "I/N"),
+        ("diagram --chunk 1/3", "--chunk needs one --out FILE.json"),
+        ("diagram --chunk 1/3 --out a.csv", "--chunk needs one --out FILE.json"),
+        ("diagram --journal a.json --out a.json", "a.json: it cannot be the journal and the result"),
+        ("diagram --journal ./a.json --out a.json", "a.json: it cannot be the journal and the result"),
+        ("diagram --journal rows/", "--journal: rows/: this is the name of a folder"),
+        ("diagram --journal no/rows", "--journal: no/rows: there is no folder no"),
+        ("diagram --journal .", "--journal: .: this is the name of a folder"),
+        ("toss --out a.csv --out b.csv --out a.csv", "a.csv: it is asked for twice"),
+        ("toss --out a.csv --out ./a.csv", "./a.csv: it is asked for twice, as a.csv before"),
+        ("toss --out a.csv/", "a.csv/: this is the name of a folder"),
+        ("toss --out a.csv/.", "a.csv/.: this is the name of a folder"),
+        (
+            "toss --out a.toml",
+            "a.toml: a result is .csv, .json, .png or .svg; .toml is the file of --template",
+        ),
+        ("toss --template --out a.csv", "--template writes TOML"),
+        ("motor sweep --template --out a.json", "--template writes TOML"),
+        ("verdicts --template --out a.toml --out b.toml", "with one --out FILE.toml"),
+        ("orbits --template --out no/a.toml", "there is no folder no"),
+        ("doublings -G 0.5", "unexpected argument '-G'"),
+        ("doublings --axial-forcing 0.5", "unexpected argument '--axial-forcing'"),
+        (
+            "toss --many --periods 1073741825 --transient 1",
+            "periods = 1073741825 is outside its legal range [0, 1073741824]",
+        ),
+        ("toss --many --periods 18446744073709551615", "periods"),
+        ("toss --many --periods 18446744073709551616", "--periods"),
+        ("diagram -G 0.3:0.30000000000000004:1000", "nearer than numbers can be"),
+        (
+            "verdicts -G 0:3:1000000 -r 0:0.9:1000000",
+            "not enough memory for 1000000000000 cells of a map of verdicts: at most 2147483648",
+        ),
+        (
+            "verdicts -G 0:3:10000 -r 0:0.9:10000 --details --chunk 1/100 --out a.json",
+            "not enough memory for 100000000 verdicts with their evidence: at most 16777216",
+        ),
+        (
+            "diagram -G 0:3:1000000 --recorded 1000000",
+            "not enough memory for 2000000000000 impacts of a diagram: at most 2147483648",
+        ),
+        ("verdicts --impacts 1", "impacts"),
+        ("basins --cells 0", "cells"),
+        ("basins -G 0.1:0.2:3", "takes a single number"),
+        ("basins --phase 1:0", "reversed"),
+        ("basins --phase 0.5:0.5", "axis"),
+        ("basins --phase 0.5:0.5000000000000002", "--phase: 300 cells from 0.5 to 0.5000000000000002"),
+        ("basins --speed 1:1.0000000000000002 --cells 9", "are nearer than numbers can be"),
+        ("orbits --impacts 0", "impacts"),
+        ("doublings --count 99", "count"),
+        ("doublings -r 0", "restitution"),
+        ("design --friction 0.7:0.5", "reversed"),
+        ("design --stroke -1", "stroke = -1 is"),
+        ("design --highest-flight -1", "highest_flight = -1 is"),
+        ("basins --phase -1:x", "\"x\" is no number"),
+        ("fit a.csv --parameter mass=0:1", "cannot be fitted"),
+        ("fit a.csv --parameter friction=0.1:0.4", "--motor FILE"),
+        ("merge", "FILE"),
+        ("man toss many", "no command"),
+        ("toss --threads 0", "--threads"),
+    ];
+    folder.all_refused(2, &lines);
+    assert!(folder.names().is_empty(), "{:?}", folder.names());
+}
+
+/// A value that begins with a minus is a value and no option: the message is about the number. That every
+/// option of a number takes such values is a test of the command line's description.
+#[test]
+fn negative_values_are_values() {
+    let folder = Folder::new();
+    for line in [
+        "toss --samples -1",
+        "toss --set disk.friction=-1",
+        "motor transient --duration -1e-3",
+        "motor sweep --over friction=-1:1:3",
+        "diagram -G -1:1:3",
+        "diagram --start -0.1,-1",
+        "diagram --chunk -1/3 --out b.json",
+    ] {
+        let text = folder.refused(line, 2);
+        assert!(text.contains("-1") || text.contains("-0."), "{line}: {text}");
+        assert!(
+            !text.contains("unexpected argument") && !text.contains("a value is required"),
+            "{line}: {text}"
+        );
+    }
+    // These are legal.
+    for line in [
+        "diagram -G 0.4 --start -0.1,1 --transient 0 --recorded 1",
+        "motor curve --loads -1e-6 --relative-error 0.5 --members 4 --no-spread",
+        "basins --cells 2 --starts 1 --phase -0.5:0.5",
+        "toss --set platform.phase_lag=-1",
+    ] {
+        folder.done(line);
+    }
+}
+
+#[test]
+fn a_computation_that_fails_is_no_bad_input() {
+    let folder = Folder::new();
+    folder.write("short.csv", "time_s,speed_rad_s\n0.1,1\n0.2,2\n0.3,3\n0.4,4\n");
+    let lines = [
+        ("toss --set platform.amplitude=0.001", "never leaves the platform"),
+        ("motor stall --set peak_angular_speed=0 --most-impacts 1000", "does not turn"),
+        ("fit short.csv", "the curve is not fitted"),
+    ];
+    folder.all_refused(1, &lines);
+}
