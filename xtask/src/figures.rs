@@ -131,32 +131,17 @@ fn shell_word(text: &OsStr) -> String {
 
 /// Does what the options ask for.
 pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
-<<<<<<< HEAD
     let entries = registry::all();
-    let selected = match registry::select(&entries, &options.ids) {
-        Ok(selected) if options.ids.is_empty() => {
-            selected.into_iter().filter(|entry| entry.is_extra() == options.extras).collect()
-        }
+    let mut selected = match registry::select(&entries, &options.ids) {
         Ok(selected) => selected,
         Err(error) => {
             complain!("error: {error}");
             return Ok(ExitCode::from(USAGE));
         }
     };
-=======
-    let refuse = |words: String| {
-        complain!("error: {words}");
-        Ok(ExitCode::from(USAGE))
-    };
-    let entries = registry::all();
-    let mut selected = match registry::select(&entries, &options.ids) {
-        Ok(selected) => selected,
-        Err(error) => return refuse(error.to_string()),
-    };
     if options.ids.is_empty() {
-        selected.retain(|entry| registry::is_extra(entry.id) == options.extras);
+        selected.retain(|entry| entry.is_extra() == options.extras);
     }
->>>>>>> third-model
     let folder = options.measured_folder();
     // The default folder may be missing; one that was asked for may not.
     if options.measured.is_some() && !folder.is_dir() {
@@ -165,16 +150,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
-<<<<<<< HEAD
-=======
-    // Tables would be taken for measurements.
-    let real = |path: &Path| path.canonicalize().ok();
-    if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
-        let folder = visible_path(&folder);
-        return refuse(format!("{folder} is the folder of the measurements; --out must be another"));
-    }
     let run = Run { options, entries: &entries, selected: &selected, measurements: &measurements };
->>>>>>> third-model
     if options.list {
         return run.list();
     }
@@ -297,7 +273,7 @@ impl Run<'_> {
             let comparable: Vec<&RegisteredExperiment> = selected
                 .iter()
                 .copied()
-                .filter(|entry| registry::is_extra(entry.id) == (pictures == Pictures::Extras))
+                .filter(|entry| entry.is_extra() == (pictures == Pictures::Extras))
                 .filter(|entry| measurements.digest(entry.measurements).is_empty())
                 .collect();
             let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;
@@ -329,19 +305,10 @@ impl Run<'_> {
         let (current, due): (Vec<_>, Vec<_>) = selected
             .iter()
             .copied()
-<<<<<<< HEAD
-            .filter(|entry| entry.is_extra() == (pictures == Pictures::Extras))
-            .filter(|entry| measurements.digest(entry.measurements).is_empty())
-            .collect();
-        let names = pages::outdated(pictures, &comparable, options.quality, &folder, &docs)?;
-        for name in &names {
-            say!("{DOCS_FOLDER}/{name}: missing or out of date")?;
-=======
             .partition(|entry| !options.force && self.state(entry, quality, folder).is_ok());
         let widest = width_of_ids(current.iter().map(|entry| entry.id));
         for entry in &current {
             say!("{:<widest$} up to date", entry.id)?;
->>>>>>> third-model
         }
         let report = Report::new();
         let finished = work::make_all(&due, quality, measurements, folder, threads(options), &report);

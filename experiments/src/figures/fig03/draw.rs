@@ -2,13 +2,8 @@
 
 use bouncing_disk::motion::{EventKind, ModeKind, Transition};
 use bouncing_disk_plot::{
-<<<<<<< HEAD
     Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Stroke,
-    Style, Text, TextBox, TextStyle, Ticks,
-=======
-    Anchor, Axis, Colour, Corner, Dash, Drawing, Figure, Label, Legend, Line, Marker, Panel, Rect, Scatter,
-    Stroke, Style, Text, TextStyle, Ticks,
->>>>>>> third-model
+    Style, Text, TextStyle, Ticks,
 };
 
 use super::census::{Census, ChatteringCycle};
