@@ -309,10 +309,10 @@ impl PeriodicOrbit {
         let radius = first_halving(LARGEST_CIRCLE, smallest, |radius| {
             for part in CIRCLES {
                 let from = part * radius;
-                let nearer = |search: &mut Search<'_>, start, centre| {
-                    search.comes_nearer(self.period() as u64, (start, centre), from)
+                let returns = |search: &mut Search<'_>, start, centre| {
+                    search.returns_nearer(self.period() as u64, (start, centre), from)
                 };
-                if !search.all_on_circle(self, from, CIRCLE_SAMPLES, nearer)? {
+                if !search.all_on_circle(self, from, CIRCLE_SAMPLES, returns)? {
                     return Ok(false);
                 }
             }
@@ -428,8 +428,9 @@ impl<'w> Search<'w> {
         Ok(true)
     }
 
-    /// Whether a start comes back nearer to its impact than it began.
-    fn comes_nearer(
+    /// Whether a start comes back nearer to `centre`, the impact of the orbit that it began beside, by the rule of
+    /// [`PeriodicOrbit::trapping_radius`]. (A verdict asks less: whether an orbit approaches any of the impacts.)
+    fn returns_nearer(
         &mut self,
         period: u64,
         (start, centre): (ImpactState, ImpactState),

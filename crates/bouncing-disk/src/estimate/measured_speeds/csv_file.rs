@@ -223,7 +223,7 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// The first line that names times and speeds. Only text is before it: a line of numbers ends the search.
+    /// The first line that names times and speeds. Only lines of text may precede it: a line of numbers ends the search.
     fn find(
         lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
         columns: &CsvColumns,
@@ -245,12 +245,12 @@ impl<'a> Header<'a> {
                     Err(other) => own = own.or(Some(other)),
                 }
             }
-            // A line without any separator is text, unless it is all that there is.
+            if are_numbers {
+                return Err(Located(Some(line.0), None, CsvFault::NoHeader));
+            }
+            // A line without any separator is text, unless no other line is a header.
             let single = || Self::read(line.0, ',', &[plain(line.1)], columns).err();
             fault = own.or_else(|| if fault.is_none() { single() } else { fault.take() }).or(fault);
-            if are_numbers {
-                break;
-            }
         }
         Err(fault.unwrap_or(Located(None, None, CsvFault::Empty)))
     }
