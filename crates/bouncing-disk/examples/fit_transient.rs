@@ -19,7 +19,7 @@ fn main() -> Result<(), FitError> {
         .map(|(curve, member)| MeasuredRun { member, times: curve.times, speeds: curve.speeds })
         .collect();
 
-    // What is fitted is the mean over the runs; their scatter gives the 95 % intervals.
+    // The fit is to the mean over the runs; their scatter gives the 95 % intervals.
     let fit = MeasuredSpeeds::new(runs.clone())?.fit(&FitSettings::default(), &Unobserved)?;
     println!("steady speed {:.3} rad/s", fit.steady_speed());
     println!("time constant {:.3} s", fit.time_constant());

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = BasinSettings::default();
     let whole = found.basins(grid, settings, &Unobserved)?;
 
-    // The periodic attractors are what a run of basins needs to know. This observer stops it at its fourth call.
+    // A run of basins needs the periodic attractors. This observer stops it at its fourth call.
     let known: Vec<_> = found.known().cloned().collect();
     let calls = AtomicU32::new(0);
     let stop = |_: Progress| {
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     run.advance(&bouncing_disk::Unobserved)?;
     println!("the same basins after it was stored: {}", run.into_basins()? == whole);
 
-    // Rows may be made anywhere, in any order; attractors without a period are recognised, too.
+    // Rows may be computed anywhere, in any order; attractors without a period are recognised, too.
     let upper = found.basins_of_rows(grid, 60..120, settings, &Unobserved)?;
     let lower = found.basins_of_rows(grid, 0..60, settings, &Unobserved)?;
     println!("the same basins from two halves: {}", Basins::stacked([lower, upper])? == whole);

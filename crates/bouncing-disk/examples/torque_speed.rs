@@ -23,7 +23,7 @@ fn main() -> Result<(), Error> {
     })?;
     let settings = OperatingSettings::default();
 
-    // All loads ride on one vertical motion. Each number comes with its standard error.
+    // All loads share one vertical motion. Each number comes with its standard error.
     let loads = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2].map(|share| share * motor.largest_torque());
     for operation in motor.torque_speed_curve(&loads, &settings, &Unobserved)? {
         let load = 1e3 * operation.load_torque();

@@ -310,7 +310,7 @@ fn definitions(text: &str) -> impl Iterator<Item = &str> {
 fn the_map_of_the_paper_is_right() {
     let mut faults = Faults::default();
     let text = read("docs/architecture.md");
-    let (_, table) = text.split_once("## Where the paper is").expect("a section");
+    let (_, table) = text.split_once("## Where to find the paper's equations").expect("a section");
     let (table, _) = table.split_once("\n## ").expect("another one");
     let mut libraries = files();
     libraries.retain(|path| {
