@@ -1,4 +1,4 @@
-//! A disk that bounces on a platform which vibrates and twists: pizza dough on a hand, the rotor of an
+//! A disk bouncing on a platform that vibrates and twists: pizza dough on a hand, the rotor of an
 //! ultrasonic motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
 //!
 //! A [`System`] is a [`Disk`] on a [`Platform`], in SI units. [`Engine`] computes its motion event by event.

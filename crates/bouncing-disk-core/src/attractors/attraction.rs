@@ -48,7 +48,7 @@ const LARGEST_REGION: f64 = 0.5;
 const ROUNDINGS: f64 = 0.99;
 const SMALLEST_REGION: f64 = 64.0 * f64::EPSILON;
 
-/// Squarings of the derivative around the orbit: of the power 2^64 that they reach nothing is left.
+/// Squarings of the derivative around the orbit: its power 2^64 is zero in doubles.
 const SQUARINGS: u32 = 64;
 
 /// A number that lies within a radius about its middle.
@@ -303,7 +303,7 @@ impl PeriodicOrbit {
         Ok(Some(inner.max(SHARE_OF_WIDEST * widest)))
     }
 
-    /// The radius of circles from which starts come back nearer; `None` if none is above `least`.
+    /// Half the radius of the circles from which starts come back nearer; `None` if it is not above `least`.
     fn sampled_circles(&self, search: &mut Search<'_>, least: f64) -> Result<Option<f64>, Error> {
         let smallest = SMALLEST_CIRCLE.max(least / SHARE_OF_CIRCLE);
         let radius = first_halving(LARGEST_CIRCLE, smallest, |radius| {
@@ -321,7 +321,7 @@ impl PeriodicOrbit {
         Ok(radius.map(|radius| SHARE_OF_CIRCLE * radius))
     }
 
-    /// What a flight and its distance from this orbit count as for an observer.
+    /// The work of a flight, and of its distance from this orbit, in the units of an observer.
     fn flights_of_step(&self) -> u64 {
         1 + self.period() as u64 / 16
     }
@@ -395,7 +395,7 @@ fn widenings() -> u64 {
         .count() as u64
 }
 
-/// What the radii are found with: the map, the scale of its speeds, and the work so far.
+/// The state of the search for a radius: the map, the scale of its speeds, and the work so far.
 struct Search<'w> {
     map: &'w ImpactMap,
     scale: f64,

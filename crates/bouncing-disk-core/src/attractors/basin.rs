@@ -312,7 +312,7 @@ impl Basins {
     }
 
     /// How many cells have this label, with the interval that a sample of as many starts leaves for the share.
-    /// For [`UNDECIDED`] these are the cells of which nothing is known.
+    /// For [`UNDECIDED`] these are the cells without a known fate.
     ///
     /// The cells of a grid are more even than a random sample: the error of the grid is about half the share of
     /// the cells at a boundary at most, and mostly far less.
@@ -410,7 +410,7 @@ impl ImpactMap {
 /// Impacts of known orbits that a state is compared with in about the time of a flight.
 const TARGETS_OF_FLIGHT: usize = 8;
 
-/// What a flight and the comparison of its impact with the known orbits count as for an observer.
+/// The work of a flight, and of the comparison of its impact with the known orbits, in the units of an observer.
 fn flights_of_label(known: &[KnownOrbit]) -> u64 {
     let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
     1 + (impacts / TARGETS_OF_FLIGHT) as u64

@@ -23,7 +23,7 @@ use settings::AttractorSearch;
 /// Most attractors but for the disk at rest: as many as labels tell apart.
 const MOST_ATTRACTORS: usize = 250;
 
-/// What a disk does after it has come to rest on the platform.
+/// The motion of a disk after it has come to rest on the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAfterRest"))]
@@ -54,7 +54,7 @@ impl AfterRest {
         }
     }
 
-    /// What it is made of has been checked when it was read; the number is checked by [`Attractors`].
+    /// Reading has already checked the parts; [`Attractors`] checks the number.
     const fn check(&self) -> Result<(), Error> {
         match *self {
             Self::LeadsTo(0) => {

@@ -1,4 +1,4 @@
-//! What an orbit of the impact map does for good: a verdict with its evidence, for one start or for many in
+//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or for many in
 //! lockstep.
 
 mod display;
@@ -21,8 +21,7 @@ use witness::Witness;
 /// which leave lanes empty, do not count.
 const TOGETHER: usize = 1 << 14;
 
-/// What an orbit does for good, and the evidence. Impacts and rests are judged by
-/// [`ChatterPolicy::Complete`].
+/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedVerdict"))]
@@ -231,7 +230,7 @@ fn check_rests(rests: u64) -> Result<(), Error> {
 }
 
 impl Verdict {
-    /// Checks what is read: what [`ImpactMap::verdict`] may find.
+    /// Checks a verdict that is read: whether [`ImpactMap::verdict`] could give it.
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::Periodic { impacts, platform_periods, multipliers, state, distance, rests, .. } => {
@@ -307,7 +306,7 @@ impl UndecidedReason {
 }
 
 impl ImpactMap {
-    /// What the orbit from `state` does for good.
+    /// The long-term behaviour of the orbit from `state`.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings};
@@ -328,9 +327,8 @@ impl ImpactMap {
     }
 }
 
-/// What the orbit of each of `starts` does for good, in their order; the orbits are advanced in lockstep,
-/// with the bits of
-/// [`ImpactMap::verdict`].
+/// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep, with the
+/// bits of [`ImpactMap::verdict`].
 ///
 /// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
 ///
@@ -338,7 +336,7 @@ impl ImpactMap {
 /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
 /// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
-/// // From order to chaos: what a disk does against the forcing.
+/// // From order to chaos: the motion of a disk over the forcing.
 /// let start = ImpactState::from_normalised(1.2, 1.3)?;
 /// let starts = (0..20)
 ///     .map(|k| {

@@ -16,7 +16,7 @@ mod tangency;
 use following::End;
 use tangency::{Pair, tangencies};
 
-/// Where a crisis is sought, and how many impacts are followed.
+/// The range of forcings in which to find a crisis, and the number of impacts to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrisisSearch {
     restitution: f64,
@@ -88,13 +88,13 @@ pub struct Crisis {
     pub bracket: (f64, f64),
     /// An impact on the attractor next to the lower end of the bracket.
     pub attractor: ImpactState,
-    /// What the disk does after a rest just beyond the crisis.
+    /// The motion of the disk after a rest just beyond the crisis.
     pub after_rest: LifeAfterRest,
-    /// The tangency of manifolds that is the reason, or why none is known.
+    /// The tangency of manifolds that causes the crisis, or why none is known.
     pub tangency: Result<Tangency, NoTangency>,
 }
 
-/// What a disk does after a rest just beyond a crisis. It always leaves a rest in the same state, so one
+/// The motion of a disk after a rest just beyond a crisis. It always leaves a rest in the same state, so one
 /// orbit decides for each forcing. The 16 forcings tried lie between the crisis and the upper end of its
 /// bracket; if a tangency locates the crisis, within the first sixteenth of that range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -183,8 +183,8 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch where the attractor lives on, or is gone, or no orbit near it is lost: inside the
-    /// attractor, or later than those of another saddle.
+    /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the attractor
+    /// survives there, or is already gone, or no orbit near the tangency is lost.
     #[error("the manifolds touch at Gamma = {forcing} instead")]
     Elsewhere {
         /// Gamma of their tangency.
@@ -241,7 +241,7 @@ pub enum NoCrisis {
         /// Its largest Lyapunov exponent.
         exponent: f64,
     },
-    /// Lives do not shorten farther away: it is not a crisis.
+    /// Survival times do not shrink with the distance, so this is not a crisis.
     #[error(
         "lifetimes do not shorten beyond Gamma = {forcing}: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
@@ -263,8 +263,8 @@ pub enum NoCrisis {
     },
 }
 
-/// Impacts after a rest that make a life a long one: more than this share of the mean life, which one in a
-/// hundred lives falls short of by chance, and more than rounds from rest to rest have.
+/// A disk survives long after a rest if it makes more impacts than both of these: this share of the mean survival
+/// time, which one orbit in a hundred does not reach by chance, and a number above that of short cycles from rest to rest.
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 
@@ -383,7 +383,7 @@ impl CrisisSearch {
         Ok(pairs.collect())
     }
 
-    /// What follows after a rest at forcings from `low` to `high`.
+    /// The motion after a rest at forcings from `low` to `high`.
     fn after_rest(&self, end: &End, low: f64, high: f64) -> Result<LifeAfterRest, Error> {
         let limit = self.each() as u64;
         let (mut short, mut least, mut most) = (0, u64::MAX, 0);

@@ -202,8 +202,8 @@ impl Vibration {
     /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's
     /// impulse or are launched with less than the smallest normal number.
     ///
-    /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
-    /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
+    /// The iterator computes them one by one, and there are 39/(1 - r) of them: next to r = 1 this may take for ever.
+    /// [`Self::chatter_series`] gives any of them, and their sums, at once.
     pub(crate) fn chatter_impacts(
         &self,
         phase: Phase,
@@ -243,9 +243,9 @@ pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
     (speed > LARGEST_NEGLIGIBLE_SPEED) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
 }
 
-/// Whether [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`, as far as that is cheap to say.
+/// A cheap test that is true only if [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`.
 ///
-/// Beside the refusals of [`bounces_on`] those of most chatters whose series is still too inaccurate: with x as in
+/// Beyond [`bounces_on`], it also refuses most chatters whose series is still too inaccurate: with x as in
 /// [`Expansion::error_bound`] that bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >= P.
 #[inline(always)]
 pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f64) -> bool {

@@ -22,7 +22,7 @@ const SEPARATION_ROUNDING: f64 = 2.0e-16;
 /// Share by which a launch must be slower than the exact bounds: far more than their relative rounding.
 const SLACK: f64 = 1.0e-12;
 
-/// What the proof needs of a platform and a coefficient of restitution.
+/// The numbers that the proof takes from a platform and a coefficient of restitution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestProof {
     peak: f64,

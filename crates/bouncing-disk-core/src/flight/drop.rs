@@ -26,7 +26,7 @@ const LARGEST_GAP: f64 = 1.0e17;
 /// Largest velocity accepted, in units of g/omega.
 const LARGEST_VELOCITY: f64 = 1.0e9;
 
-/// Relative size of the last Newton step of the search: what it leaves is of the order of its square.
+/// Relative size of the last Newton step of the search: the remaining error is of the order of its square.
 const LAST_STEP: f64 = 1.0e-9;
 
 /// Relative distance from the lowest point of the gap at which a dip counts as found: the gap there is higher by that

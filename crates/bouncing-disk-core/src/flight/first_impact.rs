@@ -89,8 +89,8 @@ impl Vibration {
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
     }
 
-    /// The window of the first root of a launch before the crest, where it is not plain that there is none, and
-    /// where to start the search in it.
+    /// The window of a possible first root before the crest, and a place in it to start the search; `None` if there is
+    /// certainly no root.
     ///
     /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs. The sign
     /// of a gap is taken from the crest form where that is beyond doubt, else from the launch form.

@@ -10,11 +10,11 @@ use crate::numerics::error::Error;
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
-/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
-/// is below twice the seventh power, 4e-17 rad.
+/// Bounds the last step (rad) times one plus its relative curvature. The error of the sixth-order series reversal is then
+/// below twice the seventh power, 4e-17 rad.
 const LAST_STEP: f64 = 4.0e-3;
 
-/// Relative size of the last Newton step on gap/h: what it leaves is its square.
+/// Relative size of the last Newton step on gap/h: the remaining error is its square.
 const LAST_SHORT_STEP: f64 = 1.0e-9;
 
 /// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
@@ -42,8 +42,8 @@ pub(crate) struct Bracket {
 }
 
 impl Bracket {
-    /// A time between both ends that halves the number of doubles between them, give or take: what bisection needs where the
-    /// root may be any number of decades below the upper end. At most 12 steps lead to within a factor of two.
+    /// A time between both ends that roughly halves the number of doubles between them. Bisection needs this where the root
+    /// may be many decades below the upper end. At most 12 steps lead to within a factor of two.
     pub(crate) fn geometric_middle(self) -> f64 {
         let arithmetic = 0.5 * (self.lo + self.hi);
         // The bits of positive doubles are in their order.
@@ -99,7 +99,7 @@ impl GapTaylor {
         self.gap.abs() * (fall + (self.curvature.abs() + 0.24 * peak)) < (0.999 * LAST_STEP) * (fall * fall)
     }
 
-    /// What the root of the quadratic model takes the square root of.
+    /// The radicand in the root of the quadratic model.
     #[inline(always)]
     pub(crate) fn radicand(&self) -> f64 {
         self.slope * self.slope - 2.0 * self.gap * self.curvature
@@ -413,7 +413,7 @@ pub(crate) struct ShortForm {
     /// P sin tau and P cos tau at launch.
     pub(crate) sine: f64,
     pub(crate) cosine: f64,
-    /// 1 - P sin tau: what pulls the disk back at launch.
+    /// 1 - P sin tau, the pull of the platform on the disk at launch.
     pub(crate) pull: f64,
 }
 

@@ -97,7 +97,7 @@ impl Impact {
         self.periods as f64 * TAU + self.remainder
     }
 
-    /// The same, field by field: what a function has just written in parts is read whole only after a stall.
+    /// A copy field by field: a value that was just written in parts can be read as a whole only after a stall.
     #[inline(always)]
     pub(crate) const fn in_parts(self) -> Self {
         let Self { periods, remainder, turns, phase, velocity, evaluations } = self;

@@ -122,7 +122,7 @@ impl Sample {
     }
 }
 
-/// When Brent's method is done: at an exact zero, or when the bracket is as narrow as times can be told apart.
+/// When Brent's method ends: at an exact zero, or at a bracket as narrow as doubles can resolve times.
 /// The gap itself has no tolerance: at motor scale any absolute one is wrong.
 struct ExactOrNarrow;
 

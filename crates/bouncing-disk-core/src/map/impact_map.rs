@@ -380,7 +380,7 @@ impl Attachment {
     }
 }
 
-/// What the disk does next.
+/// The next motion of the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Next {
     /// Leave the platform at this phase and speed.
@@ -433,8 +433,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         orbit
     }
 
-    /// What follows an impact at `phase` with relative `velocity`, which a launch with `speed` follows, after
-    /// a flight of `duration`.
+    /// The motion after an impact at `phase` with relative `velocity`, which ends a flight of `duration` and launches the
+    /// disk with `speed`.
     fn after(&mut self, phase: Phase, velocity: f64, speed: f64, duration: f64) -> Next {
         match self.policy {
             ChatterPolicy::Complete => {
@@ -442,7 +442,7 @@ impl<L: RestitutionLaw> Orbit<L> {
                 match constant
                     .and_then(|restitution| self.map.vibration.accumulation(phase, speed, restitution))
                 {
-                    // Where no time is left for a chatter there is none.
+                    // A chatter for which no time is left does not happen.
                     Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
                 }
@@ -462,8 +462,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Bound on the time (rad) that the disk would bounce on after an impact that a cut ends; none is given
-    /// for a constant restitution, where [`ChatterPolicy::Complete`] knows better.
+    /// Bound on the time (rad) for which the disk would continue to bounce after an impact that a cut ends; `None` for a
+    /// constant restitution, for which [`ChatterPolicy::Complete`] has the exact time.
     fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
         match self.map.restitution.constant(Internal) {
             Some(_) => f64::INFINITY,

@@ -4,7 +4,7 @@
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactMap;
 
-/// What the roundings of a bound, ten at most and all of positive numbers, may take from it.
+/// By how much its roundings, at most ten and all of positive numbers, may reduce a bound.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl ImpactMap {

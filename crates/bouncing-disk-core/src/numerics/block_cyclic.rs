@@ -15,10 +15,10 @@ type Row = [f64; 7];
 
 /// Solves `blocks[i] x[i] - x[i + 1] = right[i]`, the index taken modulo the number n >= 1 of blocks, for x.
 ///
-/// The unknowns are eliminated one after the other from 1 on by rotations of the two rows of blocks that contain them, and
-/// the first one is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput. 13, 742 (1992)). Rotations
-/// do not let the rounding grow, however unstable the sequence is, where the product of the blocks would.
-/// Of a singular system the solution is not finite, or as large as the rounding makes it.
+/// Rotations of the two rows of blocks that contain an unknown eliminate one after the other, from 1 on, until only the
+/// first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput. 13, 742 (1992)). With rotations
+/// the rounding does not grow, however unstable the sequence is; with the product of the blocks it would. The solution of a
+/// singular system is not finite, or as large as the rounding makes it.
 pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     let n = blocks.len().min(right.len());
     if n == 0 {

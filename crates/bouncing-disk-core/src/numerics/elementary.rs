@@ -1,7 +1,7 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! The sine and cosine pair of the impact solver is our own, because the project exists for it; everything
-//! else is the `libm` crate. Only IEEE addition, subtraction, multiplication, division and square root are
+//! The sine and cosine pair of the impact solver is our own code, because it decides the speed of every computation;
+//! everything else is the `libm` crate. Only IEEE addition, subtraction, multiplication, division and square root are
 //! used, in a fixed order and never fused.
 
 #![expect(clippy::excessive_precision, reason = "constants are quoted as their sources print them")]
@@ -72,8 +72,8 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
     (s, c)
 }
 
-/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: what every instruction set can do
-/// for many lanes at once.
+/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: every instruction set has these for
+/// many lanes at once.
 #[inline(always)]
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
     let (r, quadrant) = reduced_of_lane(x);
@@ -94,7 +94,7 @@ pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64, blends: bool) -> (f64, f
     // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
     let (odd, second) = (quadrant << 63, (quadrant << 62) & (1 << 63));
     let (s, c) = if blends {
-        // A vector selection looks at nothing but the sign.
+        // A vector selection depends on the sign alone.
         if (odd as i64) < 0 { (cosine, sine) } else { (sine, cosine) }
     } else {
         let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
@@ -184,8 +184,8 @@ pub fn sine_deficit_ratio(h: f64) -> f64 {
 /// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
 /// rest, in [-pi, pi].
 ///
-/// The rest is off by at most 5e-16 + 2e-24 duration (two-part reduction); what the rounding of `duration` itself has
-/// lost is lost.
+/// The remainder has an error of at most 5e-16 + 2e-24 duration (two-part reduction), beside that of the rounded
+/// `duration` itself.
 #[inline(always)]
 pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
     let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;

@@ -76,14 +76,14 @@ pub(crate) fn turned(angle: f64) -> f64 {
     angle - TAU * nearest_whole(angle / TAU)
 }
 
-/// What the lengths of first impact and parameter are counted in.
+/// The units in which changes of the first impact and of the parameter are measured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scale {
     pub(crate) speed: f64,
     pub(crate) parameter: f64,
 }
 
-/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase,
+/// The plane in which a correction looks for a point: at this distance from a base, across a direction (scaled; phase,
 /// speed, parameter).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
@@ -92,7 +92,7 @@ pub(crate) struct Plane {
     pub(crate) distance: f64,
 }
 
-/// A sequence of flights that closes: what is the same along a branch.
+/// A sequence of flights that closes, with the properties that are the same all along a branch.
 #[derive(Debug, Clone)]
 pub(crate) struct Closing {
     /// The map at the start of the branch: where the other parameters come from.
@@ -303,7 +303,7 @@ impl Closing {
             .then_some(Closed { impacts, parameter: parameter / length })
     }
 
-    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign.
+    /// The direction in which the orbit flips where a multiplier is -1: the vector that returns with the opposite sign.
     pub(crate) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);

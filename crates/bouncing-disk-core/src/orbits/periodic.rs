@@ -176,7 +176,7 @@ impl core::fmt::Display for Stability {
 }
 
 impl PeriodicOrbit {
-    /// Checks what is read: what [`ImpactMap::refine`] may find.
+    /// Checks an orbit that is read: whether [`ImpactMap::refine`] could give it.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let most = MAX_PERIOD as f64;
         within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
@@ -247,8 +247,8 @@ impl PeriodicOrbit {
         Multipliers::of(self.monodromy)
     }
 
-    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D,
-    /// at a double root by its square root.
+    /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a double root by its
+    /// square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
         let (trace, determinant) = (self.trace(), self.monodromy.determinant());

@@ -103,8 +103,7 @@ const NEUTRAL_POWER: f64 = 2.0;
 /// -ln(2^-52): the growth along an escape from a periodic orbit on which the start was to the last bit.
 const ESCAPE: f64 = 52.0 * core::f64::consts::LN_2;
 
-/// How many times the area of a set of states must have shrunk by e before an orbit may be taken for one that
-/// stays as it is.
+/// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts as final.
 const DISSIPATION_TIMES: f64 = 10.0;
 
 /// The largest Lyapunov exponent of one orbit as it was measured.
@@ -174,7 +173,7 @@ impl ImpactMap {
     }
 }
 
-/// What is known of an orbit whose exponent is sought.
+/// The state of the computation of an orbit's exponent.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
     state: ImpactState,

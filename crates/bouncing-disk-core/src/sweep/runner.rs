@@ -16,7 +16,7 @@ const FEWEST: usize = 12;
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// What became of the orbit of an index.
+/// The outcome of the orbit with an index.
 type Outcome<S> = (usize, Result<S, Error>);
 
 /// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the

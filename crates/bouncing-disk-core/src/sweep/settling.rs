@@ -38,7 +38,7 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
             goes_on && after.abs() <= LARGEST_GROWTH * before.abs() + slack
         })
     };
-    // What repeats every few impacts, or comes nearer to that, does so also every twice as many.
+    // A sequence that repeats after n impacts, or comes nearer to doing so, does so after 2n impacts as well.
     let Some(period) = (1..=longest_period.min(values.len() / FEWEST_ROUNDS)).find(comes_nearer) else {
         return false;
     };

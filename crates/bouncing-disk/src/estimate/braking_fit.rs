@@ -22,7 +22,7 @@ const LEAST_INDEPENDENT: f64 = 3.0;
 /// Curves of more points are averaged in groups before they are fitted.
 const MOST_POINTS: usize = 4_096;
 
-/// The part that is fitted ends where the line has this share of its first speed left: what comes then may be sticking.
+/// The fitted part ends where the line has fallen to this share of its first speed: after that the disk may stick.
 const SPEED_LEFT: f64 = 0.05;
 
 /// The deceleration may differ by this share between the first and the last half of the sliding part.
@@ -108,8 +108,8 @@ impl BrakingFit {
     /// Fits times (s, rising) and speeds (rad/s) of a disk that slides on a platform at rest from the first
     /// point on, and may stop at the end. A disk that turns backwards has negative speeds.
     ///
-    /// The standstill is left out. The curve is cut where a straight line before and zero speed after the cut
-    /// leave the smallest squares; the fit uses the part before it in which the line keeps more than 5 % of
+    /// The fit omits the standstill. It cuts the curve where a straight line before and zero speed after the cut
+    /// leave the smallest squares, and uses the part before the cut in which the line keeps more than 5 % of
     /// its first speed. The error allows for residuals that are correlated and vary in size along the curve.
     /// Curves of more than 4096 points are first averaged in groups of points.
     ///
@@ -129,7 +129,7 @@ impl BrakingFit {
         let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
         let (times, speeds) =
             (group_means(times, group, time_scale), group_means(speeds, group, speed_scale));
-        // Whichever way it turns.
+        // For both directions of rotation.
         let turn = speeds.iter().sum::<f64>();
         let sign = if turn < 0.0 { -1.0 } else { 1.0 };
         let speeds: Vec<f64> = speeds.iter().map(|speed| sign * speed).collect();
@@ -204,7 +204,7 @@ impl Line {
     }
 }
 
-/// What residuals say of the noise.
+/// The noise of a measured curve, from the residuals of a fit.
 struct Scatter {
     /// Root mean square of the residuals.
     residual: f64,
@@ -213,7 +213,7 @@ struct Scatter {
     correlated_points: f64,
     /// Independent parts less fitted parameters.
     degrees: f64,
-    /// What a fit takes of residuals that are correlated, beyond what it takes of those that are not.
+    /// The share of the residuals that the fit absorbs because they are correlated, beyond that of uncorrelated ones.
     taken: f64,
 }
 

@@ -102,7 +102,7 @@ impl TransientEnsemble {
     ) -> Result<Self, Error> {
         let members = results.len();
         let watch = Watch::begin(observer, 0, members as u64)?;
-        // What one thread counts: fits of short curves are many between two calls of the observer.
+        // Each thread counts its own work: between two calls of the observer it may fit many short curves.
         let fitted = |work: &mut WorkCount<'_>, curve: Result<SpeedCurve, Error>| {
             let curve = curve?;
             let fit = ExponentialFit::counted(&curve.times, &curve.speeds, work)?;
@@ -180,12 +180,12 @@ mod tests {
         assert!((spread.mean - 5.0).abs() < 1e-15);
         assert!((spread.deviation - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15);
         assert!((spread.standard_error - (4.0_f64 / 7.0).sqrt()).abs() < 1e-15);
-        // Of one value nothing is known but itself.
+        // A single value has no known spread.
         let one = Spread { mean: -3.0, deviation: 0.0, standard_error: 0.0 };
         assert_eq!(Spread::of(&[-3.0]), Ok(one));
     }
 
-    /// What the documentation says: neither the cycle of the rounding nor a visible kick.
+    /// As documented: a perturbation large enough to break the cycle that rounding selects, and too small to see.
     #[test]
     fn relaunches_are_perturbed_by_a_thousandth_unless_told_otherwise() {
         assert!((TransientSettings::default().relaunch_perturbation - 1e-3).abs() < 1e-18);

@@ -141,7 +141,7 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// What is known of a rise where it begins.
+/// The known state of a motor where its rise begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
     /// Speed zero at time zero.

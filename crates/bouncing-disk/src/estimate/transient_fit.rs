@@ -58,7 +58,7 @@ const LARGEST_MISFIT: f64 = 2.0;
 /// How near an end of the search a time constant is taken to lie at it.
 const AT_LIMIT: f64 = 0.01;
 
-/// What a fit with intervals requires of a curve, and how it is resampled.
+/// The requirements of a fit with intervals on a curve, and the resampling of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
@@ -120,10 +120,10 @@ pub struct RiseEstimate {
 
 /// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured curve.
 ///
-/// A computed motor starts from rest at time zero. For a measured one neither is known
-/// ([`FitSettings::from_rest`]): alpha_ss - b exp(-t/t_c) is fitted from its own start on. A later start and a higher
-/// speed there are one number of an exponential, b, so that the fit tells at which time the curve would have
-/// been at rest ([`Self::zero_time`]), not which of the two applies.
+/// A computed motor starts from rest at time zero. For a measured motor the fit assumes neither (unless
+/// [`FitSettings::from_rest`] is set): it takes alpha_ss - b exp(-t/t_c) from the start of the rise on. A later start and a
+/// higher speed at the start change the same number b. So the fit can state when the curve would have been at rest
+/// ([`Self::zero_time`]), but not which of the two applies.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;

@@ -3,7 +3,7 @@
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// Below this size the terms of a balance have lost digits to underflow: what they leave is relative to this instead.
+/// Below this size the terms of a balance have lost digits to underflow: their residual is then relative to this size.
 const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// The energy balance of an interval, per unit mass.

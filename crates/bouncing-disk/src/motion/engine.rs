@@ -398,7 +398,7 @@ impl<L: RestitutionLaw> Engine<L> {
             ledger.record_normal(-speed * platform_velocity, 0.5 * speed * speed);
         }
         if chatter.capped {
-            // The sequence goes on for ever: what it does after the last impact counted is to follow the platform.
+            // The sequence is infinite: after the last counted impact the disk follows the platform.
             let slip = angular_speed - platform_speed;
             angular_speed = platform_speed;
             rotary -= slip;

@@ -348,7 +348,7 @@ impl SlipPath {
 
     /// The root in [`low`, `high`], over which the speed falls from positive to negative.
     fn falling_root(&self, low: f64, high: f64) -> f64 {
-        // What `at` gives at zero.
+        // At zero the values are known, without calling `at`.
         let start = if low.abs() <= 0.0 { (self.speed, self.rate) } else { self.at(low) };
         falling_root(low, high, start, ROOT_ACCURACY, |time| self.at(time))
     }

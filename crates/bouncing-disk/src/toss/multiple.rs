@@ -19,7 +19,7 @@ use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 /// Most impacts that [`multi_toss`] examines.
 pub const MAX_EXAMINED: usize = 10_000_000;
 
-/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.

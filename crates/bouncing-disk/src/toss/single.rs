@@ -174,8 +174,8 @@ mod tests {
         assert!((toss.launch_speed - 3.1).abs() < 0.1, "{toss:?}");
     }
 
-    /// What the hand has put in is in the dough, turning and moving upwards, in its height, and lost in friction: a dough
-    /// that starts with the hand keeps the spin that this has given to it.
+    /// The work of the hand is in the rotation, the upward motion and the height of the dough, and in the friction loss; a
+    /// dough that starts with the hand keeps the spin from the hand.
     #[test]
     fn the_efficiency_is_the_share_of_the_rotation_in_what_the_hand_has_given() {
         for (lag, friction) in [(0.7, 0.6), (-1.2, 0.6), (0.4, 0.1), (0.3, 50.0), (0.0, 0.6)] {

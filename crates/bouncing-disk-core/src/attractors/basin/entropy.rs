@@ -30,7 +30,7 @@ pub struct BasinEntropy {
 
 impl Basins {
     /// The entropy over boxes of `box_side` x `box_side` cells in [2, 100 000]; those at the upper ends of the
-    /// axes that would not be whole are left out. Boxes of 5 x 5 are usual.
+    /// axes that would not be whole are omitted. Boxes of 5 x 5 are usual.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid};

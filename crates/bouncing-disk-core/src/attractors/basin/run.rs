@@ -71,7 +71,7 @@ impl BasinRun {
             }
         }
         match outcome {
-            // Other threads may have finished rows after the one that was told to stop, or even all.
+            // After one thread got the order to stop, others may have finished further rows, or even all.
             Err(Error::Stopped { .. }) if !self.is_done() => {
                 Err(Error::Stopped { done: self.done(), total: self.total() })
             }
@@ -175,7 +175,7 @@ impl BasinRun {
     /// The basins.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if a row is not finished: [`Self::is_done`] tells before.
+    /// [`Error::Stopped`] if a row is not finished, which [`Self::is_done`] shows.
     pub fn into_basins(self) -> Result<Basins, Error> {
         if !self.is_done() {
             return Err(Error::Stopped { done: self.done(), total: self.total() });

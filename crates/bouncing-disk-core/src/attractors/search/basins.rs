@@ -20,7 +20,7 @@ const COMPARED: u32 = 256;
 /// Starts that are followed at a time, for their memory.
 const AT_ONCE: usize = 1 << 14;
 
-/// What labels a start.
+/// The tests that label a start.
 struct Labels<'a> {
     map: &'a ImpactMap,
     known: Vec<KnownOrbit>,
@@ -149,7 +149,7 @@ fn start_of(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, Error
     ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
 }
 
-/// Tells the observer of all rows of the progress of some of their starts: which are finished before.
+/// Reports the progress of some starts to the observer of all rows, after the rows that are finished.
 struct Rows<'o> {
     observer: &'o dyn Observer,
     done: u64,

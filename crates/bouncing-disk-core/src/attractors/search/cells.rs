@@ -1,4 +1,4 @@
-//! The cells of a grid that an orbit has visited: what is known of an aperiodic attractor.
+//! The cells of a grid that an orbit has visited. They represent an aperiodic attractor.
 
 use core::f64::consts::TAU;
 

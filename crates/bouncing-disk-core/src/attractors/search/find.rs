@@ -27,7 +27,7 @@ const SAMPLES: u32 = 64;
 /// How many cells away an orbit that creeps towards a marginal one may have been from it.
 const CELLS_AWAY: f64 = 1.5;
 
-/// Tells the observer of the whole search of the progress of a part: the items of the part, or none of them,
+/// Reports the progress of a part to the observer of the whole search: the items of the part, or none of them,
 /// after those that are done.
 struct Part<'o> {
     observer: &'o dyn Observer,
@@ -83,7 +83,7 @@ struct Finder<'a> {
     rests: u64,
     periodic: Vec<Periodic>,
     recurrent: Vec<Recurrent>,
-    /// Starts that have been looked at, and of which the attractor is known.
+    /// Starts that were followed, and those whose attractor is known.
     done: u64,
 }
 
@@ -133,7 +133,8 @@ impl<'a> Finder<'a> {
         Part { observer: self.observer, done: self.done, total, counts: false }
     }
 
-    /// Counts starts that come ever nearer to an attracting orbit through this impact; where it is none, the start stays undecided.
+    /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the starts stay
+    /// undecided.
     fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
         let scale = self.map.vibration().peak_acceleration();
         let known = self.periodic.iter_mut().find(|known| {
@@ -301,7 +302,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// What a disk at rest does next: one that is put on the platform at its lowest point.
+    /// The further motion of a disk at rest, that is of a disk put on the platform at its lowest point.
     fn after_rest(&mut self) -> Result<RestLeadsTo, Error> {
         let lowest = ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0);
         let looks = (self.search.long_look(), self.search.cells());

@@ -41,7 +41,7 @@ const PARTS: u32 = 32;
 /// Halvings of the place of the fold.
 const HALVINGS: u32 = 60;
 
-/// The share of the slope beside a fold that is left on it.
+/// The slope at a fold as a share of the slope beside it.
 const VANISHES: f64 = 1.0e-3;
 
 /// Steps of the secant method in Gamma for a number of flights.
@@ -53,7 +53,7 @@ const MAX_HALVINGS: u32 = 30;
 /// How many rounds along the second saddle are tried after the first.
 const MAX_ROUNDS: u32 = 12;
 
-/// Rounds after which a tangency that is not next to the bracket is not sought any longer.
+/// Rounds after which the search abandons a tangency that is not next to the bracket.
 const ROUNDS_ASTRAY: u32 = 2;
 
 /// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight
@@ -129,7 +129,7 @@ pub(super) fn tangencies(
     Ok(Err(failure))
 }
 
-/// What is sought.
+/// The task of the search.
 #[derive(Clone, Copy)]
 struct Sought<'s> {
     search: &'s CrisisSearch,
@@ -345,8 +345,8 @@ impl Sought<'_> {
         Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
     }
 
-    /// Whether orbits from about the tangency rest beyond it, and not before: what it opens is no way from one
-    /// part of the attractor to another.
+    /// Whether orbits from near the tangency come to rest beyond it and not before: only then does it open a way out of
+    /// the attractor, and not one from a part of the attractor to another.
     fn loses(&self, solution: &Solution, flights: u32) -> Result<bool, Error> {
         let (low, high) = self.bracket;
         let aside = ASIDE * (high - low);

@@ -81,7 +81,7 @@ impl Phase {
         Self { angle, sin, cos }
     }
 
-    /// The same, number by number: what a function has just written in parts is read whole only after a stall.
+    /// A copy number by number: a value that was just written in parts can be read as a whole only after a stall.
     #[inline(always)]
     pub(crate) const fn in_parts(self) -> Self {
         Self::from_parts(self.angle, self.sin, self.cos)

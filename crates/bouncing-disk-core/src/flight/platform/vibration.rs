@@ -159,7 +159,7 @@ pub(crate) const CLEAR: f64 = 1.0e-9;
 /// Share of 1 + P by which a disk at the crest must be faster than one that falls past it.
 const CLEAR_FALL: f64 = 1.0e-5;
 
-/// What decides whether launches clear the first crest.
+/// The numbers that decide whether launches clear the first crest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crests {
     /// Time from the separation to the crest (rad).

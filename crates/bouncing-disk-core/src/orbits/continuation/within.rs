@@ -128,7 +128,7 @@ impl Branch {
         let inside = |one: &Known| (low..=high).contains(&one.at());
         let last = known.len() - 1;
         let towards = |from: usize, to: usize| known[to].at() > known[from].at();
-        // From the beginning of the branch there is one way only, and it is not left by going back.
+        // From the beginning of the branch there is only one way, so going back does not leave it.
         if inside(&known[0]) && known[0].begins {
             return self.fine(&known[0].point, towards(0, 1), (low, high), points).map(Some);
         }
@@ -200,7 +200,7 @@ impl Branch {
     }
 }
 
-/// An orbit gone through twice: what a doubled one is at its birth.
+/// An orbit passed twice, which a doubled orbit is at its birth.
 fn twice(point: &BranchPoint) -> BranchPoint {
     let PeriodicOrbit { states, platform_periods, monodromy, position_error, trace_error } = &point.orbit;
     let orbit = PeriodicOrbit {

@@ -72,7 +72,7 @@ impl Equations {
         })
     }
 
-    /// What rounding of the forcing and the restitution, by one unit of the last place, moves: to first order.
+    /// The displacement by a change of the forcing and the restitution by one unit in the last place, to first order.
     fn moved_by_parameters(&self, equations: &CyclicEquations, at: &Closed) -> Option<Vec<DVec2>> {
         let r = self.map.restitution();
         let mut by_restitution = self.closing.clone();
@@ -100,7 +100,7 @@ impl Equations {
         Some(around.x_axis.x + around.y_axis.y)
     }
 
-    /// What the exact equations leave at impacts in double-doubles.
+    /// The residual of the exact equations at impacts in double-doubles.
     fn residuals(&self, impacts: &[[DoubleDouble; 2]]) -> Vec<DVec2> {
         let p = DoubleDouble::from(self.map.vibration().peak_acceleration());
         let r = DoubleDouble::from(self.map.restitution());
@@ -224,7 +224,7 @@ fn measured_errors(
         return None;
     }
     let direction = Closed { impacts: moved.iter().map(|part| *part / most).collect(), parameter: 0.0 };
-    // What the parameters change in the equation of the weak direction, (1 - T + D) t = push.
+    // The change by the parameters in the equation of the weak direction, (1 - T + D) t = push.
     let push = distance * length;
     let [up, down] = [DIFFERENCE, -DIFFERENCE].map(|by| own.trace(&own.at.moved(&direction, by)));
     let (up, down) = (up?, down?);

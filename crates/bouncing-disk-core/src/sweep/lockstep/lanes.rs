@@ -156,7 +156,7 @@ pub(crate) struct Impacts {
     pub(crate) duration: Row,
 }
 
-/// What the lanes fly above.
+/// The platforms above which the lanes fly.
 #[derive(Debug, Clone)]
 enum Ground {
     Shared(Platform),
@@ -290,7 +290,7 @@ impl Batch {
         (ground, Rows { from, speed, restitution, arcs, impacts })
     }
 
-    /// Sets the impact of a lane: what its next launch starts from.
+    /// Sets the impact of a lane, from which its next launch starts.
     pub(crate) const fn set_impact(&mut self, lane: usize, phase: Phase, velocity: f64) {
         let impacts = self.impacts_mut();
         impacts.angle[lane] = phase.angle();
@@ -367,7 +367,7 @@ impl Arcs {
 }
 
 impl Impacts {
-    /// In place of a duration: what the phases of launch and impact and the turns make it (`flight::landed`).
+    /// In place of a duration: it follows from the phases of launch and impact and the turns (`flight::landed`).
     pub(crate) const BETWEEN_PHASES: f64 = -1.0;
 
     const fn new() -> Self {

@@ -1,7 +1,7 @@
 //! Reads measured speeds from separated values, and locates every malformed place.
 //!
-//! Nothing is guessed: a column has its unit in its name, in the row below the header, or from the caller; a
-//! comma that may be a decimal mark or separate thousands is refused.
+//! The reader makes no guesses: the unit of a column is in its name, in the row below the header, or given by the
+//! caller; a comma that may be a decimal mark or separate thousands is an error.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -17,13 +17,13 @@ use crate::regular_file;
 const NAMES: [&[&str]; 3] =
     [&["time", "t"], &["speed", "angular speed", "angular_speed", "omega", "n"], &["member", "run", "trial"]];
 
-/// What a message calls the columns.
+/// The names of the columns in messages.
 const COLUMNS: [&str; 3] = ["time_s", "speed_rad_s", "member"];
 
 /// The legal values of each column.
 const LEGAL: [&str; 3] = ["a finite number", "a finite number", "a whole number from 0 to 4294967295"];
 
-/// What may separate columns, in the order in which it is tried.
+/// Characters that may separate columns, in the order in which they are tried.
 const SEPARATORS: [char; 3] = [';', '\t', ','];
 
 /// The largest file that is read (bytes).
@@ -103,7 +103,7 @@ impl MeasuredSpeeds {
     }
 }
 
-/// The beginning of a text of somebody else's.
+/// The beginning of a text from a file.
 fn shortened(text: &str) -> String {
     if text.chars().nth(SHOWN).is_none() {
         return text.to_owned();

@@ -193,20 +193,20 @@ impl Model<'_> {
     }
 }
 
-/// What the model says at a place and near it.
+/// The results of the model at a place and near it.
 #[derive(Debug)]
 pub(crate) struct Local {
     /// The means of all members.
     pub(crate) members: MemberMeans,
     /// The mean over members, smoothed along the parameters that change the vertical motion.
     pub(crate) smooth: DVector<f64>,
-    /// What the members' means change by along each range; empty where that was not asked for.
+    /// The derivatives of the members' means along each range; empty if not requested.
     pub(crate) derivatives: Vec<MemberMeans>,
-    /// What smoothing leaves, for each parameter that changes the vertical motion.
+    /// The residuals of the smoothing, for each parameter that changes the vertical motion.
     pub(crate) roughness: Vec<Roughness>,
 }
 
-/// What the parabola along one parameter leaves: motions that lock on a cycle, and luck.
+/// The residuals of the parabola along one parameter, caused by motions that lock on a cycle, and by chance.
 #[derive(Debug)]
 pub(crate) struct Roughness {
     pub(crate) parameter: usize,
@@ -238,7 +238,7 @@ impl Parabola {
         Self { powers, inverse, weights }
     }
 
-    /// What the numbers differ from it, over the root of their degrees of freedom.
+    /// The differences of the numbers from the parabola, over the root of their degrees of freedom.
     fn residuals(&self, numbers: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let smoothing = &self.powers * &self.inverse * self.powers.transpose();
         let scale = 1.0 / (numbers.len() as f64 - 3.0).sqrt();

@@ -5,7 +5,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use crate::error::{Error, finite};
 use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 
-/// What is left out by interpolating a computed curve, as a share of the largest mean: nothing is known better than that.
+/// The error of interpolating a computed curve, as a share of the largest mean: no mean counts as known better than this.
 const RESOLUTION: f64 = 1.0e-4;
 
 /// One block of the covariance for each preload, as its lower triangular root.

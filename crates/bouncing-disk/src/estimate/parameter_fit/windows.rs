@@ -16,7 +16,7 @@ pub(crate) struct Windows {
     pub(crate) measured: Vec<f64>,
     /// Variance of their errors of measurement.
     pub(crate) error_variances: Vec<f64>,
-    /// What each interval of a computed curve contributes to each mean.
+    /// The contribution of each interval of a computed curve to each mean.
     weights: Vec<[f64; INTERVALS]>,
     /// Duration of the curve (s).
     pub(crate) duration: f64,

@@ -22,7 +22,7 @@ const LEAST_SAMPLE: usize = 5;
 /// The most blocks: more would say hardly more about the error.
 const MOST_BLOCKS: usize = 64;
 
-/// What a block is longer than the correlation time by (docs/numerics/motors.md, "Fits with intervals").
+/// Factor by which a block is longer than the correlation time (docs/numerics/motors.md, "Fits with intervals").
 const BLOCK_TIMES: f64 = 2.5;
 
 /// Residuals below this share of the steady speed are those of the search, which ends about so near the best constant.

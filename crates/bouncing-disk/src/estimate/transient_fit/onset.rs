@@ -12,8 +12,8 @@ pub(crate) const LEAST_POINTS: usize = 8;
 /// Step of the trial time constants, in their logarithm.
 const STEP: f64 = 0.05;
 
-/// A beginning is left out if that lowers the logarithm of the sum of squares, over all independent rows, by more than
-/// this, half of Akaike's price of the two numbers that it adds: a cut too many costs rows, one too few the truth.
+/// The fit omits a beginning if this lowers the logarithm of the sum of squares, over all independent rows, by more than
+/// this number, half of Akaike's price of the two added parameters: a cut too many costs rows, one too few gives a bias.
 const PRICE: f64 = 2.0;
 
 /// Sums of squares below this share of those of the speeds are rounding.
@@ -93,7 +93,7 @@ pub(crate) fn rows_before_rise(
     Ok(if gain > PRICE { cut } else { 0 })
 }
 
-/// What the best exponential with this constant leaves.
+/// The residuals of the best exponential with this constant.
 fn residuals(times: &[f64], speeds: &[f64], constant: f64) -> Vec<f64> {
     let n = times.len() as f64;
     let decays: Vec<f64> = times.iter().map(|time| exp((times[0] - time) / constant)).collect();

@@ -75,7 +75,7 @@ struct Rotation<'a> {
     flight: PowerSeries,
     /// Angular speed of the platform less a constant.
     platform: PowerSeries,
-    /// What the slip gains until the end from the platform and the load, and in a flight (per 1 - r).
+    /// The increase of the slip by the platform and the load, until the end and in a flight (per 1 - r).
     gain: PowerSeries,
     flight_gain: PowerSeries,
     /// Angular speed of the platform at the start.
@@ -117,7 +117,7 @@ impl<'a> Rotation<'a> {
             if end == Some(self.impacts) {
                 return pieces;
             }
-            // What it does about the slip tells how the impacts after it go on.
+            // Whether this impact ends the slip decides how the impacts after it continue.
             self.strike();
             let held = self.slip == 0.0;
             let until = if held { self.first_slip() } else { self.slip_end() };
@@ -179,7 +179,7 @@ impl<'a> Rotation<'a> {
             .map(|impact| impact.saturating_sub(1).max(self.impacts))
     }
 
-    /// What friction can take from a slip with this `sign` beyond what the slip gains, until the end.
+    /// By how much friction can reduce a slip with this `sign`, less the increase of the slip, until the end.
     fn spare(&self, sign: f64) -> PowerSeries {
         self.impulses.scaled(self.system.friction()).plus(&self.gain.scaled(-sign))
     }

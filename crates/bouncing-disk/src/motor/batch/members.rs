@@ -44,7 +44,7 @@ impl TransientMember {
         settings.check_for(&system.scales())?;
         check(members > 0, "members", 0.0, "[1, 1000000]")?;
         let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
-        // The memory for them is asked for where they are computed.
+        // The computation reserves the memory for them.
         within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
         let member = |index: usize| -> Result<Self, Error> {
             let phase = starting_phase(settings.seed, index, members)?;

@@ -11,7 +11,7 @@ const LANES: usize = Flights::LANES;
 /// One number of every lane.
 type Row = [f64; LANES];
 
-/// What is carried along with the flights of all lanes.
+/// The state that is carried along with the flights of all lanes.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(crate) struct Rotors {

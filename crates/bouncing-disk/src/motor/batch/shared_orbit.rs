@@ -38,7 +38,7 @@ pub(crate) fn is_shared(one: &System, other: &System) -> bool {
     vertical_key(one) == vertical_key(other)
 }
 
-/// What is the same for motors that share one vertical motion, and for these alone.
+/// The numbers that all motors on one vertical motion share; motors that differ in them cannot share it.
 pub(crate) fn vertical_key(system: &System) -> [u64; 4] {
     of_vertical_motion(system).map(|(_, value)| value.to_bits())
 }

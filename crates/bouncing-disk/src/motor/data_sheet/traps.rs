@@ -1,9 +1,7 @@
-//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of
-//! flights and rest. Its speed there is that of the round: from zero (the holes of Fig. 11) to more than
-//! beside the traps.
+//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of flights and
+//! rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the speed beside the trap.
 //!
-//! It is judged from the vertical motion, which alone decides (docs/numerics/design.md, "Low-period
-//! traps").
+//! The vertical motion alone decides (docs/numerics/design.md, "Low-period traps").
 
 use std::f64::consts::{PI, TAU};
 
@@ -191,7 +189,7 @@ pub fn low_period_traps(
 ) -> Result<Vec<TrapVerdict>, Error> {
     let watch = Watch::begin(observer, 0, preloads.len() as u64)?;
     let mut work = watch.work();
-    // All are built before any is judged, so that an illegal one is told at once.
+    // Build all of them before judging any, so that an illegal one is an error at once.
     let motors = preloads
         .iter()
         .map(|&preload| -> Result<Motor, Error> {

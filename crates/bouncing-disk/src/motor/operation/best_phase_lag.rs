@@ -13,7 +13,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// Lags around the whole circle.
 const COARSE: usize = 32;
 
-/// Lags on either side of the best of these, as far as the second next of them.
+/// Lags on either side of the best of these, up to its second neighbour.
 const FINE: usize = 16;
 
 /// The phase lag at which a motor turns fastest forwards, under its load.

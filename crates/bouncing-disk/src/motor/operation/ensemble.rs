@@ -33,7 +33,7 @@ const LEAST_PERIODS: f64 = 10.0;
 /// A round runs for at most so many times what all before took together, whatever it hopes for.
 const GROWTH: f64 = 3.0;
 
-/// What a hoped-for number of windows is increased by, so that another round is seldom needed.
+/// The factor by which the estimated number of windows is increased, so that a further round is seldom needed.
 const MARGIN: f64 = 1.15;
 
 /// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten operations.
@@ -48,7 +48,7 @@ pub(crate) struct LoadedMotor {
     pub(crate) system: System,
     /// Mass m (kg).
     pub(crate) mass: f64,
-    /// Load torque T_L (N m): what the system's load is made from, as it was given.
+    /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
 }
 
@@ -70,7 +70,7 @@ impl LoadedMotor {
         self.system.dimensionless().load()
     }
 
-    /// Whether a mean speed is one: beyond four of its standard errors, and beyond what rounding leaves.
+    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
         let rounding = 1e-6 * self.system.platform().peak_angular_speed();
         speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
@@ -102,7 +102,7 @@ impl LoadedMotor {
     }
 }
 
-/// The mean speeds of all rotors and members, and what is said of them.
+/// The mean speeds of all rotors and members, and the operations that follow from them.
 #[derive(Debug)]
 pub(crate) struct Operations {
     /// In the order of the motors.
@@ -110,14 +110,14 @@ pub(crate) struct Operations {
     /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of rotors from far below
     /// and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Those of rotors from far above: the difference bounds what is left of the start-up.
+    /// Those of rotors from far above: the difference bounds the remainder of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
     /// How long each member was followed, in units of the shortest run.
     pub(crate) length: f64,
 }
 
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest speed of those
-/// without load; where none is, the first motor without its load runs along.
+/// without load; if all have one, the first motor is also computed without its load.
 pub(crate) fn operate(
     motors: &[LoadedMotor],
     settings: &OperatingSettings,
@@ -127,8 +127,8 @@ pub(crate) fn operate(
     operate_for(None, motors, settings, observer)
 }
 
-/// [`operate`] with members that are followed for just this length, however well the speeds are known then; of settings that may
-/// have fewer members than are legal.
+/// [`operate`] with members that are followed for exactly this length, however well the speeds are then known; the settings
+/// may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
     length: Option<f64>,
     motors: &[LoadedMotor],
@@ -171,7 +171,7 @@ pub(crate) fn operate_for(
     }
     .into_iter();
     for motor in motors {
-        // There is one for each that does not run away.
+        // Each motor that does not run away has a result.
         let (operation, speeds, above) = if motor.runs_away() { None } else { known.next() }
             .unwrap_or_else(|| (motor.runaway(), Vec::new(), Vec::new()));
         results.operations.push(operation);
@@ -187,7 +187,8 @@ type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 /// An ensemble under way.
 struct Run {
     motors: Vec<LoadedMotor>,
-    /// How many of them were asked for: each is carried twice, from far below and far above all steady speeds.
+    /// How many of them the caller requested: each of these is carried twice, from far below and from far above all steady
+    /// speeds.
     asked: usize,
     members: Vec<(Member, Vec<Window>)>,
     /// Duration of a window (rad) and its least impacts.
@@ -195,7 +196,7 @@ struct Run {
     least_impacts: u64,
     /// Most impacts of a window.
     most_impacts: u64,
-    /// What each rotor lacks, and the error that is asked for (rad/s).
+    /// What each rotor still lacks, and the requested error (rad/s).
     shortfalls: Vec<Option<Shortfall>>,
     wanted: f64,
 }
@@ -311,7 +312,7 @@ impl Run {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// The rotor of a motor that started from far above; for one that was not asked for, its only one.
+    /// The rotor of a motor that started from far above; for a motor that the caller did not request, its only rotor.
     fn rotor_from_above(&self, motor: usize) -> usize {
         if motor < self.asked { self.motors.len() + motor } else { motor }
     }
@@ -350,8 +351,8 @@ impl Run {
             .collect();
     }
 
-    /// What the disk still stores, if it is too much of what is put in: that of a disk that settles falls as one over the time
-    /// for which it is followed.
+    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk that settles this
+    /// part falls as one over the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor, left_out(self.windows())..self.windows());
@@ -490,7 +491,7 @@ impl Sum {
         put_in.max(members as f64 * moving)
     }
 
-    /// What the energy balance leaves, relative to the energy that came in.
+    /// The residual of the energy balance, relative to the supplied energy.
     fn energy_residual(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;

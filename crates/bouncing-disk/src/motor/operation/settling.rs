@@ -5,19 +5,19 @@ use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 
 use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
-/// A drift counts as one beyond so many of its standard errors, however loose the error is that was asked for: of a vertical
-/// motion that still changes no bound tells. A drift has about twice the standard error of the mean. With 15 degrees of
-/// freedom chance gives one of these in 20 judgements; a motor is then only followed for longer.
+/// A drift is significant beyond so many of its standard errors, however large the requested error: no bound covers a vertical
+/// motion that still changes. A drift has about twice the standard error of the mean. With 15 degrees of freedom chance
+/// gives a significant drift in one of 20 tests; the motor is then only followed for longer.
 const DRIFT: f64 = NORMAL_975;
 
-/// Motors that lock on one motion have next to no scatter, and what is left of a start-up decays for as long as one
-/// waits. This share of the error that was asked for is too little to wait for.
+/// Motors that lock on one motion have next to no scatter, and the remainder of their start-up decays for ever. A drift
+/// below this share of the requested error is ignored.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Parts of the windows: the first is always left out, as the start-up.
+/// Parts of the windows: the first is always omitted as start-up.
 const PARTS: usize = 3;
 
-/// Windows that are left out of so many.
+/// The number of windows, of so many, that are omitted.
 pub(crate) const fn left_out(windows: usize) -> usize {
     windows / PARTS
 }
@@ -99,11 +99,11 @@ mod tests {
         for wanted in [0.1, 100.0] {
             assert!(matches!(alone(&speeds, wanted), Some(Shortfall::Drift { .. })), "{wanted}");
         }
-        // One that is lost in the scatter is none.
+        // A drift that is lost in the scatter is not significant.
         assert_eq!(alone(&noisy(16, 12, |window| 1e-4 * window), 0.1), None);
     }
 
-    /// What is left of the start is in no scatter: it is waited for, and what is not is part of the error.
+    /// The scatter does not contain the remainder of the start-up: a large one is awaited, a small one added to the error.
     #[test]
     fn what_depends_on_the_start_is_no_part_of_a_steady_mean() {
         let (below, above) = (noisy(16, 12, |_| 5.0), noisy(16, 12, |_| 5.3));

@@ -11,10 +11,10 @@ use crate::motor::operation::settings::OperatingSettings;
 /// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
 const STEPS: usize = 16;
 
-/// No load nearer to the largest torque is tried: what friction has left there settles a speed too slowly.
+/// The largest load tried, as a share of the largest torque: closer to it the remaining friction settles a speed too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
-/// A stall load below this part of the largest torque is none: the ripple of a speed within a period leaves as much.
+/// A stall load below this part of the largest torque counts as zero: the ripple of a speed within a period is as large.
 const LEAST: f64 = 1e-5;
 
 /// The width of an even distribution over its standard deviation, the root of 12.
@@ -43,7 +43,7 @@ pub struct StallLoad {
     pub no_load_speed: Estimate,
 }
 
-/// The stall load of a motor; the load it has is not looked at.
+/// The stall load of a motor, whatever the load of its data sheet.
 pub(crate) fn stall_load(
     motor: &LoadedMotor,
     settings: &OperatingSettings,
@@ -122,8 +122,8 @@ pub(crate) fn stall_load(
     Ok(found(share, [fine[below], fine[above]]))
 }
 
-/// The error of the straight line between two neighbouring loads, as a share of their distance: from next to none, where the
-/// speeds beside them go on in the line, to that of an even distribution between them, where a locked motor jumps.
+/// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero if the speeds
+/// beside them continue the line, that of a uniform distribution between them if a locked motor jumps.
 fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
@@ -149,8 +149,8 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
     }
 }
 
-/// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would
-/// have one that is too small.
+/// Refuses speeds that still drift: no standard error contains the remainder of a start-up, so that of a load from such speeds
+/// would be too small.
 fn check_settled(operations: &[Operation]) -> Result<(), Error> {
     let drifting = operations.iter().find_map(|operation| match operation {
         Operation::Unsettled(point, Shortfall::Drift { .. }) => Some(point.speed),

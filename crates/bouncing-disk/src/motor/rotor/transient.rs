@@ -16,13 +16,13 @@ use crate::parameters::system::System;
 /// Most periods of the platform that a transient may last: beyond 2^53 a double does not count them one by one.
 const MAX_PERIODS: f64 = 9_007_199_254_740_992.0;
 
-/// Shortest interval of a curve (rad): what a phase is rounded by.
+/// Shortest interval of a curve (rad): the rounding of a phase.
 const SHORTEST_INTERVAL: f64 = 1.0e-15;
 
 /// Most intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
 
-/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// Events after which the work is counted.

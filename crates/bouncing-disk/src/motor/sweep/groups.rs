@@ -53,7 +53,7 @@ mod tests {
         let motors = amplitudes.iter().enumerate().map(|(index, &amplitude)| {
             motor.with(|sheet| {
                 sheet.amplitude = amplitude;
-                // What the vertical motion does not depend on.
+                // The vertical motion does not depend on these fields.
                 sheet.load_torque = 1e-9 * index as f64;
             })
         });

@@ -179,7 +179,7 @@ impl MotorSweepRun {
     ///
     /// # Errors
     /// Those of [`Self::cells`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if a group is not
-    /// finished: [`Self::is_done`] tells before.
+    /// finished, which [`Self::is_done`] shows.
     pub fn into_result(self, sweep: &MotorSweep) -> Result<MotorSweepResult, Error> {
         let cells: Option<Vec<Operation>> = self.cells(sweep)?.into_iter().collect();
         let cells = cells.ok_or_else(|| self.stopped(sweep))?;
@@ -202,7 +202,7 @@ impl MotorSweep {
     }
 }
 
-/// What became of a group.
+/// The outcome of a group.
 type Outcome = (usize, Result<Vec<Operation>, Error>);
 
 fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {

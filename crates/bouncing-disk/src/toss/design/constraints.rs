@@ -16,7 +16,7 @@ use crate::toss::single::InitialSpin;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum TossObjective {
-    /// The airborne rotary speed (rad/s), in whichever direction.
+    /// The airborne rotary speed (rad/s), in either direction.
     #[default]
     AirborneSpeed,
     /// The efficiency eta of Sec. III A.

@@ -14,7 +14,7 @@ use crate::toss::single::{InitialSpin, TossPerformance, single_toss};
 /// of them.
 const FRICTIONS: usize = 5;
 
-/// What a hand can choose.
+/// The parameters that a hand can choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hand {
     pub(super) angular_frequency: f64,

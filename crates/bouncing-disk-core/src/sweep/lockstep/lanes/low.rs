@@ -144,7 +144,7 @@ impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
     }
 }
 
-/// Evaluations in which it is decided whether a launch dips below the platform; few need more.
+/// Evaluations that decide whether a launch dips below the platform; few launches need more.
 const DIP_EVALUATIONS: usize = 3;
 
 /// The first steps of `GapForm::dip` for launches whose windows are those of a dip: whether one of them is below the platform
@@ -184,7 +184,7 @@ impl WithSimd for Dips<'_> {
                 let newton = t - slope / times.taylor(k).curvature;
                 let inside = mask(newton > shorter_lo) & mask(newton < shorter_hi);
                 let next = if inside != 0 { newton } else { 0.5 * (shorter_lo + shorter_hi) };
-                // What is below the platform by less than the rounding, or in too short a window, is left to one flight.
+                // The solver of one flight decides a dip by less than the rounding, or in too short a window.
                 let on = undecided & mask(gap > 0.0) & !clears & mask(shorter_hi - shorter_lo > 1.0e-9);
                 times.lo[k] = shorter_lo;
                 times.hi[k] = shorter_hi;

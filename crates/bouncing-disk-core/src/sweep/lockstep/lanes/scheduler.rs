@@ -15,7 +15,7 @@ use crate::sweep::lockstep::lanes::{
     Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
 };
 
-/// What flights are computed for.
+/// The purpose of the flights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and
@@ -93,8 +93,8 @@ impl FlightScheduler {
         self.dispatch
     }
 
-    /// Computes the impacts of the first `lanes` launches of the batches together; `failed` is told of each lane that has
-    /// none, and whose impact is then meaningless.
+    /// Computes the impacts of the first `lanes` launches of the batches together, and calls `failed` for each lane without
+    /// an impact; the result of such a lane is meaningless.
     pub(crate) fn fly(&mut self, batches: &mut [Batch], lanes: usize, mut failed: impl FnMut(usize, Error)) {
         self.hard.clear();
         let shared = shared_platform(batches);
@@ -368,7 +368,7 @@ impl<Rows> Queue<Rows> {
         k
     }
 
-    /// Takes flights of a batch from `lanes` until there are none or no more room; `set` is given the place of each.
+    /// Takes flights of a batch from `lanes` until none is left or no room; `set` gets the place of each.
     #[inline(always)]
     pub(super) fn fill(
         &mut self,

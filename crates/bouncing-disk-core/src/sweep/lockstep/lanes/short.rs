@@ -1,6 +1,6 @@
 //! Flights that land within half a radian: `Vibration::short_flight`, many at a time.
 //!
-//! Slow launches are few among ordinary ones and all of a chattering disk's, so they are collected.
+//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so they are collected.
 
 use core::f64::consts::{PI, TAU};
 
@@ -163,7 +163,7 @@ fn impact(width: impl Width, short: &Short, impacts: &mut Impacts) {
     }
 }
 
-/// What became of a slow launch.
+/// The outcome of a slow launch.
 pub(super) enum Fate {
     Landed,
     /// It flies on as if it had been launched faster.
@@ -219,7 +219,7 @@ impl Short {
         self.separation[k] = platform.separation_angle;
     }
 
-    /// What became of the flight of number `k`.
+    /// The outcome of flight number `k`.
     #[inline(always)]
     pub(super) fn fate(&self, k: usize) -> Fate {
         if self.landed[k] == 0 { self.fate_in_flight(k) } else { Fate::Landed }
