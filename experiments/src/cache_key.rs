@@ -16,7 +16,7 @@ use crate::provenance;
 
 include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 
-/// What a finished figure was made from, and its files.
+/// The inputs of a finished figure, and its files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Of the cache key itself; the files have their own.

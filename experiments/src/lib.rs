@@ -5,7 +5,7 @@
 //!
 //! * `compute` computes plain, serialisable data (units in the field names); it knows no picture,
 //! * `draw` turns that data into a [`Figure`](bouncing_disk_plot::Figure); it computes nothing,
-//! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in
+//! * `claims` compares every number the paper prints with the computed one ([`Claim`]); printed numbers stand in
 //!   the [catalogue](claims::catalogue) alone.
 //!
 //! [`registry`] lists the experiments; [`output`] writes their files, each with its [`provenance`]; [`report`] makes the

@@ -82,7 +82,7 @@ fn whole(number: f64) -> Option<u32> {
     f64::from(whole).total_cmp(&number).is_eq().then_some(whole)
 }
 
-/// What a column is for.
+/// The purpose of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// A quantity that may do anything within its range.
@@ -166,7 +166,7 @@ pub enum MeasuredError {
     Unreadable {
         /// The file.
         file: &'static str,
-        /// What the system reported.
+        /// The report of the system.
         source: Arc<io::Error>,
     },
     /// No figure reads these files: one by its name, or how many more there are.
@@ -205,7 +205,7 @@ pub enum MeasuredError {
         line: usize,
         /// The column, in words.
         column: String,
-        /// What was found, and what would be legal.
+        /// The text found, and the legal ones.
         fault: String,
     },
     /// The numbers are legal, but what the figure computes from them is not defined.

@@ -18,10 +18,10 @@ use crate::visible::visible_path;
 
 /// The largest file that is read back (bytes): a hundred times that of any figure.
 const LARGEST_FILE: u64 = 1 << 30;
-/// What the names of files that are not complete begin with.
+/// The beginning of the names of incomplete files.
 const PARTIAL: &str = ".bouncing-disk-partial-";
 
-/// What the system refuses.
+/// An operation that the system refuses.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {action} {}", visible_path(path))]
 pub struct OutputError {
@@ -221,7 +221,7 @@ fn cache_key_name(id: &str) -> String {
     format!("{id}.cache-key")
 }
 
-/// Whether a cache key may name this file. A cache key is a file like others: what it says must not remove anything
+/// Whether a cache key may name this file. A cache key is a file like others: its text must not remove anything
 /// else.
 fn is_of_figure(id: &str, name: &str) -> bool {
     let own = name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));

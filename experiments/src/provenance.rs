@@ -1,4 +1,4 @@
-//! What every written file says of its origin: program and version, the version of its format, the figure with
+//! The origin that every written file states: program and version, the version of its format, the figure with
 //! its quality and parameters, seed and chatter policy.
 //!
 //! It is put into a file when the file is written, and none of the digests that pin data and drawings sees it:
@@ -32,7 +32,7 @@ pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, 
 /// The format of the files in `data/performance`.
 pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };
 
-/// What the first line of a table begins with.
+/// The beginning of the first line of a table.
 const BEFORE_IN_CSV: &str = "# provenance: ";
 /// Where chunks of a PNG file may begin: after the signature (8 bytes) and the header (25 bytes).
 const AFTER_HEADER: usize = 33;
@@ -61,7 +61,7 @@ pub fn in_csv(provenance: &Provenance, table: &str) -> String {
     format!("{BEFORE_IN_CSV}{}\n{table}", text(provenance))
 }
 
-/// What a table says of its origin, if anything.
+/// The origin that a table states, if any.
 pub fn from_csv(table: &str) -> Option<Value> {
     let (line, _) = table.strip_prefix(BEFORE_IN_CSV)?.split_once('\n')?;
     serde_json::from_str(line).ok()

@@ -33,10 +33,10 @@ pub fn paper() -> Vec<RegisteredExperiment> {
     ]
 }
 
-/// What the identifiers of the figures beyond the paper begin with.
+/// The beginning of the identifiers of the figures beyond the paper.
 const EXTRA: &str = "extra-";
 
-/// The figures beyond the paper, made only when they are asked for.
+/// The figures beyond the paper, made only on request.
 pub fn extras() -> Vec<RegisteredExperiment> {
     // One line per module of `figures`, whose name has underscores where the identifier has hyphens.
     vec![

@@ -1,4 +1,4 @@
-//! What is made from the results of all figures: the gallery with `claims.json`, and the committed pages.
+//! The products of the results of all figures: the gallery with `claims.json`, and the committed pages.
 //!
 //! A claim becomes a row of words once; one set of templates turns rows into HTML and Markdown.
 
@@ -42,7 +42,7 @@ impl Row {
         Self {
             place: claim.place.clone(),
             quantity: claim.quantity.clone(),
-            // What the paper says in words is "true" in its catalogue.
+            // The catalogue has "true" for a statement in words.
             printed: if is_statement { "stated".to_owned() } else { with_unit(&claim.printed, &claim.unit) },
             computed: match &claim.computed {
                 Computed::Number(number) => with_unit(&of_digits(*number, 6), &claim.unit),
@@ -63,7 +63,7 @@ impl Row {
     }
 }
 
-/// The verdict of a claim as one reads it, with its cause and the verdict of single orbits. What is not the paper's is neither reproduced nor does it
+/// The verdict of a claim in words, with its cause and the verdict of single orbits. A claim that is not the paper's is neither reproduced nor does it
 /// differ.
 fn verdict_words(claim: &Claim) -> String {
     let words = |verdict| match (claim.class, verdict) {

@@ -1,4 +1,4 @@
-//! Shows texts of somebody else's, such as fields of a file and names of folders, in messages.
+//! Makes texts from outside, such as fields of a file and names of folders, visible in messages.
 //!
 //! A control character that reaches a terminal moves its cursor or changes its title; one that orders text
 //! from right to left makes a message read as something else; five megabytes hide it. None of them may pass.

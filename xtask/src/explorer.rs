@@ -57,7 +57,7 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     let module = out.join("module");
     bound(&compiled(options, &[])?, &module)?;
     let page = in_workspace(PAGE);
-    // What is installed is what the lock file says, and nothing of it runs: packages bring their programs ready to use.
+    // Install exactly the packages of the lock file, without running their scripts: they bring their programs ready to use.
     succeed(tools::npm().current_dir(&page).args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]))?;
     succeed(
         Command::new("node")
@@ -118,7 +118,7 @@ fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
     Ok(folder.join(TARGET).join("web").join(format!("{LIBRARY}.wasm")))
 }
 
-/// Runs a program that tells its own errors.
+/// Runs a program that reports its own errors.
 fn succeed(command: &mut Command) -> Result<()> {
     let name = Path::new(command.get_program()).display().to_string();
     let status = command.status().with_context(|| format!("{name} cannot be run"))?;

@@ -25,7 +25,7 @@ use crate::workspace::{DOCS_FOLDER, in_workspace};
 const DEFAULT_FOLDER: &str = "target/figures";
 /// Where `--docs` makes the drafts whose digests it stores, in the output folder.
 const DRAFTS_FOLDER: &str = "draft";
-/// What repairs the documentation.
+/// The command that repairs the documentation.
 const DOCS_COMMANDS: [(Pictures, &str); 2] = [
     (Pictures::Paper, "cargo xtask figures --docs"),
     (Pictures::Extras, "cargo xtask figures --extras --docs"),
@@ -147,13 +147,13 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         complain!("error: {words}");
         Ok(ExitCode::from(USAGE))
     };
-    // The default folder may be missing; one that was asked for may not.
+    // The default folder may be missing; a requested one may not.
     if options.measured.is_some() && !folder.is_dir() {
         return refuse(format!("--measured {}: there is no such folder", visible_path(&folder)));
     }
     let measurements = Measurements::read(&folder, &registry::measurements(&entries))
         .with_context(|| format!("cannot read the measurements in {}", visible_path(&folder)))?;
-    // Tables would be taken for measurements.
+    // Otherwise tables would pass for measurements.
     let real = |path: &Path| path.canonicalize().ok();
     if real(&folder).is_some_and(|own| real(&options.folder()) == Some(own)) {
         let folder = visible_path(&folder);
@@ -175,7 +175,7 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     make(&run, options.quality, &measurements, &folder)
 }
 
-/// What is to be made.
+/// The figures to make.
 struct Run<'a> {
     options: &'a Options,
     entries: &'a [RegisteredExperiment],
@@ -239,7 +239,7 @@ fn state(
     folder.check(entry.id, quality, &measurements.digest(entry.measurements))
 }
 
-/// What is wrong with the measurements for the selected figures, and with files that no figure reads.
+/// The faults of the measurements for the selected figures, and files that no figure reads.
 fn faults(
     options: &Options,
     selected: &[&RegisteredExperiment],
@@ -341,7 +341,7 @@ fn make(
     let summary = match Summary::update(entries, folder, measurements) {
         Ok(summary) => summary,
         Err(error) => {
-            // What one full disk has done to the figures, too, is not known otherwise.
+            // The same cause, such as a full disk, may have spoilt figures: report them before this error.
             say_failures(options, &finished)?;
             return Err(error.into());
         }
@@ -354,9 +354,9 @@ fn make(
     conclude(options, &finished, folder, &faults, &summary)
 }
 
-/// Prints the times, the measurements that were left out and the failures.
+/// Prints the times, the omitted measurements and the failures.
 ///
-/// Measurements that cannot be used count as a failure: the figure is there, but not as it was asked for, and a script
+/// Measurements that cannot be used count as a failure: the figure is there, but not as requested, and a script
 /// must not take it for one that shows them.
 fn conclude(
     options: &Options,

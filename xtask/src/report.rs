@@ -113,7 +113,7 @@ impl Progress for Running<'_> {
         if let Some(bar) = &self.bar {
             bar.set_position(done);
         } else if let Ok(mut stage) = self.stage.try_lock()
-            // Another thread that is telling already tells enough.
+            // Another thread is already reporting; that is enough.
             && stage.told.elapsed() >= PAUSE
         {
             stage.told = Instant::now();

@@ -13,7 +13,7 @@ use bouncing_disk_experiments::{Measurements, Quality};
 
 use crate::report::Report;
 
-/// What became of one figure.
+/// The outcome of one figure.
 #[derive(Debug)]
 pub(crate) struct Finished {
     pub(crate) id: &'static str,

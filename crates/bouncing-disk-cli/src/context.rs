@@ -31,7 +31,7 @@ impl Context {
         Watcher::new(what, self.quiet)
     }
 
-    /// Prints a note beside the result, unless that is unwanted.
+    /// Prints a note beside the result, unless notes are unwanted.
     pub(crate) fn note(self, text: &str) {
         if !self.quiet {
             complain(text);
@@ -57,7 +57,7 @@ pub(crate) struct Watcher {
 impl Watcher {
     /// Of a computation of one part; silent if `quiet`.
     fn new(what: &str, quiet: bool) -> Self {
-        // Nothing is drawn where there is no terminal.
+        // Without a terminal there is no bar.
         let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
         let bar = ProgressBar::with_draw_target(Some(STEPS), target)
             .with_finish(ProgressFinish::AndClear)

@@ -145,7 +145,7 @@ pub(crate) fn run<J: GridJob>(
     })
 }
 
-/// What a journal, and a part, is of: all that the rows depend on.
+/// The computation of a journal or a part: everything on which the rows depend.
 fn key<J: GridJob>(job: &J) -> Result<Provenance, Failure> {
     let key = Provenance::new(JOURNAL).written_by(PROGRAM, VERSION).with("command", J::COMMAND)?;
     Ok(key.with("job", job)?)

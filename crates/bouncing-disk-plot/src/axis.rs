@@ -69,7 +69,7 @@ impl Axis {
         Self::linear(low, high).ticks(Ticks::few(high - low))
     }
 
-    /// What the axis shows, with its unit.
+    /// The quantity of the axis, with its unit.
     #[must_use]
     pub fn label(mut self, label: impl Into<Label>) -> Self {
         self.label = label.into();

@@ -13,7 +13,7 @@ use crate::style::{Fill, Stroke, Style};
 use crate::svg::{Svg, TEXT_SIZE, TOLERANCE};
 use crate::text_style::{Anchor, TextStyle};
 
-/// What is drawn, in points of the page.
+/// The shapes, in points of the page.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Shape(BezPath, Style),

@@ -88,7 +88,7 @@ impl From<Colour> for Fill {
     }
 }
 
-/// How a shape is drawn: its outline and its area, each of which may be left out.
+/// How a shape is drawn: its outline and its area, either of which may be missing.
 ///
 /// ```
 /// use bouncing_disk_plot::{Colour, Dash, Style};
@@ -155,7 +155,7 @@ impl Style {
         self
     }
 
-    /// What [`colour`](Self::colour) and [`opacity`](Self::opacity) set, as an area.
+    /// The area with the set [`colour`](Self::colour) and [`opacity`](Self::opacity).
     pub(crate) fn solid(&self) -> Fill {
         match (self.stroke, self.fill) {
             (None, Some(fill)) => fill,

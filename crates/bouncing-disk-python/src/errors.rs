@@ -17,7 +17,7 @@ enum Detail {
 }
 
 impl Detail {
-    /// What `Debug` has written.
+    /// The text written by `Debug`.
     fn read(text: &str) -> Self {
         let number = || text.parse().map(Self::Number).ok();
         text.parse()
@@ -206,7 +206,7 @@ fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> 
     let plurals = ["s", "_torque", "_torques"].map(|suffix| format!("{head}{suffix}"));
     let others = ARGUMENTS.iter().filter(|(library, _)| *library == head).flat_map(|(_, names)| *names);
     let ranged = call.get_item("ranges").ok().flatten().filter(|all| all.contains(&head).unwrap_or(false));
-    // What is illegal of one of many comes from the argument that holds them.
+    // An illegal value of a list comes from the argument that holds the list.
     let containers = ["basins", "transients", "ranges", "axes"];
     spellings
         .into_iter()
@@ -306,7 +306,7 @@ pub(crate) fn of_measured(py: Python<'_>, error: &MeasuredSpeedsError) -> PyErr 
     }
 }
 
-/// The exception of a text that means nothing, by what is said of it.
+/// The exception for a text that cannot be read, with this message.
 pub(crate) fn invalid_text(py: Python<'_>, error: &dyn std::error::Error) -> PyErr {
     raise(py, error.to_string(), Raised::Invalid("text".to_owned(), Vec::new()))
 }

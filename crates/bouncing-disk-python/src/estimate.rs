@@ -120,7 +120,7 @@ pub(crate) fn transients(a: Arguments<'_>) -> Made<'_> {
     make!(py, "SpeedCurves", times, speeds, impacts, separations)
 }
 
-/// One value tells neither deviation nor error.
+/// A single value has neither deviation nor error.
 fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'py> {
     let of_many = |number: f64| if members > 1 { number } else { f64::NAN };
     make!(py, "Spread", spread.mean, of_many(spread.deviation), of_many(spread.standard_error))

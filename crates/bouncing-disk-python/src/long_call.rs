@@ -1,4 +1,4 @@
-//! Long calls: the interpreter's lock is released, Ctrl-C stops them, a callable is told how far they are.
+//! Long calls: they release the interpreter's lock, Ctrl-C stops them, and they report progress to a callable.
 //!
 //! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets
 //! Python look at its signals, and calls the callable. So the callable is only ever called by the thread that
@@ -21,7 +21,7 @@ use crate::arguments::Arguments;
 use crate::{errors, threads};
 
 impl Arguments<'_> {
-    /// Runs `work` on a pool of threads, and tells the argument `progress` how far it is.
+    /// Runs `work` on a pool of threads, and reports its progress to the argument `progress`.
     pub(crate) fn run<T: Send>(
         &self,
         work: impl FnOnce(&dyn Observer) -> Result<T, Error> + Send,
@@ -43,10 +43,10 @@ impl Arguments<'_> {
     }
 }
 
-/// How often signals are looked at, and the callable is called.
+/// How often signals are checked, and the callable is called.
 const INTERVAL: Duration = Duration::from_millis(40);
 
-/// What the threads that compute and the one that waits share.
+/// The state that the computing threads share with the waiting one.
 #[derive(Default)]
 struct Watched {
     done: AtomicU64,
@@ -64,7 +64,7 @@ impl Observer for Watched {
 }
 
 impl Watched {
-    /// Lets Python handle its signals, and tells the callable how far the call is.
+    /// Lets Python handle its signals, and reports the progress of the call to the callable.
     fn look(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;

@@ -22,9 +22,9 @@ use crate::parameters::{pair, state};
 use crate::results::{array, column, complex, holders, holding, make, matrix, room_for};
 
 holders! {
-    /// What a `PeriodicOrbit` holds.
+    /// The contents of a `PeriodicOrbit`.
     PeriodicOrbit(OrbitModel) = shown_orbit;
-    /// What a `Branch` holds.
+    /// The contents of a `Branch`.
     Branch(BranchModel) = shown_branch;
 }
 
@@ -228,7 +228,7 @@ pub(crate) fn doubling_cascade(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// Orbits that one thread advances together: what stays in its cache.
+/// Orbits that one thread advances together: as many as stay in its cache.
 const TOGETHER: usize = 1024;
 
 /// The impacts that so many steps lead to, of one share of the orbits.

@@ -24,7 +24,7 @@ use crate::results::{array, column, complex, holders, holding, make, room_for};
 use crate::{errors, long_call};
 
 holders! {
-    /// What a `Trajectory` holds: the system, and the motion.
+    /// The contents of a `Trajectory`: the system, and the motion.
     Trajectory((SystemModel, Motion)) = shown_trajectory;
 }
 
@@ -34,7 +34,7 @@ const MOST_EVENTS: u64 = 1_000_000;
 /// The most samples.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// What an event counts as for an observer, in flights.
+/// The work of an event, in flights.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 const SPINS: [(&str, InitialSpin); 2] =
@@ -72,7 +72,7 @@ fn shown_toss<'py>(py: Python<'py>, toss: &TossPerformance) -> Made<'py> {
 
 /// The toss of a disk from its platform.
 ///
-/// Thousands a second are asked for, so that it takes no dictionary.
+/// Callers request thousands a second, so it takes no dictionary.
 #[pyfunction]
 pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<'py, PyAny>) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
@@ -119,7 +119,7 @@ impl Start {
     }
 }
 
-/// What a motion is that has settled: its name, impacts and platform periods of a round, long flights of a
+/// A motion that has settled: its name, impacts and platform periods of a cycle, long flights of a
 /// chattering one, the multipliers, and the exponent.
 type Class = (&'static str, usize, u64, usize, [Complex64; 3], Option<LyapunovEstimate>);
 
@@ -144,7 +144,7 @@ fn class(class: &OrbitClass) -> Class {
     }
 }
 
-/// What a motion settles on.
+/// The motion on which a start settles.
 #[pyfunction]
 pub(crate) fn multi_toss(a: Arguments<'_>) -> Made<'_> {
     let (system, start, py) = (a.system()?, Start::of(&a)?, a.py());
@@ -387,7 +387,7 @@ pub(crate) fn best_toss(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// What becomes of the spin of a disk on a periodic orbit.
+/// The fate of the spin of a disk on a periodic orbit.
 #[pyfunction]
 pub(crate) fn rotary_response(a: Arguments<'_>) -> Made<'_> {
     let (system, orbit, py) = (a.system()?, a.held::<PeriodicOrbit>("orbit")?, a.py());

@@ -1,6 +1,6 @@
 //! Branches of periodic orbits over the forcing, stable and unstable.
 //!
-//! Which branches there are, and where their bifurcations lie, does not depend on the window that is looked at: each is
+//! The branches and their bifurcations do not depend on the visible window: each is
 //! followed from its birth on, and the window gets its own points of it.
 
 use bouncing_disk::core::orbits::{
@@ -81,7 +81,7 @@ fn settings(range: (f64, f64), rising: bool) -> Result<Continuation, CoreError> 
     )
 }
 
-/// A branch that the equations do not give is none; all other errors are some.
+/// A branch that the equations do not give is `None`; any other error is passed on.
 fn if_any<T>(found: Result<T, CoreError>) -> Result<Option<T>, CoreError> {
     match found {
         Err(CoreError::NoBranch { .. }) => Ok(None),
@@ -172,7 +172,7 @@ impl Found {
         let impacts = first.orbit.period();
         let here = branch.bifurcations.iter().filter(|one| (low..=high).contains(&one.point.parameter));
         let parts = branch.within(self.window, POINTS)?;
-        // That it is born where another one doubles has been told with that one.
+        // The branch that doubles there has already reported this birth.
         let here: Vec<_> = here.filter(|one| one.kind != BifurcationKind::Birth).collect();
         if parts.is_empty() && here.is_empty() {
             return Ok(());

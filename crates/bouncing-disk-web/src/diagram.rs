@@ -26,18 +26,18 @@ const SETTLED: f64 = 1e-6;
 const NEARLY: f64 = 1e-3;
 
 /// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it hits as fast as in
-/// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
+/// the motion of one impact a period. This many times Gamma_T/2 impacts are discarded before its spin is recorded.
 const SPIN_UPS: f64 = 10.0;
 
-/// What one column has.
+/// The contents of one column.
 struct Column {
     impacts: Vec<(ImpactState, f64)>,
     left_out: usize,
     settled: bool,
 }
 
-/// Orbits that came to rest for ever and have no impacts left, those that are still on their way to what they repeat, and
-/// the most impacts that were left out of one. Numbers: rows of the forcing, the phase of impact (rad), the normalised
+/// Orbits that came to rest for ever and have no impacts left, those that have not yet settled on their final motion, and
+/// the most impacts that were discarded from one. Numbers: rows of the forcing, the phase of impact (rad), the normalised
 /// speed, and the angular speed after the impact in units of omega Phi (NaN where the platform does not twist or there is
 /// no friction).
 pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
@@ -99,7 +99,7 @@ fn vertical(
     Ok(columns)
 }
 
-/// The forcings of the columns that are asked for.
+/// The forcings of the requested columns.
 fn forcings(request: &DiagramRequest) -> Result<Vec<f64>, Refusal> {
     let ([low, high], [from, to], count) = (request.axial_forcing, request.columns, request.count);
     if !(2..=MOST_COLUMNS).contains(&count) {

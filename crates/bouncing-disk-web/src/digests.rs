@@ -37,7 +37,7 @@ pub fn digests() -> Result<String, String> {
     Ok(format!("{{\n{}\n}}\n", lines.join(",\n")))
 }
 
-/// What differs from the golden digests of the core, a line each: nothing, wherever IEEE 754 is kept.
+/// The differences from the golden digests of the core, a line each: none, wherever IEEE 754 is kept.
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 #[must_use]
 pub fn golden_differences() -> Vec<String> {
@@ -206,7 +206,7 @@ fn crisis() -> Result<Digest, Error> {
     Ok(digest_of(numbers.into_iter().chain(lives.iter().map(|life| life.impacts))))
 }
 
-/// What the three calls about a motor in operation give.
+/// The results of the three calls about a motor in operation.
 fn operations() -> Result<Digest, Error> {
     let sheet = MotorParameters {
         drive_frequency: 70e3,

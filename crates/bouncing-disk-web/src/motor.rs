@@ -18,10 +18,10 @@ const FEW_IMPACTS: u64 = 5_000_000;
 /// Most impacts that a request may allow: those of the library's default.
 const MOST_IMPACTS: u64 = 20_000_000;
 
-/// How far away a trap is told, as a relative change of the preload or the amplitude.
+/// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
-/// What a data sheet says before anything turns, with its system and the mass of its rotor (kg). The trap is the nearest
+/// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap is the nearest
 /// preload at which the motor may be caught in a motion of few impacts: whether it is, the relative change of the preload
 /// or the amplitude that reaches it, and from where to where in the forcing it reaches.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {

@@ -1,4 +1,4 @@
-//! What follows from the parameters of a system, and what one orbit does for good.
+//! Derived quantities of a system, and the long-term motion of one orbit.
 
 use std::f64::consts::TAU;
 
@@ -38,7 +38,7 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
         Verdict::Periodic { impacts, platform_periods, multipliers: found, .. } => {
             round = Some((*impacts, *platform_periods));
             multipliers = Some(pairs(*found));
-            // JSON has no infinity: that of a superstable orbit is left out.
+            // JSON has no infinity, so the exponent of a superstable orbit is omitted.
             exponent = Some(found.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite());
             "periodic"
         }

@@ -110,7 +110,7 @@ pub(crate) enum Request {
         samples_per_period: u64,
     },
     Diagram(DiagramRequest),
-    /// What the orbit from a start does for good.
+    /// The long-term motion of the orbit from a start.
     Orbit {
         axial_forcing: f64,
         restitution: f64,
@@ -127,7 +127,7 @@ pub(crate) enum Request {
         restitution: f64,
     },
     Basins(BasinsRequest),
-    /// What a data sheet says before anything turns.
+    /// The report of a data sheet before anything turns.
     MotorReport {
         sheet: MotorParameters,
     },
@@ -170,7 +170,7 @@ pub(crate) struct DiagramRequest {
     pub(crate) start: ImpactStart,
     pub(crate) transient: usize,
     pub(crate) recorded: usize,
-    /// Most impacts that are left out of an orbit that has not settled after `transient` ones.
+    /// Most impacts that are discarded from an orbit that has not settled after `transient` ones.
     #[serde(default)]
     pub(crate) patience: usize,
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
@@ -198,7 +198,7 @@ pub(crate) struct LoadsRequest {
     pub(crate) sheet: MotorParameters,
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
-    /// Most impacts that the answer may take, up to 20 million; 5 million where nothing is said.
+    /// Most impacts that the answer may take, up to 20 million; 5 million by default.
     #[serde(default)]
     pub(crate) most_impacts: Option<u64>,
     pub(crate) seed: u64,

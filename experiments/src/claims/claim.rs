@@ -1,10 +1,10 @@
 //! A number or statement printed in the paper, compared with ours.
 //!
-//! The verdict is the result of a comparison; nothing in this crate can set it by hand. What is printed comes from the
+//! The verdict is the result of a comparison; nothing in this crate can set it by hand. Printed numbers come from the
 //! [catalogue]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
-//! the printed text. What decides a statement is the rule of its [`Kind`] and the [`Cases`] in which it holds.
+//! the printed text. The rule of its [`Kind`] and the [`Cases`] in which it holds decide a statement.
 //!
-//! Only what the paper itself asserts counts for or against it: the [`Class`] of a claim tells that from inputs, from what was
+//! Only statements of the paper itself count for or against it: the [`Class`] of a claim separates them from inputs, from what was
 //! fitted, from what is true by construction, and from what this work adds.
 
 use serde::{Serialize, Serializer};
@@ -45,7 +45,7 @@ pub struct Claim {
     pub(crate) id: String,
     /// Where in the paper: "Fig. 6 caption", "Sec. IV B".
     pub(crate) place: String,
-    /// What is compared.
+    /// The compared quantity.
     pub(crate) quantity: String,
     /// The unit of the printed number; empty for a pure number.
     pub(crate) unit: String,
@@ -81,7 +81,7 @@ pub struct Claim {
 pub struct SingleOrbits {
     /// The verdict.
     pub verdict: Verdict,
-    /// What it is taken over.
+    /// The inputs over which it is taken.
     pub cases: Cases,
 }
 
@@ -116,7 +116,7 @@ impl Claim {
     pub fn printed_statement(key: &str, cases: impl Into<Cases>, evidence: impl Into<String>) -> Self {
         let cases = cases.into();
         Self::of_entry(key, |entry| {
-            // What is true by construction has no exception.
+            // A statement that is true by construction has no exception.
             let kind = entry.kind.unwrap_or(Kind::Always);
             let verdict = kind.verdict(cases);
             let holds = (cases.tried > 0).then_some(verdict == Verdict::Reproduced);
@@ -291,7 +291,7 @@ impl Claim {
     }
 
     /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
-    /// want. What is printed comes from the catalogue: [`printed_statement`](Self::printed_statement).
+    /// want. A printed statement comes from the catalogue: [`printed_statement`](Self::printed_statement).
     ///
     /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the numbers
     /// that show it.
@@ -324,7 +324,7 @@ impl Claim {
         self
     }
 
-    /// Whether it should have been judged by data and there are none. Such a claim is no finding but a fault of the experiment.
+    /// Whether it should have been judged by data, but no data exist. Such a claim is no finding but a fault of the experiment.
     pub fn lacks_data(&self) -> bool {
         let reasoned = match &self.source {
             Source::Entry(key) => catalogue::find(key).is_ok_and(|entry| entry.reason.is_some()),

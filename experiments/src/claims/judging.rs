@@ -155,7 +155,7 @@ kinds! {
     Number = "number", "Reproduced where ours, at exactly the printed inputs, agrees within half a unit of the last printed digit.";
     /// A printed number that the authors computed from rounded measurements.
     Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced for 95 % of them or more, differing for 5 % or less, otherwise dependent on unprinted digits.";
-    /// What the paper reads off drawn curves: a maximum, its place, that two maxima are at one place.
+    /// A reading from drawn curves: a maximum, its place, or the coincidence of two maxima.
     Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn places would agree, it is no data.";
     /// A formula with an equality.
     Equation = "equation", "Reproduced where both sides agree but for rounding.";

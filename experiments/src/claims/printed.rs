@@ -23,7 +23,7 @@ pub struct PrintedNumber {
 }
 
 impl PrintedNumber {
-    /// Reads a number as the paper prints it; `None` when the text is none.
+    /// Reads a number as the paper prints it; `None` if the text is no number.
     pub fn read(text: &str) -> Option<Self> {
         Self::read_shifted(text, 0)
     }
@@ -49,7 +49,7 @@ impl PrintedNumber {
 }
 
 /// Whether a printed number is a multiple of π, so that one compares with ours in the same form. In `cos(0.26π)` the π belongs
-/// to the angle, and the number itself is none.
+/// to the angle, and the number itself is no multiple.
 pub(crate) fn is_multiple_of_pi(text: &str) -> bool {
     text.contains('π') && !text.contains('(')
 }

@@ -25,19 +25,19 @@ pub(crate) struct AlikeMotor {
     pub(crate) frequency_hz: f64,
     pub(crate) peak_angular_speed_rad_per_s: f64,
     pub(crate) axial_forcing: f64,
-    /// What it repeats.
+    /// The motion that it repeats.
     pub(crate) cycle: Cycle,
     /// Mean over the last third.
     pub(crate) steady_speed_rad_per_s: f64,
     /// The initial slope of the form that fits better, α̇_ss/t_c or α̇_ss/t_r, over the limit μ a_e g/a_g². `None` where the speed does not settle or is
-    /// not told apart from zero.
+    /// not distinguishable from zero.
     pub(crate) stall_over_limit: Option<f64>,
     /// Root mean square of curve minus exponential, as a share of ωΦ.
     pub(crate) exponential_residual: f64,
     /// The same for a linear rise to a constant.
     pub(crate) ramp_residual: f64,
     /// Standard deviation of the speed from its straight line over the second half of the transient, as a share of ωΦ: the oscillation of the steady speed. A slow
-    /// rise that goes on is none.
+    /// rise that continues does not count.
     pub(crate) oscillation: f64,
     pub(crate) impacts_per_s: f64,
     /// The time from nine tenths of the last speed to all but a fiftieth of it, over that to one half: 0.16 for a linear rise to a constant, 2.3 for an

@@ -29,7 +29,7 @@ const REACH: f64 = 0.3;
 /// The least share that is drawn.
 const LEAST: f64 = 3.0e-4;
 
-/// What is drawn alike: its name and colour. The digits are platform periods for each impact.
+/// Motions that are drawn alike, with their name and colour. The digits are platform periods for each impact.
 const KINDS: [(&str, Colour); 7] = [
     ("rest", Colour::LIGHT_GREY),
     ("1", Colour::BLUE),

@@ -196,7 +196,7 @@ fn colour_bar(area: Rect, levels: usize) -> Panel {
 
 fn shares(data: &ExtraEfficiencyData, area: Rect) -> Panel {
     let driving = data.along_load.iter().take_while(|point| point.mechanical_power.value >= 0.0);
-    // Load, and the heights up to which work and friction reach. What is stored, and what the perturbation puts in, are no
+    // Load, and the heights up to which work and friction reach. The stored energy, and the work of the perturbation, are no
     // share of anything.
     let heights: Vec<[f64; 3]> = driving
         .map(|point| {

@@ -17,7 +17,7 @@ use crate::progress::Progress;
 /// Seed of the synthetic transients.
 const SEED: u64 = 2_009;
 
-/// What the transients are made from: rad/s, s; the scatter of the members' speeds, relative; noise in rad/s, and its
+/// The parameters of the synthetic transients: rad/s, s; the scatter of the members' speeds, relative; noise in rad/s, and its
 /// correlation from point to point; members, and points in a time constant.
 const STEADY_SPEED: f64 = 20.0;
 const TIME_CONSTANT: f64 = 0.6;

@@ -48,7 +48,7 @@ pub struct ExtraTrapsData {
     share_of_fig11: Vec<TrappedShare>,
 }
 
-/// What the motors of a grid do, row by row.
+/// The verdicts on the motors of a grid, row by row.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Map {
     /// Long flights of the unperturbed cycle; 0 where it is not short.

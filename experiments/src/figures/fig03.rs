@@ -116,7 +116,7 @@ const SAME_FLIGHT: f64 = 0.01;
 fn sprung_rotor(data: &Fig03Data) -> Claim {
     let sprung = &data.sprung;
     let flights = sprung.motors.iter().flat_map(|motor| &motor.springs);
-    // Hooke's law bounds the preload, which is no test; what has to be seen is that the flight hardly differs.
+    // Hooke's law bounds the preload, which is no test; the test is that the flight hardly differs.
     let same = claim::all(flights.filter(|flight| flight.deflection_over_travel >= MUCH_GREATER), |flight| {
         flight.duration_change.abs() <= SAME_FLIGHT && flight.fall_speed_change.abs() <= SAME_FLIGHT
     });

@@ -308,7 +308,7 @@ fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> D
     )
 }
 
-/// What the parts are called.
+/// The names of the parts.
 fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
     let radius = 0.5 * data.ball_diameter_mm;
     let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));

@@ -16,7 +16,7 @@ use crate::experiment::ExperimentError;
 
 /// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
 /// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
-/// and 32 flights, and so how much hangs on it.
+/// and 32 flights, and so show how much depends on it.
 pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// Other definitions, under which a verdict must be the same to count.
@@ -88,7 +88,7 @@ impl MotorCase {
         }
     }
 
-    /// What all motors of the figures share, by name and with units, for the gallery.
+    /// The parameters that all motors of the figures share, by name and with units, for the gallery.
     pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
         let named = [
             ("μ", self.friction.to_string()),
@@ -114,7 +114,7 @@ impl MotorCase {
         Ok(Cycle::from(unperturbed_orbit(&self.system()?, policy)?))
     }
 
-    /// The cycle of the motor that nothing perturbs, if it is also that of all motors that cannot be told from it.
+    /// The cycle of the motor that nothing perturbs, if all motors that cannot be distinguished from it have the same.
     pub(crate) fn robust_cycle(&self) -> Result<Option<RobustCycle>, ExperimentError> {
         let cycle = self.cycle(ChatterPolicy::Complete)?;
         let ulps = UNTOLD.map(|part| self.amplitude_m * (1.0 + part));
@@ -153,7 +153,7 @@ pub(crate) fn core_error(error: bouncing_disk::core::Error) -> ExperimentError {
     ExperimentError::model(bouncing_disk::Error::from(error))
 }
 
-/// What `multi_toss` says that the unperturbed motor repeats.
+/// The motion that the unperturbed motor repeats, by `multi_toss`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "class", rename_all = "snake_case")]
 pub(crate) enum Cycle {

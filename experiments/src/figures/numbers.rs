@@ -124,7 +124,7 @@ impl Noise {
     }
 
     /// Log-normal with this mean and standard deviation, both positive: for quantities that cannot be negative. A bell cut
-    /// at zero would have a larger mean and less scatter than asked for.
+    /// at zero would have a larger mean and less scatter than requested.
     pub(crate) fn log_normal(&mut self, mean: f64, deviation: f64) -> f64 {
         let relative = deviation / mean;
         let variance = ln(1.0 + relative * relative);

@@ -1,7 +1,7 @@
 //! Inputs that print like the paper's.
 //!
-//! What the authors measured is known to its last printed digit, and a number computed from it is judged over draws of all that rounds to it. What they
-//! set in a simulation is exact. For the motor no preload acceleration is printed, and its orbit hangs on it: at A = 1 nm and g = 9.8 m/s² to all digits
+//! A measurement of the authors is known to its last printed digit, and a number computed from it is judged over draws of all values that round to it. A value that they
+//! set in a simulation is exact. For the motor no preload acceleration is printed, and its orbit depends on it: at A = 1 nm and g = 9.8 m/s² to all digits
 //! A ω²/g is 2π², and the motor repeats a cycle that it does not have at 9.81. A statement about such an orbit is judged over many of them
 //! (`docs/judging.md`). This is the only place where they are drawn.
 
@@ -64,7 +64,7 @@ pub(crate) fn agreement(key: &str, values: impl IntoIterator<Item = f64>) -> Res
     Ok(Cases::of(values.into_iter().map(|value| printed.holds(value))))
 }
 
-/// A motor as its simulation was printed. What the paper set is exact; what it does not print is drawn.
+/// A motor as its simulation was printed. Values that the paper set are exact; values that it does not print are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PrintedInputs {
     motor: MotorCase,
@@ -73,7 +73,7 @@ pub(crate) struct PrintedInputs {
 }
 
 impl PrintedInputs {
-    /// The motor of Table III. Its g is printed as "70" alone, which is ω/2π; what is meant is gravity, so that every g counts that rounds to the 9.8 of Table I
+    /// The motor of Table III. Its g is printed as "70" alone, which is ω/2π; gravity is meant, so every g counts that rounds to the 9.8 of Table I
     /// or lies between it and the 10 m/s² up to which Sec. V B varies g.
     pub(crate) fn table_three() -> Result<Self, ExperimentError> {
         let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?);
@@ -96,8 +96,8 @@ impl PrintedInputs {
         Ok(Self { amplitude_m: Range::printed(key, 0)?, ..self })
     }
 
-    /// With the preload acceleration printed as the entry `key`, in m/s². Nothing is left to draw then but the last places of the amplitude, which
-    /// decide on a long cycle: all amplitudes that agree to twelve digits.
+    /// With the preload acceleration printed as the entry `key`, in m/s². Only the last places of the amplitude remain to be drawn; they
+    /// decide on a long cycle, so all amplitudes that agree to twelve digits count.
     pub(crate) fn preload_acceleration(self, key: &str) -> Result<Self, ExperimentError> {
         let amplitude = self.amplitude_m.low;
         Ok(Self {
@@ -128,7 +128,7 @@ impl PrintedInputs {
             .collect()
     }
 
-    /// What is drawn, for notes and parameter lists.
+    /// The drawn inputs, for notes and parameter lists.
     pub(crate) fn words(&self) -> String {
         let Range { low, high } = self.preload_acceleration_m_per_s2;
         if low < high {

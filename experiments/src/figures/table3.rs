@@ -197,7 +197,7 @@ struct Drop {
     /// v²/(2 h) of the printed speed and height, and for everything that rounds to them.
     gravity_of_printed_speed_m_per_s2: f64,
     gravity_range_of_printed_speed_m_per_s2: [f64; 2],
-    /// What rounds to the printed gravity, up to the highest g of Sec. V B: no g is printed for the drop.
+    /// The values of g from those that round to the printed gravity up to the highest of Sec. V B: no g is printed for the drop.
     printed_gravity_range_m_per_s2: [f64; 2],
     /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed speed.
     agreement: Cases,

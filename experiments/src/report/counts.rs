@@ -39,7 +39,7 @@ impl Counts {
         [reproduced, differs, depends, no_data, fitted, input, identity, this_work]
     }
 
-    /// What came out of the paper's own numbers and statements, in a sentence.
+    /// The verdicts on the paper's own numbers and statements, in a sentence.
     pub fn headline(&self) -> String {
         let [reproduced, differs, depends, no_data, ..] = self.row();
         format!(
@@ -50,7 +50,7 @@ impl Counts {
         )
     }
 
-    /// What is no evidence for or against the paper, in a sentence.
+    /// The claims that are no evidence for or against the paper, in a sentence.
     pub fn beside(&self) -> String {
         let [.., fitted, inputs, identities, this_work] = self.row();
         let [reproduced, differs, depends, _] = self.single_orbits;

@@ -1,4 +1,4 @@
-//! What is made from all figures that lie in a folder: `claims.json` and the gallery, one HTML page without scripts and
+//! The products of all figures in a folder: `claims.json` and the gallery, one HTML page without scripts and
 //! without anything from the network.
 
 use minijinja::context;
@@ -72,7 +72,7 @@ impl Summary {
                 }
             };
             let state = folder.check(id, quality, &measurements.digest(entry.measurements));
-            // What was wrong with measurements that have been replaced says nothing about the new ones.
+            // Faults of measurements that have been replaced say nothing about the new ones.
             if state != Err(Stale::Measurements) {
                 warnings.extend(made.warnings.iter().map(|warning| (id.to_owned(), warning.clone())));
             }
@@ -134,7 +134,7 @@ impl Summary {
     }
 }
 
-/// What lies in a folder of an experiment, or why it cannot be used.
+/// The files of an experiment in a folder, or why they cannot be used.
 fn stored(
     entry: &RegisteredExperiment,
     folder: &OutputFolder,
@@ -146,7 +146,7 @@ fn stored(
         other => other.to_string(),
     })?;
     let name = format!("{}.json", entry.id);
-    // What the program did not write itself may have any form.
+    // A file that the program did not write itself may have any form.
     if !cache_key.holds(&name, bytes) {
         return Err(Stale::File { name }.to_string());
     }

@@ -14,7 +14,7 @@ use clap::{Args, Subcommand};
 use crate::context::Context;
 use crate::failure::Failure;
 
-/// A motor from its data sheet: what it does, run-up, torque-speed curve, stall, traps, sweeps
+/// A motor from its data sheet: report, run-up, torque-speed curve, stall, traps, sweeps
 #[derive(Debug, Args)]
 #[command(subcommand_required = true, arg_required_else_help = true)]
 pub(crate) struct MotorCommand {

@@ -1,4 +1,4 @@
-//! What most commands need.
+//! Items that most commands need.
 
 pub(super) use bouncing_disk_plot::pictures;
 pub(super) use clap::Args;

@@ -1,4 +1,4 @@
-//! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
+//! `bouncing-disk verdicts`: the long-term motion of the disk, over the forcing, or over forcing and restitution.
 
 use std::io::Write;
 use std::ops::Range as Rows;
@@ -268,7 +268,7 @@ impl Found {
         (forcing, restitution, self.kinds[index], self.verdicts.get(index).copied().flatten())
     }
 
-    /// The text: of a map how many cells there are of each kind that there is, else each verdict in words.
+    /// The text: for a map the number of cells of each kind that occurs, else each verdict in words.
     fn text(&self) -> String {
         if !self.job.is_map() {
             let columns = Columns::<Cell>::new().column("axial_forcing", "1", |row| row.0);

@@ -1,4 +1,4 @@
-//! The result of a command, in every form that it may be asked for.
+//! The result of a command, in every form that a user may request.
 
 use bouncing_disk::store::{Format, Provenance};
 use bouncing_disk_plot::Figure;
@@ -25,12 +25,12 @@ pub(crate) struct Report {
     pub(crate) table: WriteTable,
     /// The fields of the JSON file after the provenance, in their order.
     pub(crate) data: Vec<(&'static str, Data)>,
-    /// The picture, drawn when it is asked for; `None` of what has none.
+    /// The picture, drawn on request; `None` for a result without one.
     pub(crate) figure: Option<Box<dyn Fn() -> Figure>>,
 }
 
 impl Report {
-    /// Prints the result, or writes it to the files that are asked for.
+    /// Prints the result, or writes it to the requested files.
     pub(crate) fn deliver(&self, output: &OutputArgs, quiet: bool) -> Result<(), Failure> {
         if output.out.is_empty() {
             return Ok(say(&self.text)?);

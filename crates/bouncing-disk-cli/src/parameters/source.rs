@@ -68,7 +68,7 @@ impl<D: Described> SourceArgs<D> {
         self.file.as_deref().into_iter().collect()
     }
 
-    /// Whether parameters are asked for; otherwise they are the default ones.
+    /// Whether the user names parameters; otherwise they are the default ones.
     pub(crate) fn is_given(&self) -> bool {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
     }
@@ -93,7 +93,7 @@ impl<D: Described> SourceArgs<D> {
         })
     }
 
-    /// The parameters; `None` if the template was asked for, which is then written.
+    /// The parameters; `None` if the template was requested, which is then written.
     pub(crate) fn unless_template(
         &self,
         output: &OutputArgs,

@@ -100,7 +100,7 @@ fn short(words: &str) -> &str {
     words.split(" and ").next().unwrap_or(words)
 }
 
-/// What a disk may do for good: short words and colours, by the numbers of the cells of [`Regimes`].
+/// The long-term motions of a disk: short words and colours, by the numbers of the cells of [`Regimes`].
 pub const REGIMES: [(&str, Colour); 10] = [
     ("at rest", Colour::PALE_GREY),
     ("cycle with rest", Colour::WHITE),
@@ -114,7 +114,7 @@ pub const REGIMES: [(&str, Colour); 10] = [
     ("no such start", Colour::GREY),
 ];
 
-/// What a disk does for good, over forcing and restitution; a strip where the restitution is one.
+/// The long-term motion of a disk, over forcing and restitution; a strip for a single restitution.
 #[derive(Debug)]
 pub struct Regimes<'a> {
     /// The outer ends of the cells.

@@ -21,7 +21,7 @@ pub struct Quantity<'a> {
     pub name: &'a str,
     /// Its unit, `1` where it has none.
     pub unit: &'a str,
-    /// The values; what is not finite is a gap.
+    /// The values; one that is not finite is a gap.
     pub values: &'a [f64],
 }
 
@@ -121,7 +121,7 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
     let speeds = points(|own| own.speed, 1.0);
     let (first, last) = Axis::ends_around(loads.iter().copied());
     let x = || Axis::spanned(first, last);
-    // Beyond the loads that were asked for there is nothing to see.
+    // Beyond the requested loads there is nothing to see.
     let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
     let rule = || limit.map(|limit| Rule::vertical(limit).stroke(Stroke::new(Colour::DARK_GREY, 0.8)));
     let (slowest, fastest) =

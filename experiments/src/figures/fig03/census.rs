@@ -1,4 +1,4 @@
-//! What the picture is drawn from: the transitions that the engine makes, and one cycle of a disk that is thrown, chatters and rests.
+//! The data of the picture: the transitions that the engine makes, and one cycle of a disk that is thrown, chatters and rests.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};

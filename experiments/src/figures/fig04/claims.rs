@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 4, compared with the data.
+//! The statements of the paper about Fig. 4, compared with the data.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -218,7 +218,7 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
     let at_optimum = data.speed_ratio_at_printed_optimum;
     let drawn = curves(data, InitialSpin::AbsoluteRest).iter().map(|curve| size(&curve.largest_speed_ratio));
     let largest = drawn.max_by(f64::total_cmp);
-    // What the paper calls negligible: whatever two ratios that print like its two differ by.
+    // The paper calls negligible at most the difference of two ratios that print like its two.
     let negligible = PrintedNumber::read(&data.printed.largest_speed_ratio)
         .zip(PrintedNumber::read(&data.printed.speed_ratio_at_optimum))
         .map(|(largest, at_optimum)| {
@@ -285,7 +285,7 @@ fn hand_speed(data: &Fig04Data) -> Claim {
     )
 }
 
-/// What an even grid of amplitude angles gives.
+/// The results of an even grid of amplitude angles.
 fn even_grid(data: &Fig04Data) -> impl Iterator<Item = Claim> + '_ {
     let grid = &data.consistency.coarse_grid;
     grid.reading.numbers.iter().map(move |number| {

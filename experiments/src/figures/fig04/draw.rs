@@ -48,7 +48,7 @@ enum NumberPlace {
     Best(f64),
     /// At this share of the largest angle, with this text instead of n.
     With(&'static str, f64),
-    /// Left out: another curve with the same values has it.
+    /// Not drawn, because another curve has the same values.
     Nowhere,
 }
 

@@ -40,7 +40,7 @@ pub struct Fig06Data {
     pub(super) single_tosses: SingleTosses,
     /// How a disk from rest comes to rest again, at some Γ.
     pub(super) chatters: Vec<Chatter>,
-    /// What Γ_T does to the rotation, at some Γ from period 4 on.
+    /// The effect of Γ_T on the rotation, at some Γ from period 4 on.
     pub(super) forcing_effects: Vec<ForcingEffect>,
     /// Γ at which two branches of the period-4 orbit have the same speed in (d).
     pub(super) branch_crossings: Vec<f64>,
@@ -129,7 +129,7 @@ pub(super) struct Motion {
 pub(super) struct Dimension {
     /// Parameters of the system in SI units that are changed one by one.
     pub(super) parameters: Vec<String>,
-    /// Numbers that are looked at.
+    /// Number of outputs whose derivatives are taken.
     pub(super) outcomes: usize,
     /// Rank of the matrix of derivatives.
     pub(super) rank: usize,
@@ -157,7 +157,7 @@ pub(super) struct Transfer {
     pub(super) share_in_impacts: f64,
 }
 
-/// What orbits visit in the plane of phase and speed.
+/// The part of the plane of phase and speed that orbits visit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Visited {
     pub(super) axial_forcing: f64,

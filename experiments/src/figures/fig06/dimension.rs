@@ -70,7 +70,7 @@ fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
     Ok(outcomes)
 }
 
-/// The pivots of a set of rows over the largest, falling: what is left of the largest row when the ones before are taken out. They
+/// The pivots of a set of rows over the largest, falling: the remainder of each row after the components along the rows before are taken out. They
 /// are those of a QR decomposition with exchanges, to six decimals: independent rows leave ten thousand units of the last one,
 /// dependent ones a hundredth of a unit, which difference quotients and rounding make.
 fn pivots(rows: &[Vec<f64>]) -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! What the orbits visit at the crisis and beyond it, and the period doublings at finer steps of Γ.
+//! The regions that orbits visit at the crisis and beyond it, and the period doublings at finer steps of Γ.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;

@@ -1,4 +1,4 @@
-//! What the paper says about the rotation in Fig. 6: Eq. (16), the two motions, mean speeds.
+//! The statements of the paper about the rotation in Fig. 6: Eq. (16), the two motions, mean speeds.
 
 use std::f64::consts::TAU;
 
@@ -157,7 +157,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         ),
         _ => "no period-1 orbit".to_owned(),
     };
-    // What half a unit of the last digit of the printed lag does to the speed.
+    // The effect of half a unit of the last digit of the printed lag on the speed.
     let printed = crate::claims::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
@@ -317,7 +317,7 @@ fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> (Vec<f64>, Ve
     all.unzip()
 }
 
-/// What is said about the region of period 2.
+/// The statements about the region of period 2.
 fn period_two(data: &Fig06Data) -> Vec<Claim> {
     let twos: Vec<(&Slice, [usize; 2])> = between(data, 0, 1)
         .into_iter()

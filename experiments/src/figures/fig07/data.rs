@@ -60,7 +60,7 @@ pub struct Beyond {
     pub not_at_rest: usize,
     /// Impacts followed.
     pub impacts: u32,
-    /// Impacts in one round of what the first of them has settled on; `None` if there is none or it does not repeat.
+    /// Impacts in one cycle of the motion on which the first of them settles; `None` if there is no such start or its motion does not repeat.
     pub period: Option<usize>,
 }
 

@@ -113,7 +113,7 @@ pub(super) fn beyond(
         .collect()
 }
 
-/// What becomes of a disk at rest on the platform, at any phase.
+/// The fate of a disk at rest on the platform, at any phase.
 pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, ExperimentError> {
     forcings
         .par_iter()

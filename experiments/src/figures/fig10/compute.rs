@@ -129,7 +129,7 @@ fn drawn_alike(inputs: PrintedInputs, count: usize) -> Result<Alike, ExperimentE
     })
 }
 
-/// Impacts after which a motor that has not come to rest is looked at no longer.
+/// Impacts after which a motor that has not come to rest is no longer followed.
 const LONGEST_FLIGHTS: u64 = 20_000;
 
 /// The growth of a small perturbation from the separation to the next rest, as the mean of its logarithm per impact. A rest ends it: every motor leaves the stator at the same

@@ -62,7 +62,7 @@ pub(super) struct Transient {
     pub(super) relative_ramp_residual: f64,
     /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over the ensemble.
     pub(super) oscillation: f64,
-    /// What the unperturbed motor repeats.
+    /// The motion that the unperturbed motor repeats.
     pub(super) cycle: Cycle,
     pub(super) impacts_per_s: f64,
 }
@@ -87,7 +87,7 @@ pub(super) struct Exception {
     pub(super) ramp_residual_rad_per_s: f64,
 }
 
-/// What becomes of a small perturbation of a motor's vertical motion between two rests.
+/// The growth of a small perturbation of a motor's vertical motion between two rests.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct BetweenRests {
     pub(super) amplitude_m: f64,

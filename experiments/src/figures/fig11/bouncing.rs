@@ -1,4 +1,4 @@
-//! What becomes of a bouncing rotor when its stator vibrates too little to throw it (Γ < 1/π).
+//! The fate of a bouncing rotor whose stator vibrates too little to throw it (Γ < 1/π).
 //!
 //! A rotor at rest is not thrown then, by Eq. (3). One that bounces already need not come to rest: the period-1 orbit needs Γ > (1 − ε)/(1 + ε) only,
 //! which is less than 1/π for ε > (π − 1)/(π + 1).

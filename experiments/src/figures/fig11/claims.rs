@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 11.
+//! The statements of the paper about Fig. 11.
 
 use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};
@@ -164,7 +164,7 @@ fn bouncing_ends(data: &Fig11Data) -> Claim {
     )
 }
 
-/// What the trends' holes are.
+/// The nature of the holes in the trends.
 fn holes(data: &Fig11Data) -> Claim {
     let holes = &data.holes;
     let range = |extent: Option<[f64; 2]>, digits: usize| {

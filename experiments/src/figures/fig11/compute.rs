@@ -31,7 +31,7 @@ const BALANCED_IMPACTS: usize = 1_500;
 /// Motors above the preloads of the trends for each curve beside those drawn: together at least 200 of them at each frequency.
 const MORE_ABOVE: u32 = 52;
 
-/// The share to which the stator's twist is reduced where a smaller one is looked at.
+/// The share to which the stator's twist is reduced, to see the effect of a smaller one.
 const REDUCED_TWIST: f64 = 0.5;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {

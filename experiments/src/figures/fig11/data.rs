@@ -30,11 +30,11 @@ pub struct Fig11Data {
     pub(super) trends: Vec<Trend>,
     /// The motors on a low-period cycle, of all curves.
     pub(super) holes: Holes,
-    /// α̇_ss/t_c over (μ a_e g/a_g²) S(0), the least and the most between the preloads of the trends; motors on a low-period cycle left out.
+    /// α̇_ss/t_c over (μ a_e g/a_g²) S(0), the least and the most between the preloads of the trends; without motors on a low-period cycle.
     pub(super) estimate_over_balance: [f64; 2],
     /// Its mean over these motors.
     pub(super) mean_estimate_over_balance: f64,
-    /// What stalls the default motor at the lowest, the middle and the highest preload of the trends, by frequency.
+    /// The stall of the default motor at the lowest, the middle and the highest preload of the trends, by frequency.
     pub(super) stalls: Vec<StallAt>,
     /// The default motor at full preload with the printed and with a smaller ωΦ.
     pub(super) reduced_twist: ReducedTwist,
@@ -115,7 +115,7 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
     printed.measured_range_n.map(|preload| 1e3 * preload)
 }
 
-/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
+/// One curve: the behaviour of its motors inside the preloads of the measured trends, and beside them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
@@ -156,11 +156,11 @@ pub(super) struct Holes {
     pub(super) other_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
-/// What bouncing rotors do at Γ < 1/π.
+/// The fate of bouncing rotors at Γ < 1/π.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct EndOfBouncing {
     pub(super) seed: u64,
-    /// What still prints as the ε of Table III.
+    /// Values that print as the ε of Table III.
     pub(super) restitutions: [f64; 2],
     /// The largest launch speed (g/ω): A ω²/g of the default motor.
     pub(super) largest_launch_speed: f64,
@@ -207,7 +207,7 @@ pub(super) struct MeasuredExponent {
     pub(super) points: usize,
 }
 
-/// What was measured and fitted.
+/// Measurements and their fits.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct MeasuredMotors {
     pub(super) points: Vec<MeasuredMotor>,
@@ -288,7 +288,7 @@ impl MeasuredMotors {
         Some(format!(r"measured: exponent ${:.2} \pm {:.2}$", fit.value, fit.standard_error))
     }
 
-    /// What the caption says; nothing when there are no measurements.
+    /// The sentence of the caption; empty if there are no measurements.
     pub(super) fn caption(&self, data: &Fig11Data) -> String {
         if self.is_empty() {
             return String::new();

@@ -36,7 +36,7 @@ impl Trend {
         let no_rise = |points: &[&Point]| {
             Cases::of(points.iter().map(|point| point.single_speed_rad_per_s <= (1.0 + SHARP) * single_speed))
         };
-        // The outermost of them: a fall at the lowest preloads is none of the middle one of all below.
+        // Only the outermost motors: a fall at the lowest preloads does not show in the middle one of all below.
         let outermost = |points: &[&Point], sign: f64| {
             let mut points = points.to_vec();
             points.sort_by(|one, other| (sign * one.preload_mn).total_cmp(&(sign * other.preload_mn)));

@@ -69,7 +69,7 @@ pub(super) struct Shown {
     pub(super) flight_speed_rad_per_s: Vec<f64>,
     /// The same motor averaged over equal intervals, and its fits.
     pub(super) fits: Fits,
-    /// What the impulses of one cycle predict.
+    /// The prediction from the impulses of one cycle.
     pub(super) prediction: Prediction,
     pub(super) zoom: Zoom,
 }

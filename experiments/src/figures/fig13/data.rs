@@ -146,7 +146,7 @@ pub(super) struct AlikeMotors {
     pub(super) frictions: Vec<f64>,
     pub(super) phase_lags_rad: Vec<f64>,
     pub(super) peak_angular_speeds_rad_per_s: Vec<f64>,
-    /// What most of them do with other values of each parameter, in the order of the panels.
+    /// The behaviour of most of them with other values of each parameter, in the order of the panels.
     pub(super) ranges: Vec<AlikeRange>,
     /// By rising ε.
     pub(super) prevalence: Vec<Prevalence>,
@@ -184,7 +184,7 @@ pub(super) struct Draw {
     /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit, against ε.
     pub(super) speed_ratio_slope: Option<f64>,
     pub(super) stall_over_limit_slope: Option<f64>,
-    /// What the second of these lines rises by over the range of ε, over its value at the first ε.
+    /// The rise of the second of these lines over the range of ε, relative to its value at the first ε.
     pub(super) stall_over_limit_rise: Option<f64>,
     /// The largest α̇_ss/t_c over the limit, at any of the ε.
     pub(super) largest_stall_over_limit: f64,
@@ -192,7 +192,7 @@ pub(super) struct Draw {
     pub(super) largest_speed_ratio: f64,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
     pub(super) share_of_exponential: f64,
-    /// What each parameter changes, in the order of the panels.
+    /// The effect of each parameter, in the order of the panels.
     pub(super) sensitivities: Vec<Sensitivity>,
     /// Share of the variance of steady speed and of α̇_ss/t_c over θ that a cosine explains.
     pub(super) speed_cosine: Option<f64>,
@@ -202,7 +202,7 @@ pub(super) struct Draw {
     pub(super) stall_amplitude_exponent: Option<f64>,
 }
 
-/// What a parameter changes in a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
+/// The effect of a parameter on a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
 /// to the motor as printed.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Sensitivity {
@@ -218,7 +218,7 @@ pub(super) struct Sensitivity {
 }
 
 impl Draw {
-    /// What this parameter changes.
+    /// The effect of this parameter.
     pub(super) fn sensitivity(&self, parameter: Parameter) -> Option<&Sensitivity> {
         self.sensitivities.iter().find(|sensitivity| sensitivity.parameter == parameter)
     }

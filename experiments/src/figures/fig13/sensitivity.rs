@@ -138,7 +138,7 @@ pub(super) fn friction(data: &Fig13Data) -> Claim {
     .single_orbits(single)
 }
 
-/// What is read off the trend of a parameter.
+/// The numbers that are read off the trend of a parameter.
 type Change = fn(&Sensitivity) -> Option<f64>;
 
 pub(super) fn speed_change(of: &Sensitivity) -> Option<f64> {
@@ -149,7 +149,7 @@ pub(super) fn stall_change(of: &Sensitivity) -> Option<f64> {
     of.stall_change
 }
 
-/// What each parameter changes in the means that the figure draws, by the same measure as in a single orbit.
+/// The effect of each parameter on the means that the figure draws, by the same measure as in a single orbit.
 fn mean_changes(data: &Fig13Data, of: Quantity, default: Option<f64>) -> Vec<(Parameter, f64)> {
     let change = |parameter: Parameter| {
         let points = read(data, parameter, of);
@@ -176,7 +176,7 @@ fn change_words(changes: &[(Parameter, f64)]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What ε changes, in words.
+/// The effect of ε, in words.
 fn of_restitution(changes: &[(Parameter, f64)]) -> String {
     let own = changes.iter().find(|(parameter, _)| *parameter == Parameter::Restitution);
     own.map_or_else(|| "none".to_owned(), |(_, change)| format!("{change:.2}"))

@@ -14,7 +14,7 @@ pub(super) fn sweep(data: &Fig13Data, parameter: Parameter) -> Option<&Sweep> {
     data.sweeps.iter().find(|sweep| sweep.parameter == parameter)
 }
 
-/// What is read from a point: the steady speed in rad/s, or the stall acceleration.
+/// The quantity of a point: the steady speed in rad/s, or the stall acceleration.
 pub(super) type Quantity = fn(&SweepPoint) -> Option<f64>;
 
 pub(super) fn speed(point: &SweepPoint) -> Option<f64> {

@@ -82,7 +82,7 @@ fn draw(largest_torque: f64, found: &[Operation]) -> Figure {
     pictures::torque_speed(largest_torque, &found.iter().map(point).collect::<Vec<_>>())
 }
 
-/// A load, and the spread over motors within the tolerance, where it was asked for.
+/// A load, and the spread over motors within the tolerance, if requested.
 type Row = (Operation, Option<InputSpread>);
 
 fn value(row: &Row, quantity: SweepQuantity) -> Option<f64> {

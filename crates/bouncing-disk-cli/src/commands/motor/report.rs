@@ -1,4 +1,4 @@
-//! `bouncing-disk motor report`: what follows from a data sheet, and what the motor does.
+//! `bouncing-disk motor report`: the derived quantities of a data sheet, and the behaviour of the motor.
 
 use crate::commands::prelude::*;
 

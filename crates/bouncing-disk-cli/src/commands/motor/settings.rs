@@ -76,7 +76,7 @@ pub(super) fn lock_note(motor: &Motor) -> Result<String, Failure> {
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }
 
-/// What became of a motor.
+/// The state of a motor.
 pub(super) const fn state(operation: &Operation) -> &'static str {
     match operation {
         Operation::Steady(_) => "steady",
@@ -102,7 +102,7 @@ pub(super) struct OperationArgs {
     pub(super) output: OutputArgs,
 }
 
-/// What such an operation depends on.
+/// The inputs on which such an operation depends.
 #[derive(Debug, Clone, Copy, Serialize)]
 pub(super) struct OperationJob {
     pub(super) motor: Motor,
@@ -110,7 +110,7 @@ pub(super) struct OperationJob {
 }
 
 impl OperationArgs {
-    /// The job, if the result can be written; `None` where the template was asked for, and has been written.
+    /// The job, if the result can be written; `None` if the template was requested, and has been written.
     pub(super) fn job(&self, context: Context) -> Result<Option<OperationJob>, Failure> {
         let Some(motor) = self.motor.begin(&self.output, false, context)? else { return Ok(None) };
         warn(&motor, context);

@@ -45,7 +45,7 @@ class Outcome(NamedTuple):
     values: Array | None
     #: Points where it failed.
     failures: tuple[Failure, ...]
-    #: Whether more points failed than are allowed, so that the others were not looked at.
+    #: Whether more points failed than are allowed, so that the others were not computed.
     given_up: bool
     #: The versions of this package and of NumPy where it was computed; older ones of this package tell none.
     versions: Mapping[str, str] = {}
