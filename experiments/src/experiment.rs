@@ -73,7 +73,8 @@ impl FromStr for Quality {
     }
 }
 
-/// Why an experiment gave no result. The cause is the [source](std::error::Error::source); [`chain`] shows all.
+/// Why an experiment gave no result. The cause is the [source](std::error::Error::source); [`chain`] shows
+/// all.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
@@ -169,8 +170,8 @@ pub fn chain(error: &dyn std::error::Error) -> String {
 ///
 /// Everything is an associated function: an experiment has no state besides its data.
 pub trait Experiment: Sync + Send + 'static {
-    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is an
-    /// `Option`, never a NaN: storing a number that is not finite is an error.
+    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is
+    /// an `Option`, never a NaN: storing a number that is not finite is an error.
     type Data: Serialize + DeserializeOwned + Send + Sync + 'static;
 
     /// `fig01` ... `fig14`, `table1` ... `table3`.
@@ -179,13 +180,14 @@ pub trait Experiment: Sync + Send + 'static {
     /// A short title for the gallery and for lists.
     const TITLE: &'static str;
 
-    /// A description of the figure, in a paragraph for `docs/results.md`; nothing for a figure beyond the paper. `{section4.merging}` stands for the computed number
-    /// of the claim that answers this entry of the [catalogue](crate::claims::catalogue).
+    /// A description of the figure, in a paragraph for `docs/results.md`; nothing for a figure beyond the
+    /// paper. `{section4.merging}` stands for the computed number of the claim that answers this entry of the
+    /// [catalogue](crate::claims::catalogue).
     const DISCUSSION: &'static str = "";
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
-    /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies says so
-    /// in its data.
+    /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies
+    /// says so in its data.
     const CHATTER_POLICY: Option<ChatterPolicy> = None;
 
     /// The random draws and their seeds; the first is *the* seed of the figure.
@@ -199,8 +201,8 @@ pub trait Experiment: Sync + Send + 'static {
     /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
 
-    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
-    /// numbers stay what they are; after an error the data are unchanged.
+    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The
+    /// computed numbers stay what they are; after an error the data are unchanged.
     fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
         Ok(())
     }
@@ -208,9 +210,9 @@ pub trait Experiment: Sync + Send + 'static {
     /// Draws the data.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
-    /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
-    /// [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
-    /// added by the framework.
+    /// Every number and statement the paper prints about this figure, compared with the data, each taken from
+    /// the [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why
+    /// nothing can be computed are added by the framework.
     fn claims(_data: &Self::Data) -> Vec<Claim> {
         Vec::new()
     }
@@ -338,8 +340,8 @@ impl RegisteredExperiment {
         (self.compute)(quality, measurements, progress)
     }
 
-    /// The origin of a file of this format. Where the experiment has several seeds, the first is *the* seed, and all of
-    /// them are among the parameters, by the names of their draws.
+    /// The origin of a file of this format. Where the experiment has several seeds, the first is *the* seed,
+    /// and all of them are among the parameters, by the names of their draws.
     pub fn provenance(&self, format: Format, quality: Quality) -> Result<Provenance, StorageError> {
         let mut provenance = provenance::new(format).with("figure", self.id)?.with("quality", &quality)?;
         if let Some((_, first)) = self.seeds.first() {
@@ -354,8 +356,8 @@ impl RegisteredExperiment {
         Ok(provenance)
     }
 
-    /// Runs the experiment and makes its files: `ID.json`, `ID.svg`, `ID.png`, and `ID.csv` where it is a table, each of
-    /// which says where it comes from ([`provenance`]).
+    /// Runs the experiment and makes its files: `ID.json`, `ID.svg`, `ID.png`, and `ID.csv` where it is a
+    /// table, each of which says where it comes from ([`provenance`]).
     pub fn files(
         &self,
         quality: Quality,

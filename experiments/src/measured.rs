@@ -1,9 +1,10 @@
-//! A user's own measurements: comma-separated files that are drawn over a figure and fitted as the paper fits its own.
+//! A user's own measurements: comma-separated files that are drawn over a figure and fitted as the paper fits
+//! its own.
 //!
-//! The paper prints its measured points only as pictures, so none come with this crate. [`Measurements`] holds what lies in
-//! `data/measured`; a figure names the files that it can show by their [`Layout`], and gets a [`Series`] of checked numbers.
-//! `data/measured/README.md` has the same layouts in words. The model's `csv_records` splits the lines; here is what a
-//! line must hold.
+//! The paper prints its measured points only as pictures, so none come with this crate. [`Measurements`]
+//! holds what lies in `data/measured`; a figure names the files that it can show by their [`Layout`], and
+//! gets a [`Series`] of checked numbers. `data/measured/README.md` has the same layouts in words. The model's
+//! `csv_records` splits the lines; here is what a line must hold.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -20,7 +21,8 @@ use crate::visible::{excerpt, visible};
 
 /// The largest legal magnitude, in the unit of any column: more is a wrong unit, and no fit to it overflows.
 const LARGEST: f64 = 1e9;
-/// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is finite.
+/// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is
+/// finite.
 pub(crate) const SMALLEST: f64 = 1e-12;
 /// The smallest legal magnitude other than 0 where 0 is legal: less than any rounding of a program that has
 /// written the file, and enough that squares and quotients of legal numbers keep all their digits.
@@ -511,7 +513,8 @@ mod tests {
         assert!(newer.starts_with("\"demo.csv\" has version 2 of the format \"bouncing-disk figure\""));
     }
 
-    /// Each fault with its place and what would be legal; a number of fields, of lines, of characters is stated, not shown.
+    /// Each fault with its place and what would be legal; a number of fields, of lines, of characters is
+    /// stated, not shown.
     #[test]
     fn every_fault_is_named_with_its_place() {
         let legal = HEADER.trim_end();

@@ -8,8 +8,8 @@ use std::path::Path;
 /// How many characters of a text a message shows.
 const SHOWN: usize = 40;
 
-/// The beginning of a text in double quotes, with everything escaped that is not visible, and the length of the text where
-/// not all of it is shown: `"aaaa…" (5000000 characters)`.
+/// The beginning of a text in double quotes, with everything escaped that is not visible, and the length of
+/// the text where not all of it is shown: `"aaaa…" (5000000 characters)`.
 pub fn excerpt(text: &str) -> String {
     // Quotes and backslashes, too, so that the quotes around it are the only ones.
     let quotable = |c| matches!(c, '"' | '\\') || is_invisible(c);

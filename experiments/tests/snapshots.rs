@@ -1,10 +1,10 @@
 //! Snapshots of every figure and table at draft quality.
 //!
-//! Every number and statement that the paper prints about a figure must be answered by exactly one of its claims. A
-//! snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels and integers are
-//! compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as statistics, which a reader can
-//! judge, and a digest of all their bits, which is compared exactly: the arithmetic is the same on every machine
-//! (`docs/numerics/solver.md`).
+//! Every number and statement that the paper prints about a figure must be answered by exactly one of its
+//! claims. A snapshot holds caption, parameters, data, table and claims with their verdicts. Words, labels
+//! and integers are compared exactly, floats within [`RELATIVE_TOLERANCE`]. Long arrays are held as
+//! statistics, which a reader can judge, and a digest of all their bits, which is compared exactly: the
+//! arithmetic is the same on every machine (`docs/numerics/solver.md`).
 //!
 //! A new experiment is added to [`snapshots!`]; the tests fail as long as it is not there or has no snapshot.
 //! `INSTA_UPDATE=always cargo test -p bouncing-disk-experiments --test snapshots` writes the snapshots again.
@@ -116,8 +116,8 @@ fn check(id: &str) {
     settings.bind(|| insta::assert_snapshot!(id, text));
 }
 
-/// The 64-bit FNV-1a hash. Floats are written with the digits that give the same double back, so that the text has
-/// all their bits.
+/// The 64-bit FNV-1a hash. Floats are written with the digits that give the same double back, so that the
+/// text has all their bits.
 fn digest(text: &str) -> String {
     bouncing_disk::core::numerics::digest::Digest::of(text.as_bytes()).to_string()
 }
@@ -237,7 +237,8 @@ fn every_experiment_has_a_test_and_every_test_an_experiment() {
 fn results_do_not_depend_on_the_number_of_threads() {
     let entries = registry::all();
     let next = AtomicUsize::new(0);
-    // Each thread takes the next entry: one that computes with a single thread leaves the others of the machine free.
+    // Each thread takes the next entry: one that computes with a single thread leaves the others of the
+    // machine free.
     let compare = || {
         while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
             let [alone, together] = [1, 7].map(|threads| {

@@ -1,4 +1,5 @@
-//! `cargo xtask dependencies`: the crates behind the libraries' dependencies, and whether their licences and sources are legal.
+//! `cargo xtask dependencies`: the crates behind the libraries' dependencies, and whether their licences and
+//! sources are legal.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -66,7 +67,8 @@ fn table() -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// By the name of a direct dependency, all crates below it, itself included, from a tree with the depths as prefix.
+/// By the name of a direct dependency, all crates below it, itself included, from a tree with the depths as
+/// prefix.
 fn brought(tree: &str) -> BTreeMap<&str, BTreeSet<(&str, &str)>> {
     let mut brought: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
     let mut direct = "";

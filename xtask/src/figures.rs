@@ -59,12 +59,12 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with --extras
-    /// a picture in docs/extras, is missing or out of date
+    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with
+    /// --extras a picture in docs/extras, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures from it; with
-    /// --extras make those beyond the paper and write docs/extras
+    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures
+    /// from it; with --extras make those beyond the paper and write docs/extras
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
     /// Make figures again even when they are up to date
@@ -182,8 +182,8 @@ struct Run<'a> {
     selected: &'a [&'a RegisteredExperiment],
 }
 
-/// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it. A user's
-/// measurements are not shown there.
+/// Makes the figures of the paper, or those beyond it, in both qualities and the documentation from it. A
+/// user's measurements are not shown there.
 fn write_docs(run: &Run<'_>, folder: &OutputFolder) -> anyhow::Result<ExitCode> {
     let drafts = OutputFolder::create(folder.path().join(DRAFTS_FOLDER))?;
     for (quality, folder) in [(Quality::Draft, &drafts), (Quality::Paper, folder)] {
@@ -356,8 +356,8 @@ fn make(
 
 /// Prints the times, the omitted measurements and the failures.
 ///
-/// Measurements that cannot be used count as a failure: the figure is there, but not as requested, and a script
-/// must not take it for one that shows them.
+/// Measurements that cannot be used count as a failure: the figure is there, but not as requested, and a
+/// script must not take it for one that shows them.
 fn conclude(
     options: &Options,
     finished: &[Finished],

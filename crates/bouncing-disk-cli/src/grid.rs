@@ -261,7 +261,8 @@ pub(crate) fn computation_of(path: &Path) -> Result<(String, Value), Failure> {
 /// The result of all rows, which are in these files, of this job.
 ///
 /// # Errors
-/// [`Failure::Usage`] names a file of another computation, or the first rows that are missing; those of the library.
+/// [`Failure::Usage`] names a file of another computation, or the first rows that are missing; those of the
+/// library.
 pub(crate) fn merged<J: GridJob>(
     job: &Value,
     parts: &[PathBuf],

@@ -2,7 +2,8 @@
 //!
 //! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a
 //! report: a table on the terminal, or files (`output`). It has no physics and no numerics of its own. Grids
-//! go through `grid`, which divides them into chunks and keeps journals; `bouncing-disk-plot` draws the pictures.
+//! go through `grid`, which divides them into chunks and keeps journals; `bouncing-disk-plot` draws the
+//! pictures.
 //!
 //! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
 

@@ -1,4 +1,5 @@
-//! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See docs/stability.md.
+//! Files of version 0.1: what users wrote is read, parts of its computations are refused by name. See
+//! docs/stability.md.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;

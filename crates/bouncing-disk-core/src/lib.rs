@@ -1,7 +1,7 @@
 //! The vertical motion of a disk that bounces on a sinusoidally vibrating platform, without units.
 //!
-//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
-//! platform is its peak acceleration P = pi Gamma in units of g.
+//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of
+//! the platform is its peak acceleration P = pi Gamma in units of g.
 //!
 //! ```
 //! use std::f64::consts::TAU;

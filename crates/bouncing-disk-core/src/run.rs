@@ -242,7 +242,8 @@ impl<'w> WorkCount<'w> {
     }
 }
 
-/// A function with which each part of a long call counts its flights, in steps of its own; an error ends the call.
+/// A function with which each part of a long call counts its flights, in steps of its own; an error ends the
+/// call.
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 
 #[cfg(test)]

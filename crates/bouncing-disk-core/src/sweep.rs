@@ -1,8 +1,8 @@
 //! Many orbits at once: orbit diagrams, survival times, or anything that a visitor collects from their
 //! events.
 //!
-//! The events are those of each orbit by itself, to the bit, for any number of threads. The flights are computed several
-//! at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
+//! The events are those of each orbit by itself, to the bit, for any number of threads. The flights are
+//! computed several at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
 //!
 //! ```
 //! use bouncing_disk_core::sweep::orbit_diagram;

@@ -204,7 +204,8 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Pair {
     }
 }
 
-/// A whole number as Python has it: one that is negative or too large is refused as a value, not as an overflow.
+/// A whole number as Python has it: one that is negative or too large is refused as a value, not as an
+/// overflow.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Count {
     /// One that fits.
@@ -282,7 +283,8 @@ impl Numbers {
     }
 }
 
-/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would count.
+/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would
+/// count.
 fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let py = object.py();
     static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();

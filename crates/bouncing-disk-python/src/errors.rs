@@ -56,8 +56,8 @@ const INVALID: [&str; 11] = [
     "repeated-axis",
 ];
 
-/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as
-/// they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
+/// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries:
+/// as they stand in its `Debug`, such as `NoLiftOff { phase: 1.5, peak_acceleration: 0.9 }`.
 fn kind_and_details(error: &dyn std::fmt::Debug) -> (String, Details) {
     let text = format!("{error:?}");
     let (name, fields) = text.split_once(" { ").unwrap_or((&text, ""));

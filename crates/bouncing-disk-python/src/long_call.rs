@@ -1,4 +1,5 @@
-//! Long calls: they release the interpreter's lock, Ctrl-C stops them, and they report progress to a callable.
+//! Long calls: they release the interpreter's lock, Ctrl-C stops them, and they report progress to a
+//! callable.
 //!
 //! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets
 //! Python look at its signals, and calls the callable. So the callable is only ever called by the thread that

@@ -247,7 +247,8 @@ fn advanced(
     Ok((0..batch.len()).filter_map(|index| batch.state(index)).collect())
 }
 
-/// The impacts of many orbits that are so many steps later: the bare map, without a question after each impact.
+/// The impacts of many orbits that are so many steps later: the bare map, without a question after each
+/// impact.
 #[pyfunction]
 pub(crate) fn iterate_orbits(a: Arguments<'_>) -> Made<'_> {
     let (starts, impacts, py) = (Starts::of(&a)?, a.u64("impacts")?, a.py());

@@ -404,8 +404,8 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
     field.map_or_else(Vec::new, |field| field.excluded().iter().map(|other| other.name()).collect())
 }
 
-/// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time of a
-/// dictionary.
+/// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time
+/// of a dictionary.
 #[pyfunction]
 #[pyo3(signature = (axial_forcing, peak_acceleration, restitution))]
 pub(crate) fn impact_map(

@@ -1,8 +1,8 @@
 //! Digests that name the bits of results: the same on every machine.
 //!
-//! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is compiled for
-//! (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core. `tests/test_same_bits.py`
-//! of the Python package makes the same calls.
+//! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is
+//! compiled for (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core.
+//! `tests/test_same_bits.py` of the Python package makes the same calls.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;

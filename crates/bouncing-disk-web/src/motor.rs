@@ -21,9 +21,10 @@ const MOST_IMPACTS: u64 = 20_000_000;
 /// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
-/// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap is the nearest
-/// preload at which the motor may be caught in a motion of few impacts: whether it is, the relative change of the preload
-/// or the amplitude that reaches it, and from where to where in the forcing it reaches.
+/// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
+/// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
+/// relative change of the preload or the amplitude that reaches it, and from where to where in the forcing it
+/// reaches.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report(&Unobserved)?;
@@ -48,9 +49,9 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     }))
 }
 
-/// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
-/// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
-/// mean angular speed over the members and its standard error (rad/s).
+/// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the
+/// straight rise ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers:
+/// rows of the time (s), the mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(
     sheet: MotorParameters,
     members: usize,
@@ -100,9 +101,9 @@ const fn refused_since(reason: &FitRefusal) -> &'static str {
     }
 }
 
-/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and input power
-/// (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the numbers are the best so
-/// far), 2 runaway (the load drives the rotor; the numbers are NaN).
+/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and
+/// input power (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the
+/// numbers are the best so far), 2 runaway (the load drives the rotor; the numbers are NaN).
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let settings = settings(*relative_error, *most_impacts, *seed)?;

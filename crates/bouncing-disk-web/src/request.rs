@@ -1,6 +1,6 @@
-//! Requests. Numbers are SI and angles are radians, unless a name says otherwise: phases of pictures are in periods of the
-//! platform, and the speeds of impacts are normalised by the amplitude of the platform's velocity, |w_A| Gamma/(A omega),
-//! as in Fig. 7 of the paper. A range goes from a low to a high number.
+//! Requests. Numbers are SI and angles are radians, unless a name says otherwise: phases of pictures are in
+//! periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
+//! velocity, |w_A| Gamma/(A omega), as in Fig. 7 of the paper. A range goes from a low to a high number.
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::motor::MotorParameters;
@@ -116,7 +116,8 @@ pub(crate) enum Request {
         restitution: f64,
         start: ImpactStart,
     },
-    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they lie in a range.
+    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they
+    /// lie in a range.
     Branches {
         restitution: f64,
         axial_forcing: [f64; 2],
@@ -158,8 +159,8 @@ pub(crate) enum Request {
     },
 }
 
-/// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular forcing, the
-/// phase lag and the load of the system, of which the amplitude alone is that of the column.
+/// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular
+/// forcing, the phase lag and the load of the system, of which the amplitude alone is that of the column.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramRequest {

@@ -1,4 +1,5 @@
-//! Where the energy goes: the hand's work during a toss, entry by entry, and a balance that closes to rounding.
+//! Where the energy goes: the hand's work during a toss, entry by entry, and a balance that closes to
+//! rounding.
 //!
 //!     cargo run --release -p bouncing-disk --example energy
 #![allow(clippy::print_stdout, reason = "an example shows its result")]

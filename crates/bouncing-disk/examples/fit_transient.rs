@@ -9,8 +9,8 @@ use bouncing_disk::estimate::{FitError, FitSettings, MeasuredRun, MeasuredSpeeds
 use bouncing_disk::motor::TransientSettings;
 
 fn main() -> Result<(), FitError> {
-    // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
-    // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
+    // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones.
+    // With the feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
     let synthetic = TransientEnsemble::new(&System::motor(), &settings, 10, &Unobserved)?.curves;
     let runs: Vec<MeasuredRun> = synthetic

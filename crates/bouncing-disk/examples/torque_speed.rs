@@ -1,4 +1,5 @@
-//! A motor under loads: its torque-speed curve with power and efficiency, its stall load, and its best phase lag.
+//! A motor under loads: its torque-speed curve with power and efficiency, its stall load, and its best phase
+//! lag.
 //!
 //!     cargo run --release -p bouncing-disk --example torque_speed
 #![allow(clippy::print_stdout, reason = "an example shows its result")]

@@ -167,8 +167,8 @@ pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory is an error. The
-/// limit is needed because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory
+/// is an error. The limit is needed because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Result<Vec<T>, Error> {
     within_limit(what, count, limit)?;
     let mut room = Vec::new();

@@ -14,9 +14,10 @@ pub fn not_computable(figure: &str) -> Vec<Claim> {
         .collect()
 }
 
-/// The faults of the claims of a figure or table: entries that are not answered by exactly one claim (an identity by one at most), claims that
-/// answer an entry of another figure, numbers that come from no entry, claims without data or not judged by the rule of their kind, differences
-/// without a cause, and claims that count for the paper though they do not answer an entry of its own.
+/// The faults of the claims of a figure or table: entries that are not answered by exactly one claim (an
+/// identity by one at most), claims that answer an entry of another figure, numbers that come from no entry,
+/// claims without data or not judged by the rule of their kind, differences without a cause, and claims that
+/// count for the paper though they do not answer an entry of its own.
 pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let entries = match entries() {
         Ok(entries) => entries,

@@ -1,8 +1,8 @@
 //! Every number and every testable statement that the paper prints, read from `data/paper`.
 //!
-//! An entry is named `file.name`. It says where it is printed, what it is, and which figure or table answers it. The
-//! claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]), and so do the
-//! experiments that need a printed number as an input ([`super::paper`]).
+//! An entry is named `file.name`. It says where it is printed, what it is, and which figure or table answers
+//! it. The claim that answers it takes all this from here ([`Claim::printed`], [`Claim::printed_statement`]),
+//! and so do the experiments that need a printed number as an input ([`super::paper`]).
 //!
 //! [`Claim::printed`]: super::Claim::printed
 //! [`Claim::printed_statement`]: super::Claim::printed_statement

@@ -248,7 +248,8 @@ structs! {
         /// The lowest and the highest g.
         preload_accelerations_m_per_s2: [f64; 2] = "section5.lowest_preload_acceleration",
             "section5.highest_preload_acceleration";
-        /// The range of preloads in which the measured trends hold; printed in mNm, meant in mN (`docs/errata.md`).
+        /// The range of preloads in which the measured trends hold; printed in mNm, meant in mN
+        /// (`docs/errata.md`).
         measured_range_n: [f64; 2] = "section5.lowest_preload" e -3, "section5.highest_preload" e -3;
         /// The preload above which the measured stall torque has a plateau; printed in mNm, meant in mN.
         plateau_n: f64 = "section5.plateau_preload" e -3;
@@ -287,7 +288,8 @@ structs! {
 /// Density of steel, kg/m³: a handbook value; the paper weighs the rotor but does not print the weight.
 pub const STEEL_DENSITY: f64 = 7850.0;
 
-/// Standard gravity, m/s²: it prints as the 9.8 of Table I, and is taken where exactly 9.8 is an exception (`docs/errata.md`).
+/// Standard gravity, m/s²: it prints as the 9.8 of Table I, and is taken where exactly 9.8 is an exception
+/// (`docs/errata.md`).
 pub const STANDARD_GRAVITY: f64 = 9.80665;
 
 impl SectionFive {

@@ -64,7 +64,8 @@ pub struct ExtraAttractorsData {
     sweeps: Vec<Sweep>,
     /// Top of |w_A Γ/(ωA)| of the basins: the bound of every attractor.
     top: f64,
-    /// The labels of the cells, row by row: of each column a letter, `a` for an undecided one, `b` for rest, and so on.
+    /// The labels of the cells, row by row: of each column a letter, `a` for an undecided one, `b` for rest,
+    /// and so on.
     rows: Vec<String>,
     /// The attractors in the order of their labels.
     names: Vec<String>,

@@ -39,7 +39,8 @@ pub struct ExtraLyapunov;
 pub struct Column {
     axial_forcing: f64,
     kind: Kind,
-    /// The exponent per impact; none for a cycle that doubles follow exactly: no perturbation survives a rest.
+    /// The exponent per impact; none for a cycle that doubles follow exactly: no perturbation survives a
+    /// rest.
     exponent: Option<f64>,
     impact_phase_cycles: Vec<f64>,
 }

@@ -106,10 +106,12 @@ fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig03Data, Exper
     Ok(Fig03Data { census, cycle, sprung })
 }
 
-/// A spring that is compressed by so many times the rotor's displacement is compressed by "much more" than it.
+/// A spring that is compressed by so many times the rotor's displacement is compressed by "much more" than
+/// it.
 const MUCH_GREATER: f64 = 100.0;
 
-/// A flight under an effectively constant preload lasts as long and falls as fast as one under a constant preload to this share.
+/// A flight under an effectively constant preload lasts as long and falls as fast as one under a constant
+/// preload to this share.
 const SAME_FLIGHT: f64 = 0.01;
 
 /// The spring's change of preload, and what it does to a flight.

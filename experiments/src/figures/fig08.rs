@@ -185,7 +185,8 @@ impl Beam {
 }
 
 const HEIGHT: f64 = 262.0;
-/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up, in mm.
+/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up,
+/// in mm.
 const AZIMUTH: f64 = 0.5;
 const ELEVATION: f64 = 0.25;
 const DISTANCE: f64 = 260.0;

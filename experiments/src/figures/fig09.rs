@@ -135,7 +135,8 @@ struct Curve {
     friction: f64,
 }
 
-/// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made up.
+/// Preloads of the model and of the synthetic record, evenly over the range of Sec. V B; the record is made
+/// up.
 const PRELOADS: u32 = 9;
 const SYNTHETIC: u32 = 25;
 const SEED: u64 = 9;

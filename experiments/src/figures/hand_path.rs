@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::experiment::ExperimentError;
 
-/// One period of the motion of a point of the platform. The last point is the first one, computed again one period
-/// later.
+/// One period of the motion of a point of the platform. The last point is the first one, computed again one
+/// period later.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct HandPath {
     pub(crate) phase_rad: Vec<f64>,

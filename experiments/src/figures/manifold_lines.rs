@@ -3,8 +3,8 @@
 use bouncing_disk::core::ImpactState;
 use bouncing_disk::core::chaos::Manifold;
 
-/// The pieces of a manifold with their impacts at these places, cut where the first coordinate, a phase in periods of
-/// the platform, jumps by more than half a period; without pieces of a single impact.
+/// The pieces of a manifold with their impacts at these places, cut where the first coordinate, a phase in
+/// periods of the platform, jumps by more than half a period; without pieces of a single impact.
 pub(super) fn lines(manifold: &Manifold, spot: impl Fn(ImpactState) -> (f64, f64)) -> Vec<Vec<(f64, f64)>> {
     let mut lines = Vec::new();
     for piece in manifold.pieces() {

@@ -14,9 +14,10 @@ use crate::claims::paper::{SectionFive, TableThree};
 use crate::claims::{Cases, Claim};
 use crate::experiment::ExperimentError;
 
-/// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
-/// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
-/// and 32 flights, and so show how much depends on it.
+/// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a
+/// period of the platform. The paper draws no line; its example in Fig. 12 shows a few lines that can be told
+/// apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16 and 32 flights,
+/// and so show how much depends on it.
 pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// Other definitions, under which a verdict must be the same to count.
@@ -114,7 +115,8 @@ impl MotorCase {
         Ok(Cycle::from(unperturbed_orbit(&self.system()?, policy)?))
     }
 
-    /// The cycle of the motor that nothing perturbs, if all motors that cannot be distinguished from it have the same.
+    /// The cycle of the motor that nothing perturbs, if all motors that cannot be distinguished from it have
+    /// the same.
     pub(crate) fn robust_cycle(&self) -> Result<Option<RobustCycle>, ExperimentError> {
         let cycle = self.cycle(ChatterPolicy::Complete)?;
         let ulps = UNTOLD.map(|part| self.amplitude_m * (1.0 + part));
@@ -180,11 +182,12 @@ impl From<OrbitClass> for Cycle {
     }
 }
 
-/// Changes of the amplitude, as parts of it, that nobody could set or compute: some units in the last place, and a hundred times as much.
+/// Changes of the amplitude, as parts of it, that nobody could set or compute: some units in the last place,
+/// and a hundred times as much.
 const UNTOLD: [f64; 6] = [5e-16, -5e-16, 1.1e-15, -1.1e-15, 1e-13, -1e-13];
 
-/// A cycle that the last places of the inputs do not choose. Of no other is the length written or drawn: only [`MotorCase::robust_cycle`] makes one, and only it has
-/// words.
+/// A cycle that the last places of the inputs do not choose. Of no other is the length written or drawn: only
+/// [`MotorCase::robust_cycle`] makes one, and only it has words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct RobustCycle(Cycle);
@@ -235,7 +238,8 @@ impl Cycle {
         }
     }
 
-    /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle, however short.
+    /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle,
+    /// however short.
     pub(crate) fn is_low_period(self) -> bool {
         self.chattering_flights().is_some_and(|flights| flights <= LOW_PERIOD_FLIGHTS)
     }
@@ -276,8 +280,8 @@ impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
 }
 
 impl MotorStatistics {
-    /// Whether a low-period cycle governs the perturbed motor, too: one that the perturbation does not break, or one of a single
-    /// flight, which it breaks only now and then.
+    /// Whether a low-period cycle governs the perturbed motor, too: one that the perturbation does not break,
+    /// or one of a single flight, which it breaks only now and then.
     pub(crate) fn is_low_period(&self) -> bool {
         self.cycle.is_low_period() && (self.locked || self.cycle.is_one_flight())
     }
@@ -305,8 +309,8 @@ pub(crate) fn perturbation_table(
     sizes.iter().map(effect).collect()
 }
 
-/// The statement that the steady speed is the same for every size of the relaunch perturbation, from none on: all sizes that were tried, against
-/// their standard errors.
+/// The statement that the steady speed is the same for every size of the relaunch perturbation, from none on:
+/// all sizes that were tried, against their standard errors.
 pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[PerturbationEffect]) -> Claim {
     let speeds = || table.iter().map(|effect| effect.statistics.steady_speed_rad_per_s);
     let least = speeds().min_by(|one, other| one.mean.total_cmp(&other.mean));
@@ -337,7 +341,8 @@ pub(crate) fn perturbation_claim(id: &str, quantity: &str, table: &[Perturbation
 mod tests {
     use super::*;
 
-    /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
+    /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8
+    /// itself does not.
     #[test]
     fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
         use crate::claims::paper;

@@ -1,9 +1,10 @@
 //! Inputs that print like the paper's.
 //!
-//! A measurement of the authors is known to its last printed digit, and a number computed from it is judged over draws of all values that round to it. A value that they
-//! set in a simulation is exact. For the motor no preload acceleration is printed, and its orbit depends on it: at A = 1 nm and g = 9.8 m/s² to all digits
-//! A ω²/g is 2π², and the motor repeats a cycle that it does not have at 9.81. A statement about such an orbit is judged over many of them
-//! (`docs/judging.md`). This is the only place where they are drawn.
+//! A measurement of the authors is known to its last printed digit, and a number computed from it is judged
+//! over draws of all values that round to it. A value that they set in a simulation is exact. For the motor
+//! no preload acceleration is printed, and its orbit depends on it: at A = 1 nm and g = 9.8 m/s² to all
+//! digits A ω²/g is 2π², and the motor repeats a cycle that it does not have at 9.81. A statement about such
+//! an orbit is judged over many of them (`docs/judging.md`). This is the only place where they are drawn.
 
 use super::motor_case::MotorCase;
 use super::numbers::Noise;
@@ -23,8 +24,8 @@ pub(crate) struct Range {
 }
 
 impl Range {
-    /// All that rounds to the entry `key`, times a power of ten. A printed zero is a choice, θ = 0 for a linear motion, and taken as exact: there is no
-    /// last digit to round.
+    /// All that rounds to the entry `key`, times a power of ten. A printed zero is a choice, θ = 0 for a
+    /// linear motion, and taken as exact: there is no last digit to round.
     pub(crate) fn printed(key: &str, power: i32) -> Result<Self, CatalogueError> {
         let number = catalogue::number(key, power)?;
         let half = if number.value == 0.0 { 0.0 } else { number.half_unit };
@@ -64,7 +65,8 @@ pub(crate) fn agreement(key: &str, values: impl IntoIterator<Item = f64>) -> Res
     Ok(Cases::of(values.into_iter().map(|value| printed.holds(value))))
 }
 
-/// A motor as its simulation was printed. Values that the paper set are exact; values that it does not print are drawn.
+/// A motor as its simulation was printed. Values that the paper set are exact; values that it does not print
+/// are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PrintedInputs {
     motor: MotorCase,
@@ -73,8 +75,9 @@ pub(crate) struct PrintedInputs {
 }
 
 impl PrintedInputs {
-    /// The motor of Table III. Its g is printed as "70" alone, which is ω/2π; gravity is meant, so every g counts that rounds to the 9.8 of Table I
-    /// or lies between it and the 10 m/s² up to which Sec. V B varies g.
+    /// The motor of Table III. Its g is printed as "70" alone, which is ω/2π; gravity is meant, so every g
+    /// counts that rounds to the 9.8 of Table I or lies between it and the 10 m/s² up to which Sec. V B
+    /// varies g.
     pub(crate) fn table_three() -> Result<Self, ExperimentError> {
         let motor = MotorCase::default_of(&paper::table_three()?, &paper::section_five()?);
         let gravity = Range::printed("table1.preload_acceleration", 0)?;
@@ -91,13 +94,15 @@ impl PrintedInputs {
         Ok(Self { amplitude_m: Range::exactly(catalogue::number(key, 0)?.value), ..self })
     }
 
-    /// With any amplitude that rounds to the entry `key`: motors like the printed one, where the statement is not about that one alone.
+    /// With any amplitude that rounds to the entry `key`: motors like the printed one, where the statement is
+    /// not about that one alone.
     pub(crate) fn rounded_amplitude(self, key: &str) -> Result<Self, ExperimentError> {
         Ok(Self { amplitude_m: Range::printed(key, 0)?, ..self })
     }
 
-    /// With the preload acceleration printed as the entry `key`, in m/s². Only the last places of the amplitude remain to be drawn; they
-    /// decide on a long cycle, so all amplitudes that agree to twelve digits count.
+    /// With the preload acceleration printed as the entry `key`, in m/s². Only the last places of the
+    /// amplitude remain to be drawn; they decide on a long cycle, so all amplitudes that agree to twelve
+    /// digits count.
     pub(crate) fn preload_acceleration(self, key: &str) -> Result<Self, ExperimentError> {
         let amplitude = self.amplitude_m.low;
         Ok(Self {

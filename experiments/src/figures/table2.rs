@@ -94,8 +94,8 @@ pub struct Table2Data {
     airborne_speed_rad_per_s: f64,
     effects: Vec<Effect>,
     combined: Combined,
-    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum of
-    /// squares.
+    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum
+    /// of squares.
     uncertainty_from_launch_speeds_rad_per_s: f64,
 }
 
@@ -346,7 +346,8 @@ fn claims(data: &Table2Data) -> Vec<Claim> {
     claims
 }
 
-/// The uncertainty of all inputs together by the usual rule, and by what else may be meant: the paper does not say.
+/// The uncertainty of all inputs together by the usual rule, and by what else may be meant: the paper does
+/// not say.
 fn together(data: &Table2Data) -> Claim {
     const KEY: &str = "section3.predicted_airborne_speed_uncertainty";
     let combined = &data.combined;

@@ -133,7 +133,8 @@ pub struct Table3Data {
     ball_gyration_radius_mm: f64,
 }
 
-/// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the stall load.
+/// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the
+/// stall load.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Speed {
     speed_rad_per_s: f64,
@@ -142,7 +143,8 @@ struct Speed {
     stall_over_inputs_rad_per_s2: OverInputs,
 }
 
-/// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation within a decade.
+/// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation
+/// within a decade.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct OverInputs {
     tolerance: f64,
@@ -187,7 +189,8 @@ struct Drop {
     restitution_range: [f64; 2],
     /// Of these heights, drawn evenly, those whose ε rounds to the printed one.
     restitution_agreement: Cases,
-    /// The agreement of the impact speed with gravitational accelerations up to the highest preload of Sec. V B.
+    /// The agreement of the impact speed with gravitational accelerations up to the highest preload of Sec. V
+    /// B.
     agreement_to_highest: Cases,
     impact_speed_m_per_s: f64,
     /// For the heights that are printed as the drop height.
@@ -197,9 +200,11 @@ struct Drop {
     /// v²/(2 h) of the printed speed and height, and for everything that rounds to them.
     gravity_of_printed_speed_m_per_s2: f64,
     gravity_range_of_printed_speed_m_per_s2: [f64; 2],
-    /// The values of g from those that round to the printed gravity up to the highest of Sec. V B: no g is printed for the drop.
+    /// The values of g from those that round to the printed gravity up to the highest of Sec. V B: no g is
+    /// printed for the drop.
     printed_gravity_range_m_per_s2: [f64; 2],
-    /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed speed.
+    /// Of the heights that round to the printed one and of these g, drawn evenly, those that give the printed
+    /// speed.
     agreement: Cases,
     /// The highest g of Sec. V B, and the impact speed with it.
     highest_varied_m_per_s2: f64,
@@ -618,7 +623,8 @@ fn claims(data: &Table3Data) -> Vec<Claim> {
     ]
 }
 
-/// The g that gives the printed speed. An inference from printed numbers; the text does not say which g was used.
+/// The g that gives the printed speed. An inference from printed numbers; the text does not say which g was
+/// used.
 fn drop_gravity(data: &Table3Data) -> Claim {
     let drop = &data.drop;
     let [least, most] = drop.gravity_range_of_printed_speed_m_per_s2;

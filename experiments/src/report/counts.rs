@@ -1,7 +1,8 @@
 //! How many claims of which class came out how, in the words that every summary uses.
 //!
-//! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they cannot count differently. The
-//! headline is about the paper alone: what was fitted, put in, is true by construction or was added by this work stands beside it.
+//! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they
+//! cannot count differently. The headline is about the paper alone: what was fitted, put in, is true by
+//! construction or was added by this work stands beside it.
 
 use std::collections::BTreeSet;
 

@@ -1,7 +1,8 @@
 //! How many digits the pages show.
 //!
-//! A number on `docs/results.md` and `docs/errata.md` has four significant digits. More are kept where they decide a verdict, and only
-//! those that `recomputed.json` lists: each of them another program, from the equations alone, has to find, or it is an input.
+//! A number on `docs/results.md` and `docs/errata.md` has four significant digits. More are kept where they
+//! decide a verdict, and only those that `recomputed.json` lists: each of them another program, from the
+//! equations alone, has to find, or it is an input.
 
 use std::sync::OnceLock;
 

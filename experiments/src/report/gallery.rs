@@ -153,8 +153,8 @@ fn stored(
     entry.read(bytes).map_err(|error| chain(&error))
 }
 
-/// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place for that,
-/// and the figures may have been made in different qualities.
+/// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place
+/// for that, and the figures may have been made in different qualities.
 fn claim_of(claim: &Claim, entry: &RegisteredExperiment, quality: Quality) -> Value {
     // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
     let mut stored = serde_json::to_value(claim).unwrap_or_default();

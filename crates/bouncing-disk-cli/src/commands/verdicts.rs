@@ -1,4 +1,5 @@
-//! `bouncing-disk verdicts`: the long-term motion of the disk, over the forcing, or over forcing and restitution.
+//! `bouncing-disk verdicts`: the long-term motion of the disk, over the forcing, or over forcing and
+//! restitution.
 
 use std::io::Write;
 use std::ops::Range as Rows;
@@ -323,8 +324,8 @@ impl Found {
     }
 }
 
-/// The kinds of motion that the disk settles on, without the evidence; their places are those of the picture's
-/// [`REGIMES`](pictures::REGIMES).
+/// The kinds of motion that the disk settles on, without the evidence; their places are those of the
+/// picture's [`REGIMES`](pictures::REGIMES).
 const KINDS: [&str; 10] = [
     "at rest",
     "cycle with rest",

@@ -428,8 +428,9 @@ impl<'w> Search<'w> {
         Ok(true)
     }
 
-    /// Whether a start comes back nearer to `centre`, the impact of the orbit that it began beside, by the rule of
-    /// [`PeriodicOrbit::trapping_radius`]. (A verdict asks less: whether an orbit approaches any of the impacts.)
+    /// Whether a start comes back nearer to `centre`, the impact of the orbit that it began beside, by the
+    /// rule of [`PeriodicOrbit::trapping_radius`]. (A verdict asks less: whether an orbit approaches any of
+    /// the impacts.)
     fn returns_nearer(
         &mut self,
         period: u64,

@@ -1,5 +1,5 @@
-//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or for many in
-//! lockstep.
+//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or for
+//! many in lockstep.
 
 mod display;
 mod proof;
@@ -21,7 +21,8 @@ use witness::Witness;
 /// which leave lanes empty, do not count.
 const TOGETHER: usize = 1 << 14;
 
-/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of [`ChatterPolicy::Complete`].
+/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of
+/// [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedVerdict"))]
@@ -29,8 +30,8 @@ const TOGETHER: usize = 1 << 14;
 pub enum Verdict {
     /// The orbit came so near to an attracting periodic orbit that it was seen to converge to it. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no impact of it chatters
-    /// to rest.
+    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no
+    /// impact of it chatters to rest.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -48,8 +49,8 @@ pub enum Verdict {
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
-    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
-    /// the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
+    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
+    /// of the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
     /// ([`ImpactMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
     /// longer transient.
     Chaotic {
@@ -157,7 +158,8 @@ pub enum UndecidedReason {
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
-        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
+        /// How far they may be off
+        /// ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
         multiplier_error: f64,
         /// One of its impacts.
         state: ImpactState,
@@ -327,8 +329,8 @@ impl ImpactMap {
     }
 }
 
-/// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep, with the
-/// bits of [`ImpactMap::verdict`].
+/// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep,
+/// with the bits of [`ImpactMap::verdict`].
 ///
 /// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
 ///

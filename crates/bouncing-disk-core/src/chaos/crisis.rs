@@ -183,8 +183,8 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the attractor
-    /// survives there, or is already gone, or no orbit near the tangency is lost.
+    /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the
+    /// attractor survives there, or is already gone, or no orbit near the tangency is lost.
     #[error("the manifolds touch at Gamma = {forcing} instead")]
     Elsewhere {
         /// Gamma of their tangency.
@@ -263,8 +263,9 @@ pub enum NoCrisis {
     },
 }
 
-/// A disk survives long after a rest if it makes more impacts than both of these: this share of the mean survival
-/// time, which one orbit in a hundred does not reach by chance, and a number above that of short cycles from rest to rest.
+/// A disk survives long after a rest if it makes more impacts than both of these: this share of the mean
+/// survival time, which one orbit in a hundred does not reach by chance, and a number above that of short
+/// cycles from rest to rest.
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 

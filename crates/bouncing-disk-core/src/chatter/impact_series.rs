@@ -12,7 +12,8 @@ use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
 
 use super::expansion::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
 
-/// Order of the power series. The longest chatter lasts 0.01 rad, so the omitted terms of a sine are below 1e-17 of it.
+/// Order of the power series. The longest chatter lasts 0.01 rad, so the omitted terms of a sine are below
+/// 1e-17 of it.
 const ORDER: usize = 6;
 
 /// Newton steps towards the scale of y; the first guess is off by a thirtieth.
@@ -115,9 +116,9 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
 
 /// A chattering sequence in closed form: see [`crate::ImpactMap::chatter_series`].
 ///
-/// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with impact n + 1,
-/// and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The coefficients omit it, so that
-/// they do not vanish near r = 1: such a series gives a quantity per 1 - r.
+/// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with
+/// impact n + 1, and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The
+/// coefficients omit it, so that they do not vanish near r = 1: such a series gives a quantity per 1 - r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChatterSeries {
     restitution: f64,

@@ -46,8 +46,8 @@ pub trait RestitutionLaw: Clone + Debug {
     fn restitution(&self, impact_speed: f64) -> f64;
 
     /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal
-    /// number, at speed 0 above all, it may be infinite: only its product with the speed matters, and that counts as 0
-    /// there.
+    /// number, at speed 0 above all, it may be infinite: only its product with the speed matters, and that
+    /// counts as 0 there.
     fn derivative(&self, impact_speed: f64) -> f64;
 
     /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this
@@ -55,7 +55,8 @@ pub trait RestitutionLaw: Clone + Debug {
     /// speeds from 0 to this one, or anything above it. The error of a cut follows from it
     /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
     ///
-    /// `None`, the default, is for a law that may grow with the speed, and for an unknown one: its cuts have no bound.
+    /// `None`, the default, is for a law that may grow with the speed, and for an unknown one: its cuts have
+    /// no bound.
     fn rebound_sum(&self, _impact_speed: f64) -> Option<f64> {
         None
     }

@@ -5,7 +5,8 @@ use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the right side.
+/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the
+/// right side.
 const PARAMETER: usize = 6;
 const RIGHT: usize = 7;
 

@@ -173,8 +173,8 @@ impl DoubleDouble {
         }
     }
 
-    /// Sine and cosine of an angle of at most little more than pi/4, by their series: the first omitted term is below
-    /// 1e-33.
+    /// Sine and cosine of an angle of at most little more than pi/4, by their series: the first omitted term
+    /// is below 1e-33.
     fn sin_cos_of_reduced(self) -> (Self, Self) {
         let square = self * self;
         let term = |k: usize| {

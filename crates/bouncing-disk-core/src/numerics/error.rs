@@ -75,7 +75,8 @@ pub enum Error {
         /// The smallest region that was tried (rad).
         region: f64,
     },
-    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
+    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic
+    /// orbit.
     #[error(
         "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is not a periodic orbit"
     )]
@@ -96,7 +97,8 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
-    /// In a search for an orbit by its impacts, a flight meets the platform earlier: the orbit ends at a graze.
+    /// In a search for an orbit by its impacts, a flight meets the platform earlier: the orbit ends at a
+    /// graze.
     #[error(
         "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
     )]
@@ -108,8 +110,8 @@ pub enum Error {
         /// When the first impact comes, in radians after the launch.
         found: f64,
     },
-    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one, as at a
-    /// fold.
+    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one,
+    /// as at a fold.
     #[error("no branch begins at {parameter:?}: {what} is not an isolated orbit there")]
     NoBranch {
         /// The orbit.
@@ -205,8 +207,8 @@ pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error
     within(field, value, 0.0, f64::MAX, "[0, inf)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory is an error. The
-/// limit is needed because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory
+/// is an error. The limit is needed because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<Vec<T>, Error> {
     let refusal = Error::TooLarge { what, count, limit };
     let mut room = Vec::new();

@@ -247,8 +247,8 @@ impl PeriodicOrbit {
         Multipliers::of(self.monodromy)
     }
 
-    /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a double root by its
-    /// square root.
+    /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a
+    /// double root by its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
         let (trace, determinant) = (self.trace(), self.monodromy.determinant());

@@ -252,9 +252,9 @@ impl<T: Send> SweepRun<T> {
 /// visitors' results in the order of the orbits.
 ///
 /// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
-/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel` the
-/// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
-/// change a bit.
+/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel`
+/// the orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the
+/// processor change a bit.
 ///
 /// An endless orbit that its visitor never breaks off is followed for ever, or until the observer of
 /// [`sweep`] breaks.

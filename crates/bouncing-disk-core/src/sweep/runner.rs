@@ -9,8 +9,9 @@ use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
-/// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
-/// them are in use, as much as about this many single flights (docs/numerics/lockstep.md, "Sweeps").
+/// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
+/// however many of them are in use, as much as about this many single flights (docs/numerics/lockstep.md,
+/// "Sweeps").
 const FEWEST: usize = 12;
 
 /// Batches of lanes of one thread.
@@ -155,8 +156,8 @@ where
 
     /// Advances orbits together while there are enough of them.
     fn in_lanes(&mut self, set: InstructionSet) -> Result<(), Error> {
-        // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
-        // impact that leads to it.
+        // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates
+        // from rest has no impact that leads to it.
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return Ok(()) };
         let mut scheduler = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];

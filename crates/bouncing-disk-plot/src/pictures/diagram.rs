@@ -14,8 +14,8 @@ use crate::scatter::Scatter;
 use crate::text_style::Anchor;
 use crate::ticks::Ticks;
 
-/// The colours of the starts, in their order. The first lies on top of the others: beyond the crisis a start at rest and
-/// one beside the period-1 orbit are on the same attractor, and light points say so.
+/// The colours of the starts, in their order. The first lies on top of the others: beyond the crisis a start
+/// at rest and one beside the period-1 orbit are on the same attractor, and light points say so.
 const COLOURS: [Colour; 8] = [
     Colour::LIGHT_GREY,
     OrbitDiagram::ALONE,
@@ -86,7 +86,8 @@ impl OrbitDiagram<'_> {
         };
         let panel = |column: usize, letter: &str, y: Axis| {
             let of = |impact: &(f64, f64, f64)| (impact.0, if column == 0 { impact.1 } else { impact.2 });
-            // Above the frame: no corner is free for certain. There stands the power of ten of large speeds, too.
+            // Above the frame: no corner is free for certain. There stands the power of ten of large speeds,
+            // too.
             let left = if column == 1 && fastest >= 1e3 { 0.2 } else { 0.0 };
             let mut panel = Panel::new(grid.cell(0, column))
                 .x(Axis::linear(self.axial_forcings.0, self.axial_forcings.1).label(r"$\Gamma$"))

@@ -79,8 +79,8 @@ pub fn swept_curve(along: &Quantity<'_>, quantity: &Quantity<'_>, half_widths: &
     Figure::new(SINGLE_COLUMN, 202.0).panel(panel)
 }
 
-/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has a steady
-/// speed.
+/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has
+/// a steady speed.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadPoint {
     /// The load torque (N m).
@@ -139,8 +139,8 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
     };
     let stall = stall(&speeds);
     let stall_rule = || stall.map(|stall| Rule::vertical(stall).stroke(Stroke::new(Colour::GREY, 0.5)));
-    // Two digits are what a straight line between two loads is good for. There is more room on one side; left of
-    // the stall the speed is above zero.
+    // Two digits are what a straight line between two loads is good for. There is more room on one side; left
+    // of the stall the speed is above zero.
     let stall_name =
         |stall: f64| beside(stall, format!("stall, {} {torque_unit}", rounded(stall, 2)), -slowest > fastest);
     let nothing = || {

@@ -63,8 +63,8 @@ pub(crate) struct ContactStep {
     /// Duration of the segment.
     pub(crate) span: PhaseSpan,
     pub(crate) event: ContactEvent,
-    /// The change over the segment by the closed forms. Where a slip ends, its speed differs from [`Self::speed`] by
-    /// rounding.
+    /// The change over the segment by the closed forms. Where a slip ends, its speed differs from
+    /// [`Self::speed`] by rounding.
     pub(crate) change: RotaryChange,
     /// Angular speed at the event: that of the platform where friction ends a slip.
     pub(crate) speed: f64,

@@ -1,4 +1,5 @@
-//! A motor in steady operation: mean speed, powers, losses and efficiency under a load, each with its standard error.
+//! A motor in steady operation: mean speed, powers, losses and efficiency under a load, each with its
+//! standard error.
 //!
 //! All numbers come from the same perturbed runs: an ensemble of vertical motions, each of which carries
 //! every requested rotor (see [`crate::motor::batch::shared_orbit`]). The spread over the members decides how

@@ -146,8 +146,8 @@ impl Rotor {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` that left it with angular `speed`, on a vertical motion that is computed
-    /// elsewhere. Its contact ends with a [`RotorStep::Separation`].
+    /// Comes to rest after an impact at `now` that left it with angular `speed`, on a vertical motion that is
+    /// computed elsewhere. Its contact ends with a [`RotorStep::Separation`].
     #[cfg(feature = "fit")]
     pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
         self.now = now;

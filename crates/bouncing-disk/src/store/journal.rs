@@ -80,8 +80,8 @@ pub struct Journal<T> {
 
 /// A file that is locked as long as it is open.
 ///
-/// The lock is released explicitly, and not by closing the file: a process that is just being started holds a copy of every
-/// open file for a moment, and would keep the lock for as long.
+/// The lock is released explicitly, and not by closing the file: a process that is just being started holds a
+/// copy of every open file for a moment, and would keep the lock for as long.
 #[derive(Debug)]
 struct Locked(File);
 
@@ -235,7 +235,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
                 Ok(())
             }
             Err(source) => {
-                // Half a line is cut off now, or else before the next one is written or the journal is opened again.
+                // Half a line is cut off now, or else before the next one is written or the journal is opened
+                // again.
                 self.torn = file.set_len(self.length).is_err();
                 Err(StorageError::Io { action: "write", path: self.path.clone(), source })
             }

@@ -65,7 +65,8 @@ fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
     (high - at(angles, curve, angle)) / (high - low)
 }
 
-/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the last, and their share.
+/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the
+/// last, and their share.
 fn accepted(angles: &[f64], curve: &[f64]) -> (String, f64) {
     let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));

@@ -28,7 +28,8 @@ const SETTLING: usize = 20_000;
 const LONGEST_PERIOD: usize = 256;
 /// See [`LONGEST_PERIOD`].
 const REPEATS_WITHIN: f64 = 1.0e-6;
-/// Number of values of Γ, of the followed attractor and of the disk from rest, at which transfers and lags are computed.
+/// Number of values of Γ, of the followed attractor and of the disk from rest, at which transfers and lags
+/// are computed.
 const SAMPLED: usize = 40;
 /// Impacts that a search for the best lag discards: more than the rotation takes to settle at Γ_T = 100.
 const LAG_TRANSIENT: usize = 300;
@@ -191,7 +192,8 @@ impl Diagrams {
         self.cycles.iter().filter(|(_, cycle)| cycle.is_some()).map(|(forcing, _)| *forcing).collect()
     }
 
-    /// The effect of Γ_T on the rotation from the period-4 bifurcation on: for the followed attractor, and beyond the crisis for the disk from rest.
+    /// The effect of Γ_T on the rotation from the period-4 bifurcation on: for the followed attractor, and
+    /// beyond the crisis for the disk from rest.
     fn forcing_effects(
         &self,
         period_four: Option<f64>,
@@ -260,8 +262,8 @@ impl Searches {
     }
 }
 
-/// The transfers of angular momentum and the best lags, evenly over the diagram: of the followed attractor, and of the disk from
-/// rest, all along and beyond the crisis.
+/// The transfers of angular momentum and the best lags, evenly over the diagram: of the followed attractor,
+/// and of the disk from rest, all along and beyond the crisis.
 fn along_the_diagram(
     diagrams: &Diagrams,
     chaotic: &[&Followed],

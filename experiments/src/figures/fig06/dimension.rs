@@ -16,11 +16,11 @@ use crate::figures::motor_case::MotorCase;
 use crate::figures::numbers::six_decimals;
 use crate::figures::toss_case::TossCase;
 
-/// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference, and the rounding
-/// that it divides are both far below the sixth decimal.
+/// Relative change of a parameter (of the phase lag, in rad): its square, the error of a central difference,
+/// and the rounding that it divides are both far below the sixth decimal.
 const CHANGE: f64 = 1.0e-5;
-/// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast, forward and backward, in
-/// which the slip ends (the first and the last) or goes on (the others).
+/// The phase (rad), w_A/(ωA) and w_T/(ωΦ) of the impacts that are mapped: no special ones, slow and fast,
+/// forward and backward, in which the slip ends (the first and the last) or goes on (the others).
 const IMPACTS: [(f64, f64, f64); 4] =
     [(0.3, -0.9, 0.4), (1.2, -0.5, -6.0), (5.9, -0.6, 5.0), (0.7, -2.3, -2.1)];
 
@@ -70,9 +70,10 @@ fn next_collisions(case: MotorCase) -> Result<Vec<f64>, ExperimentError> {
     Ok(outcomes)
 }
 
-/// The pivots of a set of rows over the largest, falling: the remainder of each row after the components along the rows before are taken out. They
-/// are those of a QR decomposition with exchanges, to six decimals: independent rows leave ten thousand units of the last one,
-/// dependent ones a hundredth of a unit, which difference quotients and rounding make.
+/// The pivots of a set of rows over the largest, falling: the remainder of each row after the components
+/// along the rows before are taken out. They are those of a QR decomposition with exchanges, to six decimals:
+/// independent rows leave ten thousand units of the last one, dependent ones a hundredth of a unit, which
+/// difference quotients and rounding make.
 fn pivots(rows: &[Vec<f64>]) -> Vec<f64> {
     let length = rows.first().map_or(0, Vec::len);
     let decomposition = Mat::from_fn(length, rows.len(), |place, row| rows[row][place]).col_piv_qr();
@@ -82,7 +83,8 @@ fn pivots(rows: &[Vec<f64>]) -> Vec<f64> {
     sizes.into_iter().map(|size| six_decimals(size / first)).collect()
 }
 
-/// The rank of the derivatives of the next collisions by the nine inputs, at the toss of Table I as a motor of those inputs.
+/// The rank of the derivatives of the next collisions by the nine inputs, at the toss of Table I as a motor
+/// of those inputs.
 pub(super) fn dimension() -> Result<Dimension, ExperimentError> {
     let section = paper::section_four()?;
     let toss = TossCase::from(&paper::table_one()?);

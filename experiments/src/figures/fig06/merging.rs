@@ -48,8 +48,9 @@ fn orbits(forcings: &[f64], starts: &[ImpactState], restitution: f64) -> Result<
     Ok(orbits)
 }
 
-/// The last bracket (survived, lost). Its few orbits are advanced one by one: the next Γ is known only when they are done, and
-/// k bisections ahead at once are (2^k − 1)/k times as many orbits, which takes back most of what lanes gain.
+/// The last bracket (survived, lost). Its few orbits are advanced one by one: the next Γ is known only when
+/// they are done, and k bisections ahead at once are (2^k − 1)/k times as many orbits, which takes back most
+/// of what lanes gain.
 fn bracket(starts: &[ImpactState], restitution: f64, impacts: usize) -> Result<(f64, f64), ExperimentError> {
     bracket_of_width(SAFE_FORCING, LOST_FORCING, BRACKET, |forcing| {
         let orbits = orbits(&[forcing], starts, restitution)?;

@@ -189,7 +189,8 @@ fn rest(data: &Fig06Data) -> Claim {
     )
 }
 
-/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk of the cut's speed does.
+/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk
+/// of the cut's speed does.
 const SAME_REST: f64 = 1.0e-4;
 
 /// How the chattering sequences of a disk from rest end.
@@ -225,7 +226,8 @@ fn decay(data: &Fig06Data) -> [Claim; 2] {
     ]
 }
 
-/// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has the longer cycle.
+/// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has
+/// the longer cycle.
 fn complexity(data: &Fig06Data) -> Claim {
     // By rising Γ.
     let cycles: Vec<(f64, u64)> = data

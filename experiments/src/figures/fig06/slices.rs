@@ -1,4 +1,5 @@
-//! The stored properties of the attractors at one Γ, and results from several of them: where branches of the speed cross, and the effect of Γ_T on the rotation.
+//! The stored properties of the attractors at one Γ, and results from several of them: where branches of the
+//! speed cross, and the effect of Γ_T on the rotation.
 
 use std::f64::consts::PI;
 
@@ -122,7 +123,8 @@ fn variation(speeds: &[f64]) -> Option<f64> {
     Spread::of(speeds).ok().map(|spread| spread.deviation)
 }
 
-/// The effect of Γ_T on the rotation at one Γ: the slice drawn, and that of the same vertical motion with the angular forcings of (c) and (d) exchanged.
+/// The effect of Γ_T on the rotation at one Γ: the slice drawn, and that of the same vertical motion with the
+/// angular forcings of (c) and (d) exchanged.
 pub(super) fn forcing_effect(drawn: &Slice, exchanged: &Slice) -> Option<ForcingEffect> {
     Some(ForcingEffect {
         axial_forcing: drawn.axial_forcing,

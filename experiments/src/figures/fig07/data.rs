@@ -60,7 +60,8 @@ pub struct Beyond {
     pub not_at_rest: usize,
     /// Impacts followed.
     pub impacts: u32,
-    /// Impacts in one cycle of the motion on which the first of them settles; `None` if there is no such start or its motion does not repeat.
+    /// Impacts in one cycle of the motion on which the first of them settles; `None` if there is no such
+    /// start or its motion does not repeat.
     pub period: Option<usize>,
 }
 
@@ -84,7 +85,8 @@ pub struct Traced {
     pub appears: f64,
     /// Impacts in one round there.
     pub period_where_it_appears: Option<usize>,
-    /// Highest Γ with half of the impacts that it has in the panel; it doubles its period within a step above.
+    /// Highest Γ with half of the impacts that it has in the panel; it doubles its period within a step
+    /// above.
     pub doubles: Option<f64>,
     /// Highest Γ to which it can be followed.
     pub lost: f64,
@@ -95,17 +97,18 @@ pub struct Traced {
 pub struct Panel {
     /// Γ.
     pub axial_forcing: f64,
-    /// Impacts after which a start that has neither come to rest nor reached a known orbit counts as undecided.
+    /// Impacts after which a start that has neither come to rest nor reached a known orbit counts as
+    /// undecided.
     pub max_impacts: u32,
-    /// Rows of cells by rising speed, in a row by phase: runs of equal cells, as `512w33b455w` (w chattering, b the
-    /// attractor of the period-doubling route, o another attractor, u undecided).
+    /// Rows of cells by rising speed, in a row by phase: runs of equal cells, as `512w33b455w` (w chattering,
+    /// b the attractor of the period-doubling route, o another attractor, u undecided).
     pub rows: Vec<String>,
     /// Shares of the cells.
     pub shares: Shares,
     /// Share of the cells that have a neighbour of another kind, with the cells grouped 1, 2, 4, 8 a side.
     pub boundary_shares: Vec<(usize, f64)>,
-    /// The exponents α of boundary share ~ (cell size)^α from each grouping to the next; 2 − α is the boundary's dimension.
-    /// Empty where there is no boundary.
+    /// The exponents α of boundary share ~ (cell size)^α from each grouping to the next; 2 − α is the
+    /// boundary's dimension. Empty where there is no boundary.
     pub boundary_exponents: Vec<f64>,
     /// The same from the finest grouping to the coarsest.
     pub boundary_exponent: Option<f64>,

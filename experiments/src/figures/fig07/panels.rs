@@ -12,8 +12,8 @@ use super::data::{Other, Panel, Shares, Spot};
 use crate::experiment::ExperimentError;
 use crate::progress::{Progress, advancing};
 
-/// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at which
-/// both fractions that it prints come out (see [`super::windows`]).
+/// Top of the speed window |w_A Γ/(ωA)|. The paper's window is not in its text: this is the round number at
+/// which both fractions that it prints come out (see [`super::windows`]).
 pub(super) const WINDOW_TOP: f64 = 5.0;
 /// Impacts after which a start at chaotic forcing counts as caught by the attractor; see [`decay`].
 const CAUGHT_BY_CHAOS: u32 = 400;

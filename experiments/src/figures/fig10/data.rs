@@ -60,7 +60,8 @@ pub(super) struct Transient {
     pub(super) relative_exponential_residual: f64,
     /// The same for the fit of a linear rise to a constant speed.
     pub(super) relative_ramp_residual: f64,
-    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over the ensemble.
+    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over
+    /// the ensemble.
     pub(super) oscillation: f64,
     /// The motion that the unperturbed motor repeats.
     pub(super) cycle: Cycle,
@@ -93,7 +94,8 @@ pub(super) struct BetweenRests {
     pub(super) amplitude_m: f64,
     /// How many motors it grows in for certain, by the measure of a chaotic attractor.
     pub(super) grows: Cases,
-    /// Medians over these motors: impacts from the separation to the next rest, and mean logarithmic growth per impact.
+    /// Medians over these motors: impacts from the separation to the next rest, and mean logarithmic growth
+    /// per impact.
     pub(super) impacts: Option<f64>,
     pub(super) growth_per_impact: Option<f64>,
 }

@@ -1,7 +1,7 @@
 //! The fate of a bouncing rotor whose stator vibrates too little to throw it (Γ < 1/π).
 //!
-//! A rotor at rest is not thrown then, by Eq. (3). One that bounces already need not come to rest: the period-1 orbit needs Γ > (1 − ε)/(1 + ε) only,
-//! which is less than 1/π for ε > (π − 1)/(π + 1).
+//! A rotor at rest is not thrown then, by Eq. (3). One that bounces already need not come to rest: the
+//! period-1 orbit needs Γ > (1 − ε)/(1 + ε) only, which is less than 1/π for ε > (π − 1)/(π + 1).
 
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
@@ -19,7 +19,8 @@ use crate::figures::printed_inputs::DRAWN;
 /// Seed of the rotors.
 pub(super) const SEED: u64 = 318;
 
-/// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need some tens.
+/// A rotor that has not come to rest after so many impacts goes on bouncing: those that come to rest need
+/// some tens.
 const MOST_IMPACTS: usize = 10_000;
 
 impl EndOfBouncing {

@@ -27,7 +27,8 @@ const LEGEND_WIDTH: f64 = 0.78;
 /// See [`LEGEND_WIDTH`].
 const LEGEND_HEIGHT: f64 = 0.52;
 
-/// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would hide the curves.
+/// One dot in so many has a bar, and those of the three amplitudes are not the same: bars at every dot would
+/// hide the curves.
 const BAR_EVERY: usize = 12;
 /// See [`BAR_EVERY`].
 const BAR_SHIFT: usize = 4;
@@ -221,7 +222,8 @@ fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> 
     (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
-/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
+/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a
+/// low-period cycle.
 fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<Layer> {
     let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
     let dots = curve_points(curve, quantity, false);

@@ -12,7 +12,8 @@ pub struct Fig12Data {
     pub(super) cases: ChatteringCases,
     /// The printed long-period case.
     pub(super) long_period: Shown,
-    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period cycle of more than one flight.
+    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period
+    /// cycle of more than one flight.
     pub(super) low_period: Shown,
     /// Most flights of a cycle that counts as one of low period.
     pub(super) low_period_flights: usize,
@@ -42,7 +43,8 @@ pub(super) struct LowPeriod {
     pub(super) lines: Vec<Lines>,
 }
 
-/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for each flight of the cycle.
+/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for
+/// each flight of the cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lines {
     pub(super) flights: usize,
@@ -107,7 +109,8 @@ pub(super) struct Prediction {
     pub(super) reached_s: f64,
     pub(super) time_s: Vec<f64>,
     pub(super) speed_rad_per_s: Vec<f64>,
-    /// Each impact of at least a hundredth of the cycle's impulse: phase/2π, share of the impulse and cos(τ + θ).
+    /// Each impact of at least a hundredth of the cycle's impulse: phase/2π, share of the impulse and cos(τ +
+    /// θ).
     pub(super) impacts: Vec<(f64, f64, f64)>,
     /// Impulses of the cycle over weight times its duration, minus 1.
     pub(super) balance: f64,

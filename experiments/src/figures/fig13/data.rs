@@ -100,7 +100,8 @@ pub(super) struct SweepPoint {
     pub(super) value: f64,
     pub(super) peak_angular_speed_rad_per_s: f64,
     pub(super) statistics: MotorStatistics,
-    /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
+    /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the
+    /// ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
     /// Share of the normal impulse within π/4 of τ = 0.
@@ -127,15 +128,16 @@ pub(super) struct ImpulsePhases {
     /// Shares in equal parts of the cycle from τ = −π to π.
     pub(super) shares: Vec<f64>,
     pub(super) share_near_zero: f64,
-    /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more than half a period.
+    /// Where in the cycle the normal impulse is concentrated, and the collisions that end a flight of more
+    /// than half a period.
     pub(super) impulse: Option<Concentration>,
     pub(super) collisions: Option<Concentration>,
     /// Share that comes in contact and in summed chattering.
     pub(super) contact_share: f64,
 }
 
-/// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at each. Nothing perturbs
-/// them.
+/// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at
+/// each. Nothing perturbs them.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct AlikeMotors {
     /// The ranges drawn from.
@@ -172,16 +174,19 @@ pub(super) struct Prevalence {
     pub(super) share_of_low_period: f64,
     /// Number of flights, and the share of motors with chattering cycles of no more.
     pub(super) share_up_to: Vec<(usize, f64)>,
-    /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
+    /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in
+    /// lines.
     pub(super) share_of_short: f64,
-    /// Of the motors that settle and whose rise is exponential, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
+    /// Of the motors that settle and whose rise is exponential, how many have an α̇_ss/t_c of at most the
+    /// limit μ a_e g/a_g².
     pub(super) within_limit: Cases,
 }
 
 /// One draw of the inputs other than ε.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Draw {
-    /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit, against ε.
+    /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit,
+    /// against ε.
     pub(super) speed_ratio_slope: Option<f64>,
     pub(super) stall_over_limit_slope: Option<f64>,
     /// The rise of the second of these lines over the range of ε, relative to its value at the first ε.
@@ -202,8 +207,8 @@ pub(super) struct Draw {
     pub(super) stall_amplitude_exponent: Option<f64>,
 }
 
-/// The effect of a parameter on a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
-/// to the motor as printed.
+/// The effect of a parameter on a motor that nothing perturbs: by the trend over the range, a straight line
+/// in the parameter (of A in its logarithm, of θ a cosine), relative to the motor as printed.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Sensitivity {
     pub(super) parameter: Parameter,

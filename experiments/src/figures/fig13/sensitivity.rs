@@ -24,7 +24,8 @@ fn range(data: &Fig13Data, parameter: Parameter) -> (f64, f64) {
     extent(sweep(data, parameter).into_iter().flat_map(|sweep| &sweep.points).map(|point| point.value))
 }
 
-/// Whether a power law of this exponent changes by less than a significant share over the range of a parameter.
+/// Whether a power law of this exponent changes by less than a significant share over the range of a
+/// parameter.
 fn is_insignificant(data: &Fig13Data, parameter: Parameter, exponent: f64) -> bool {
     let (low, high) = range(data, parameter);
     exponent.abs() * ln(high / low) < ln(1.0 + SIGNIFICANT)
@@ -63,7 +64,8 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
     .single_orbits(Cases::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine) && is_cosine(draw.stall_cosine))))
 }
 
-/// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among them.
+/// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among
+/// them.
 fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
     numbers::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
 }
@@ -182,7 +184,8 @@ fn of_restitution(changes: &[(Parameter, f64)]) -> String {
     own.map_or_else(|| "none".to_owned(), |(_, change)| format!("{change:.2}"))
 }
 
-/// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
+/// The same changes over the one range that the paper prints, that of the measured ε; the others are not
+/// printed.
 fn over_printed_range(data: &Fig13Data, changes: &[(Parameter, f64)]) -> Vec<(Parameter, f64)> {
     let (low, high) = range(data, Parameter::Restitution);
     let printed = crate::claims::catalogue::number("section5.estimated_restitution", 0);
@@ -198,7 +201,8 @@ fn are_largest(mut changes: Vec<(Parameter, f64)>, named: [Parameter; 3]) -> boo
         && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
 }
 
-/// That the parameters `named` are those with the largest changes of the steady speed, or of the stall torque.
+/// That the parameters `named` are those with the largest changes of the steady speed, or of the stall
+/// torque.
 pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Parameter; 3]) -> Claim {
     let means =
         if key == "section5.speed_sensitivity" { mean_speed_changes(data) } else { mean_stall_changes(data) };
@@ -272,7 +276,8 @@ pub(super) fn speed_limit(data: &Fig13Data) -> Claim {
     )
 }
 
-/// The quotient α̇_ss/t_c against the acceleration that friction can give, where the paper defines it: for exponential transients.
+/// The quotient α̇_ss/t_c against the acceleration that friction can give, where the paper defines it: for
+/// exponential transients.
 pub(super) fn torque_limit(data: &Fig13Data) -> Claim {
     let cases: Cases = data.alike.prevalence.iter().map(|entry| entry.within_limit).sum();
     Claim::printed_statement(

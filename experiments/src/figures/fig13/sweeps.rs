@@ -44,7 +44,8 @@ pub(super) fn low_period_words(data: &Fig13Data, parameter: Parameter) -> String
     format!("{low} of {} motors on a low-period cycle", points.len())
 }
 
-/// y = c cos θ by least squares: c, and the share of the variance that it explains. `None` of fewer than three points.
+/// y = c cos θ by least squares: c, and the share of the variance that it explains. `None` of fewer than
+/// three points.
 pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     if points.len() < 3 {
         return None;
@@ -65,7 +66,8 @@ pub(super) fn cosine_fit(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     Some((factor, 1.0 - rest / all))
 }
 
-/// By how much a quantity changes over the range of a parameter: along a straight line, of A in its logarithm, of θ along a cosine.
+/// By how much a quantity changes over the range of a parameter: along a straight line, of A in its
+/// logarithm, of θ along a cosine.
 pub(super) fn trend_change(parameter: Parameter, points: &[(f64, f64)]) -> Option<f64> {
     let (first, last) = (points.first()?.0, points.last()?.0);
     match parameter {

@@ -1,4 +1,5 @@
-//! `bouncing-disk motor traps`: the preloads at which the motor is locked on a short cycle, and its speed there.
+//! `bouncing-disk motor traps`: the preloads at which the motor is locked on a short cycle, and its speed
+//! there.
 
 use bouncing_disk::motor::{Estimate, LEAST_TRAP_WIDTH, TrapRange};
 

@@ -8,8 +8,8 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 
-/// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better; with these, what a
-/// thread holds still fits into the second-level cache of small processors.
+/// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better;
+/// with these, what a thread holds still fits into the second-level cache of small processors.
 const BATCHES: usize = 24;
 
 impl ImpactMap {

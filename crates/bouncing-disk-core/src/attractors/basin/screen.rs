@@ -74,8 +74,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Finds the lanes whose impacts decide their labels. `spend` gets the work of this in the units of an observer:
-    /// the flights of a batch, and the comparisons with the targets.
+    /// Finds the lanes whose impacts decide their labels. `spend` gets the work of this in the units of an
+    /// observer: the flights of a batch, and the comparisons with the targets.
     #[inline(always)]
     pub(super) fn screen(
         &self,

@@ -13,8 +13,8 @@ use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::{SweepEvent, sweep};
 
-/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
-/// that were allowed.
+/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after
+/// those that were allowed.
 const COMPARED: u32 = 256;
 
 /// Starts that are followed at a time, for their memory.
@@ -167,7 +167,8 @@ impl Attractors {
     ///
     /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`]. A start that is
     /// undecided after [`BasinSettings::max_impacts`] is compared with the attractors that are known by their
-    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of them.
+    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of
+    /// them.
     ///
     /// # Errors
     /// Those of [`ImpactMap::basin_label`].
@@ -176,8 +177,8 @@ impl Attractors {
         Ok(labels.first().copied().unwrap_or(UNDECIDED))
     }
 
-    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it is
-    /// the same in every window and for every number of threads.
+    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it
+    /// is the same in every window and for every number of threads.
     ///
     /// The items of `observer` are the rows, each of which counts twice where there are attractors that are
     /// known by their cells.

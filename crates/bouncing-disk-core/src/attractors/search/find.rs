@@ -27,8 +27,8 @@ const SAMPLES: u32 = 64;
 /// How many cells away an orbit that creeps towards a marginal one may have been from it.
 const CELLS_AWAY: f64 = 1.5;
 
-/// Reports the progress of a part to the observer of the whole search: the items of the part, or none of them,
-/// after those that are done.
+/// Reports the progress of a part to the observer of the whole search: the items of the part, or none of
+/// them, after those that are done.
 struct Part<'o> {
     observer: &'o dyn Observer,
     done: u64,
@@ -133,8 +133,8 @@ impl<'a> Finder<'a> {
         Part { observer: self.observer, done: self.done, total, counts: false }
     }
 
-    /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the starts stay
-    /// undecided.
+    /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the
+    /// starts stay undecided.
     fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
         let scale = self.map.vibration().peak_acceleration();
         let known = self.periodic.iter_mut().find(|known| {
@@ -248,7 +248,8 @@ impl<'a> Finder<'a> {
         (self.recurrent.len() - 1, true)
     }
 
-    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how many do.
+    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how
+    /// many do.
     fn compare(
         &mut self,
         cells: &VisitedCells,
@@ -275,7 +276,8 @@ impl<'a> Finder<'a> {
     fn add_candidates(&mut self) -> Result<(), Error> {
         let map = self.map;
         let (r, forcing) = (map.restitution(), map.vibration().axial_forcing());
-        // A node attracts from its birth to its doubling: the longest flights do, down to some number of periods.
+        // A node attracts from its birth to its doubling: the longest flights do, down to some number of
+        // periods.
         let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
         let longest = longest.saturating_add(1);
         for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {

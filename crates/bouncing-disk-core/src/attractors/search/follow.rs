@@ -65,8 +65,8 @@ struct Recorder {
     rests: bool,
 }
 
-/// The fate of a start that is followed for long, and the cells that its orbit visits: through its first rest, or up
-/// to it.
+/// The fate of a start that is followed for long, and the cells that its orbit visits: through its first
+/// rest, or up to it.
 pub(super) fn long_look(
     map: &ImpactMap,
     start: ImpactState,
@@ -148,7 +148,8 @@ pub(super) fn come_back(
     Ok(seen.into_iter().map(compared).collect())
 }
 
-/// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of them.
+/// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of
+/// them.
 pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
     let (few, many) = if one.visited().len() <= other.visited().len() { (one, other) } else { (other, one) };
     let shared = few.visited().iter().filter(|cell| many.visited().binary_search(cell).is_ok()).count();

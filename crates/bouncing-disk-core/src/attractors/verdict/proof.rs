@@ -1,12 +1,14 @@
-//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at one.
+//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at
+//! one.
 
 use super::VerdictSettings;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 
-/// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the shorter
-/// orbit: next to a doubling the equations are nearly singular, and rounding may move their solution that far.
+/// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
+/// shorter orbit: next to a doubling the equations are nearly singular, and rounding may move their solution
+/// that far.
 const NEARLY_SAME: f64 = 1.0e-2;
 
 /// At this distance (rad) rounding keeps an orbit from approaching further.
@@ -28,8 +30,8 @@ pub(super) struct Proof {
     pub(super) stability: Stability,
 }
 
-/// The periodic orbit that the orbit from `state` approaches, or else one at which it stays; the orbit from `state`
-/// nearly repeats itself after `period` impacts.
+/// The periodic orbit that the orbit from `state` approaches, or else one at which it stays; the orbit from
+/// `state` nearly repeats itself after `period` impacts.
 pub(super) fn prove(
     map: &ImpactMap,
     state: ImpactState,
@@ -90,9 +92,9 @@ fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     shorter.find(|orbit| is(orbit, least)).unwrap_or(orbit)
 }
 
-/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least half of the
-/// decrease that the multipliers predict, within about twice the time in which they shrink a distance to a third,
-/// or within [`MOST_CONFIRMING`] impacts if these are fewer.
+/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least
+/// half of the decrease that the multipliers predict, within about twice the time in which they shrink a
+/// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer.
 fn comes_nearer(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
     if from <= ROUNDING_DISTANCE {
         return true;

@@ -4,12 +4,13 @@ use super::VerdictSettings;
 use crate::map::impact_map::ImpactState;
 use crate::orbits::periodic::phase_difference;
 
-/// After a return that proved nothing the next one counts only after as many further impacts as half of those so far,
-/// and these.
+/// After a return that proved nothing the next one counts only after as many further impacts as half of those
+/// so far, and these.
 const LEAST_WAIT: u64 = 16;
 
 /// Compares each impact with one reference (R. P. Brent, BIT 20, 176 (1980)). The reference is renewed after
-/// 1, 2, 4, ... impacts, up to the longest period. So short periods are found early, and only one impact is kept.
+/// 1, 2, 4, ... impacts, up to the longest period. So short periods are found early, and only one impact is
+/// kept.
 #[derive(Debug, Clone)]
 pub(super) struct Returns {
     reference: Option<ImpactState>,
@@ -30,8 +31,8 @@ impl Returns {
         Self { reference: None, age: 0, window: 1, turns: 0, impacts: 0, wait: 0, nearest: [None; 2] }
     }
 
-    /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return, gives the number
-    /// of impacts after which it comes.
+    /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
+    /// gives the number of impacts after which it comes.
     #[inline]
     pub(super) fn see(
         &mut self,

@@ -17,8 +17,9 @@ use crate::sweep::{SweepEvent, SweepImpact};
 /// A flight is long if it lasts longer than this (rad), half a period of the platform.
 const LONG_FLIGHT: f64 = PI;
 
-/// The largest rounding error (rad and g/omega) of a cycle that counts as that of exact arithmetic: a thousandth of
-/// the size of the motion. The terms neglected beside the first order are then a thousandth of this error.
+/// The largest rounding error (rad and g/omega) of a cycle that counts as that of exact arithmetic: a
+/// thousandth of the size of the motion. The terms neglected beside the first order are then a thousandth of
+/// this error.
 const TRUSTED_ROUNDING: f64 = 1.0e-3;
 
 /// The course of the motion since the disk separated from rest.
@@ -64,8 +65,9 @@ impl Round {
     }
 }
 
-/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever perturbations
-/// of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as near.
+/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever
+/// perturbations of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as
+/// near.
 const ON_AN_ORBIT: f64 = 1.0e-9;
 
 /// An orbit under way to its verdict.
@@ -212,8 +214,8 @@ impl Witness {
         self.round.is_some() as u64
     }
 
-    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is no
-    /// less stable than `least`.
+    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is
+    /// no less stable than `least`.
     fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
         let proof = prove(&self.map, self.state, period, &self.settings)?;
         let Proof { orbit, distance, stability } = proof;
@@ -245,8 +247,8 @@ impl Witness {
         let nothing = LyapunovEstimate { exponent: 0.0, standard_error: 0.0, impacts: self.impacts };
         let estimate = LyapunovEstimate::of(&self.growth).unwrap_or(nothing);
         let LyapunovEstimate { exponent, standard_error, impacts } = estimate;
-        // An orbit that approaches slowly has not returned to within the tolerance; one that started on a repelling
-        // orbit may have stayed there.
+        // An orbit that approaches slowly has not returned to within the tolerance; one that started on a
+        // repelling orbit may have stayed there.
         let nearest = self.returns.nearest();
         let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
         if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Unstable)) {

@@ -24,8 +24,8 @@ const AFTER_BIRTH: f64 = 1.0e-3;
 /// Distance of the first orbits from the periodic one (relative to its velocity).
 const BESIDE: f64 = 1.0e-6;
 
-/// Displacement of the orbits from one forcing to the next (relative to the velocity), which separates orbits that
-/// have merged.
+/// Displacement of the orbits from one forcing to the next (relative to the velocity), which separates orbits
+/// that have merged.
 const SHAKE: f64 = 1.0e-10;
 
 /// The longest step in Gamma over the range.
@@ -34,8 +34,8 @@ const LONGEST_STEP: f64 = 1.0 / 64.0;
 /// The narrowest bracket, relative to Gamma: [`SHAKE`] must not carry orbits over it.
 const NARROWEST: f64 = 1.0e-9;
 
-/// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near as so many
-/// impacts can show; from then on the bracket is halved so often.
+/// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near as
+/// so many impacts can show; from then on the bracket is halved so often.
 const TOLD: f64 = 1.0 / 16.0;
 const MORE_HALVINGS: u32 = 5;
 
@@ -48,8 +48,8 @@ const FEWEST_IMPACTS: usize = 200;
 /// Most forcings, at which orbits survived, whose states are kept.
 const KEPT: usize = 24;
 
-/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral motion,
-/// has an exponent of a few ln n/n: five of these are not chaos.
+/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral
+/// motion, has an exponent of a few ln n/n: five of these are not chaos.
 const EXPONENT_IMPACTS: usize = 4_000;
 
 /// Distances beyond the lower end at which survival times are compared, as multiples of the smallest.
@@ -160,9 +160,10 @@ impl CrisisSearch {
         Ok(Err(NoCrisis::RestsBefore { forcing: self.low, life: shortest_life as u64 }))
     }
 
-    /// The end of an attractor on which orbits survive at `below` and begin to come to rest at `forcing`; or the reason why
-    /// this is no crisis, with the surviving orbits if a periodic attractor beside theirs has ended. `below` is the last
-    /// of `lower_ends` lower ends that were tried; orbits came to rest at the others.
+    /// The end of an attractor on which orbits survive at `below` and begin to come to rest at `forcing`; or
+    /// the reason why this is no crisis, with the surviving orbits if a periodic attractor beside theirs has
+    /// ended. `below` is the last of `lower_ends` lower ends that were tried; orbits came to rest at the
+    /// others.
     fn end(
         &self,
         below: Herd,
@@ -213,10 +214,12 @@ impl CrisisSearch {
             }
             width *= 4.0;
         };
-        // Survival times rise in steps, as gaps close one after the other, so the steepest rise anywhere counts.
+        // Survival times rise in steps, as gaps close one after the other, so the steepest rise anywhere
+        // counts.
         let powers = lives.windows(2).map(|pair| power(&pair[0], &pair[1]));
         let steepest = powers.fold(steepest, |most, (power, error)| most.max(power + 2.0 * error));
-        // If the crisis lay lower by the margin, a rest would have been seen at the lower end, and at the others before.
+        // If the crisis lay lower by the margin, a rest would have been seen at the lower end, and at the
+        // others before.
         let unseen = ln(f64::from(lower_ends) / MISSED);
         let all = each as f64 * below.states.len() as f64;
         let margin = lives.iter().fold(f64::MAX, |least, life| {

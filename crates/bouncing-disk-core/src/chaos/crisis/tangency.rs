@@ -338,15 +338,15 @@ impl Setting {
 }
 
 impl Sought<'_> {
-    /// Whether the unstable manifold leads to the attractor: no orbit from these shares of its first piece rests
-    /// at the lower end of the bracket.
+    /// Whether the unstable manifold leads to the attractor: no orbit from these shares of its first piece
+    /// rests at the lower end of the bracket.
     fn lives(&self) -> Result<bool, Error> {
         let shares = (0..PROBES).map(|probe| f64::from(probe) / f64::from(PROBES));
         Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
     }
 
-    /// Whether orbits from near the tangency come to rest beyond it and not before: only then does it open a way out of
-    /// the attractor, and not one from a part of the attractor to another.
+    /// Whether orbits from near the tangency come to rest beyond it and not before: only then does it open a
+    /// way out of the attractor, and not one from a part of the attractor to another.
     fn loses(&self, solution: &Solution, flights: u32) -> Result<bool, Error> {
         let (low, high) = self.bracket;
         let aside = ASIDE * (high - low);

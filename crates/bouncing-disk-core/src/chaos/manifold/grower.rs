@@ -20,7 +20,8 @@ const FIRST_LENGTH: f64 = 1.0e-5;
 /// The shortest part of the first piece that is still divided: doubles leave few more digits inside of it.
 const SHORTEST_PART: f64 = 1.0 / 268_435_456.0;
 
-/// Turns between parts shorter than this share of a chord are not resolved, and points nearer than that are omitted.
+/// Turns between parts shorter than this share of a chord are not resolved, and points nearer than that are
+/// omitted.
 const FINEST: f64 = 0.02;
 
 /// The direction of a part that is shorter than this may be rounding.

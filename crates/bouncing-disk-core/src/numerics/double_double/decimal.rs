@@ -86,8 +86,8 @@ impl FromStr for DoubleDouble {
     /// Reads a decimal number like `-1.25e-3`.
     ///
     /// # Errors
-    /// [`Error::NoDecimal`] for a text that is no decimal number; [`Error::OutOfRange`] for a number outside of 1e-250 to
-    /// 1e280 that is not zero.
+    /// [`Error::NoDecimal`] for a text that is no decimal number; [`Error::OutOfRange`] for a number outside
+    /// of 1e-250 to 1e280 that is not zero.
     fn from_str(text: &str) -> Result<Self, Error> {
         let bad = |at: usize| Error::NoDecimal { at };
         let bytes = text.as_bytes();

@@ -40,8 +40,8 @@ pub(crate) struct Equations<R> {
 /// A 2x2 matrix by columns.
 type Columns<R> = [[R; 2]; 2];
 
-/// The solution of all equations except the closing one: it takes the changes at the impact before the first and at the
-/// first to the same changes one turn later.
+/// The solution of all equations except the closing one: it takes the changes at the impact before the first
+/// and at the first to the same changes one turn later.
 struct Transfer<R> {
     /// The changes that a unit change of either would make, one after the other.
     homogeneous: [Vec<R>; 2],

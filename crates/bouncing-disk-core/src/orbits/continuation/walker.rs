@@ -30,8 +30,8 @@ const GROWTH: f64 = 1.5;
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
 pub(super) const HALVINGS: u32 = 56;
 
-/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a strongly unstable orbit,
-/// far below the distance of two curves that doubles can tell apart.
+/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a
+/// strongly unstable orbit, far below the distance of two curves that doubles can tell apart.
 pub(super) const NEIGHBOURS: f64 = 1.0e-9;
 
 /// By how much the duration of a flight (rad) may differ from the one that the map finds.
@@ -213,8 +213,9 @@ impl<'s> Walker<'s> {
         Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
     }
 
-    /// The course of the branch from `base` to `next`, as far as it goes. `None` if the step is too long to see it: every
-    /// change along a curve lies between two neighbouring points of it; one that does not is a leap to another curve.
+    /// The course of the branch from `base` to `next`, as far as it goes. `None` if the step is too long to
+    /// see it: every change along a curve lies between two neighbouring points of it; one that does not is a
+    /// leap to another curve.
     fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
         // Where the parameter turns back: only there it may leave its range and return to it within a step.
         let turn = match self.halves(base, next)? {
@@ -263,7 +264,8 @@ impl<'s> Walker<'s> {
                 found.push(Bifurcation { kind, point });
             }
             end = Some(BranchEnd::Bifurcation);
-            // There rounding decides which impact is the first: the points end with the last orbit that the map confirms.
+            // There rounding decides which impact is the first: the points end with the last orbit that the
+            // map confirms.
             let confirmed = |located: &Located| self.is_confirmed(&located.at);
             last = if confirmed(&free)? { free } else { self.bracket(base, &free, confirmed)?.0 };
         }
@@ -277,8 +279,8 @@ impl<'s> Walker<'s> {
         Ok(Some(Stretch { last, found, end }))
     }
 
-    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1 within rounding at the
-    /// second one, or is so at the start of the branch.
+    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1
+    /// within rounding at the second one, or is so at the start of the branch.
     fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
         let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else {
             return Ok(Some(None));
@@ -324,8 +326,8 @@ impl<'s> Walker<'s> {
             .fold(parameter, |most, (a, b)| most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed))
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the way to
-    /// `next`. A point that is not found does not have it.
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the
+    /// way to `next`. A point that is not found does not have it.
     pub(super) fn bracket(
         &self,
         base: &Located,
@@ -436,19 +438,19 @@ fn flip(point: &BranchPoint) -> f64 {
     if flip.abs() <= rounding { 0.0 } else { flip }
 }
 
-// Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that orbit. Its own
-// equations have two branches there, so the code locates the birth on the other branch.
+// Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that orbit. Its
+// own equations have two branches there, so the code locates the birth on the other branch.
 
-/// The distance of the halves (rad, units of 1 + P) below which the forcing does not distinguish an orbit from the
-/// repetition of one half: the difference of the forcings grows with the square of this distance.
+/// The distance of the halves (rad, units of 1 + P) below which the forcing does not distinguish an orbit
+/// from the repetition of one half: the difference of the forcings grows with the square of this distance.
 const REPEATED: f64 = 1.0e-6;
 
-/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations determine the
-/// forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
+/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations
+/// determine the forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
 const CLOSE: f64 = 1.0e-5;
 
-/// The search for the doubling of the shorter orbit begins this far from the last point, in units of the parameter's
-/// scale, and doubles the distance at most so often.
+/// The search for the doubling of the shorter orbit begins this far from the last point, in units of the
+/// parameter's scale, and doubles the distance at most so often.
 const NEAREST: f64 = 1.0e-10;
 const WIDENINGS: u32 = 26;
 
@@ -464,8 +466,8 @@ enum Halves {
 }
 
 impl Walker<'_> {
-    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an odd number of
-    /// impacts.
+    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an
+    /// odd number of impacts.
     fn apart(&self, at: &Closed) -> Vec<DVec2> {
         let (n, speed) = (at.impacts.len(), self.closing.scale.speed);
         let pairs = at.impacts[..n / 2].iter().zip(&at.impacts[n / 2..]);
@@ -478,8 +480,8 @@ impl Walker<'_> {
         at.impacts.len().is_multiple_of(2) && largest(&self.apart(at)) <= REPEATED
     }
 
-    /// Whether and where the halves of the orbit meet between two points. Beyond such a point the branch comes back with its
-    /// halves swapped.
+    /// Whether and where the halves of the orbit meet between two points. Beyond such a point the branch
+    /// comes back with its halves swapped.
     fn halves(&self, base: &Located, next: &Located) -> Result<Halves, Error> {
         let before = self.apart(&base.at);
         let as_before = |located: &Located| {

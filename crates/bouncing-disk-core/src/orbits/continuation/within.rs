@@ -33,11 +33,11 @@ impl Known {
 }
 
 impl Branch {
-    /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each continued
-    /// anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part, however narrow the range is
-    /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a part that ends in a birth
-    /// by doubling and is short: close to it the two halves of the orbit are indistinguishable, and the birth
-    /// follows at once.
+    /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each
+    /// continued anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part,
+    /// however narrow the range is (the smallest step is an arclength of 1e-9). The arclengths are those of
+    /// the parts. Fewer lie on a part that ends in a birth by doubling and is short: close to it the two
+    /// halves of the orbit are indistinguishable, and the birth follows at once.
     ///
     /// The range only selects: it neither begins nor ends a branch. The birth by doubling that ends a branch
     /// is part of it, as the halved orbit run through twice.
@@ -57,8 +57,8 @@ impl Branch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an empty range or the number of points; those of [`ImpactMap::continued`] but for
-    /// [`Error::NoBranch`]: a part that is not found again has the points of this branch.
+    /// [`Error::OutOfRange`] for an empty range or the number of points; those of [`ImpactMap::continued`]
+    /// but for [`Error::NoBranch`]: a part that is not found again has the points of this branch.
     ///
     /// [`ImpactMap::continued`]: crate::ImpactMap::continued
     pub fn within(&self, (low, high): (f64, f64), points: usize) -> Result<Vec<Vec<BranchPoint>>, Error> {
@@ -118,7 +118,8 @@ impl Branch {
         known
     }
 
-    /// The part of the branch between the first and the last of these points that lies in a range: all but these two do.
+    /// The part of the branch between the first and the last of these points that lies in a range: all but
+    /// these two do.
     fn part(
         &self,
         known: &[Known],
@@ -153,8 +154,8 @@ impl Branch {
             } else {
                 let (at, edge) = (known[from].at(), if rising { low } else { high });
                 let settings = Continuation::new(self.parameter, (at.min(edge), at.max(edge)), rising)?;
-                // At a fold the parameter goes with the square of the arclength: a longer step could leap over the range, and
-                // come back on the other side.
+                // At a fold the parameter goes with the square of the arclength: a longer step could leap
+                // over the range, and come back on the other side.
                 let gap = (known[to].point.arclength - known[from].point.arclength).abs();
                 let share = ((edge - known[to].at()) / (at - known[to].at())).abs();
                 let step = (0.5 * gap * share.sqrt()).clamp(SMALLEST_STEP, LARGEST_STEP);

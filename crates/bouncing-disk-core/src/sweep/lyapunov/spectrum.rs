@@ -141,8 +141,8 @@ impl Followed {
 /// `transient` ones, with the standard error of the largest; for an orbit without exponents the reason. The
 /// orbits are advanced in lockstep.
 ///
-/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the rounding of
-/// its sum.
+/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the
+/// rounding of its sum.
 ///
 /// The items of `observer` are the orbits.
 ///

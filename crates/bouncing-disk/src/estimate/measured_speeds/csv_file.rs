@@ -1,7 +1,7 @@
 //! Reads measured speeds from separated values, and locates every malformed place.
 //!
-//! The reader makes no guesses: the unit of a column is in its name, in the row below the header, or given by the
-//! caller; a comma that may be a decimal mark or separate thousands is an error.
+//! The reader makes no guesses: the unit of a column is in its name, in the row below the header, or given by
+//! the caller; a comma that may be a decimal mark or separate thousands is an error.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -55,8 +55,9 @@ pub struct CsvColumns {
 }
 
 impl MeasuredSpeeds {
-    /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs,
-    /// `member` (a whole number), or with times and speeds in other units stated in the file. Feature `csv`.
+    /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for
+    /// repeated runs, `member` (a whole number), or with times and speeds in other units stated in the file.
+    /// Feature `csv`.
     ///
     /// The header is the first line that names the columns, in any order; text before it, a row of units
     /// below it, blank lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by
@@ -223,7 +224,8 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// The first line that names times and speeds. Only lines of text may precede it: a line of numbers ends the search.
+    /// The first line that names times and speeds. Only lines of text may precede it: a line of numbers ends
+    /// the search.
     fn find(
         lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
         columns: &CsvColumns,

@@ -40,8 +40,8 @@ fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFau
     format!("{file:?}{line}{field}: {fault}")
 }
 
-/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust, so that
-/// they cannot disturb a terminal.
+/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust,
+/// so that they cannot disturb a terminal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvFault {

@@ -19,11 +19,13 @@ use crate::motor::batch::shared_orbit::transients::shared_transients;
 use crate::motor::data_sheet::Motor;
 use crate::motor::rotor::transient::TransientSettings;
 
-/// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of half the range.
+/// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of
+/// half the range.
 const STEP: f64 = 0.05;
 
-/// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical motion. Neighbouring
-/// motions differ by their luck, and some lock on a cycle: neither says how the next one does.
+/// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical
+/// motion. Neighbouring motions differ by their luck, and some lock on a cycle: neither says how the next one
+/// does.
 pub(crate) const SPAN: f64 = 0.4;
 
 /// Places on that span.
@@ -63,8 +65,8 @@ impl Model<'_> {
         })
     }
 
-    /// The means of all members of the motors at these places. All share starting phases and perturbations, and those that
-    /// follow each other and share a vertical motion are carried by it together.
+    /// The means of all members of the motors at these places. All share starting phases and perturbations,
+    /// and those that follow each other and share a vertical motion are carried by it together.
     pub(crate) fn members(
         &self,
         candidates: &[DVector<f64>],
@@ -130,7 +132,8 @@ impl Model<'_> {
         Ok(all)
     }
 
-    /// The means of all members at a place, and how they change along each of these ranges; nothing for the others.
+    /// The means of all members at a place, and how they change along each of these ranges; nothing for the
+    /// others.
     pub(crate) fn with_derivatives(
         &self,
         places: &DVector<f64>,

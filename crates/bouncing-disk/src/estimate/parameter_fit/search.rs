@@ -14,8 +14,8 @@ use crate::estimate::parameter_fit::parameter::FitParameter;
 use crate::estimate::parameter_fit::weights::Weights;
 use crate::estimate::refusal::{FitError, FitRefusal, refused};
 
-/// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a standard error changes a
-/// sum of one by 1e-3.
+/// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a
+/// standard error changes a sum of one by 1e-3.
 const TOLERANCE: f64 = 1.0e-3;
 
 /// How often the motors have been computed, and how often they may be.
@@ -72,8 +72,9 @@ impl Linearised {
 
 /// The least squares along the directions that are determined, from a place.
 ///
-/// The means follow friction, lag and twist along the vertical motions of that place, and the parameters that change these along
-/// their derivatives. So the sum of squares is smooth, and the search cannot select a motion whose squares are small by luck.
+/// The means follow friction, lag and twist along the vertical motions of that place, and the parameters that
+/// change these along their derivatives. So the sum of squares is smooth, and the search cannot select a
+/// motion whose squares are small by luck.
 struct Search<'a> {
     model: &'a Model<'a>,
     weights: &'a Weights,
@@ -101,7 +102,8 @@ impl Search<'_> {
         places
     }
 
-    /// The places on the vertical motions of the start, and what the other parameters add to the weighted means there.
+    /// The places on the vertical motions of the start, and what the other parameters add to the weighted
+    /// means there.
     fn on_orbits(&self) -> (DVector<f64>, DVector<f64>) {
         let (mut places, mut added) = (self.places(), DVector::zeros(self.target.len()));
         for (index, &from) in self.from.iter().enumerate().filter(|&(index, _)| self.changes_orbit(index)) {

@@ -29,9 +29,10 @@ pub struct TransientMember {
 }
 
 impl TransientMember {
-    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients with starting phases
-    /// spread evenly over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`. Ensembles
-    /// that are to be independent of each other need seeds that lie at least `members` apart.
+    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients
+    /// with starting phases spread evenly over the cycle from one that the seed chooses, and seeds counted up
+    /// from `settings.seed`. Ensembles that are to be independent of each other need seeds that lie at least
+    /// `members` apart.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than
@@ -63,9 +64,10 @@ impl TransientMember {
     }
 }
 
-/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by what the
-/// seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases that are special; other
-/// seeds move on by the golden ratio of a step, so that a few of them are spread evenly, too.
+/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by
+/// what the seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases
+/// that are special; other seeds move on by the golden ratio of a step, so that a few of them are spread
+/// evenly, too.
 pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
     /// 2^64 over the golden ratio.
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -11,16 +11,16 @@ use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::rotors::{Carry, Rotors};
 use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve};
 
-/// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this many single
-/// flights, however few lanes are in use (docs/numerics/lockstep.md, "Motors in lockstep").
+/// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this
+/// many single flights, however few lanes are in use (docs/numerics/lockstep.md, "Motors in lockstep").
 const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it, in the
-/// order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times faster where
-/// there are many.
+/// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it,
+/// in the order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times
+/// faster where there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
@@ -78,8 +78,8 @@ fn with_instructions(
 /// The outcome of the member with an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
 
-/// The outcomes of as many workers as there are threads. Each worker gets the number of its lanes; results do not depend on
-/// which worker computes a member.
+/// The outcomes of as many workers as there are threads. Each worker gets the number of its lanes; results do
+/// not depend on which worker computes a member.
 #[cfg(feature = "parallel")]
 fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
     use rayon::prelude::*;

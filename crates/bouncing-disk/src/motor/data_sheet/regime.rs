@@ -78,8 +78,8 @@ pub enum MotorRegime {
 }
 
 impl MotorRegime {
-    /// Whether the motion repeats a short cycle. Its speed then has next to no statistical error, however far it is from the
-    /// speeds of neighbouring motors.
+    /// Whether the motion repeats a short cycle. Its speed then has next to no statistical error, however far
+    /// it is from the speeds of neighbouring motors.
     #[must_use]
     pub const fn is_locked(&self) -> bool {
         matches!(self, Self::NoLiftOff | Self::Periodic { .. } | Self::LowPeriodChattering(_))
@@ -213,8 +213,8 @@ fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
 }
 
-/// The motion on which the unperturbed motion from rest settles. It is followed without its rotation, which never acts
-/// on it.
+/// The motion on which the unperturbed motion from rest settles. It is followed without its rotation, which
+/// never acts on it.
 fn settled(
     system: &DimensionlessSystem,
     transient_impacts: usize,

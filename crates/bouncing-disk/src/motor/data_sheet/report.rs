@@ -10,8 +10,8 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 
-/// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as several
-/// lines.
+/// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as
+/// several lines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MotorReport {

@@ -1,5 +1,6 @@
-//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of flights and
-//! rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the speed beside the trap.
+//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of
+//! flights and rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the
+//! speed beside the trap.
 //!
 //! The vertical motion alone decides (docs/numerics/design.md, "Low-period traps").
 

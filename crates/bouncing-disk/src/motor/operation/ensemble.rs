@@ -33,10 +33,12 @@ const LEAST_PERIODS: f64 = 10.0;
 /// A round runs for at most so many times what all before took together, whatever it hopes for.
 const GROWTH: f64 = 3.0;
 
-/// The factor by which the estimated number of windows is increased, so that a further round is seldom needed.
+/// The factor by which the estimated number of windows is increased, so that a further round is seldom
+/// needed.
 const MARGIN: f64 = 1.15;
 
-/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten operations.
+/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
+/// operations.
 const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A motor whose disk stores more than this share of the power put in has not settled.
@@ -70,7 +72,8 @@ impl LoadedMotor {
         self.system.dimensionless().load()
     }
 
-    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than rounding.
+    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
+    /// rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
         let rounding = 1e-6 * self.system.platform().peak_angular_speed();
         speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
@@ -82,9 +85,9 @@ impl LoadedMotor {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
-    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or equal to it but for
-    /// the rounding of the torques in other units. On average the normal force is the weight under preload, so that friction
-    /// gives no more, whatever the motion.
+    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
+    /// equal to it but for the rounding of the torques in other units. On average the normal force is the
+    /// weight under preload, so that friction gives no more, whatever the motion.
     fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
         system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
@@ -107,8 +110,8 @@ impl LoadedMotor {
 pub(crate) struct Operations {
     /// In the order of the motors.
     pub(crate) operations: Vec<Operation>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of rotors from far below
-    /// and from far above; none for a runaway.
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of
+    /// rotors from far below and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
     /// Those of rotors from far above: the difference bounds the remainder of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
@@ -116,8 +119,8 @@ pub(crate) struct Operations {
     pub(crate) length: f64,
 }
 
-/// The steady operation of motors that share one vertical motion. The errors are relative to the largest speed of those
-/// without load; if all have one, the first motor is also computed without its load.
+/// The steady operation of motors that share one vertical motion. The errors are relative to the largest
+/// speed of those without load; if all have one, the first motor is also computed without its load.
 pub(crate) fn operate(
     motors: &[LoadedMotor],
     settings: &OperatingSettings,
@@ -127,8 +130,8 @@ pub(crate) fn operate(
     operate_for(None, motors, settings, observer)
 }
 
-/// [`operate`] with members that are followed for exactly this length, however well the speeds are then known; the settings
-/// may have fewer members than is legal elsewhere.
+/// [`operate`] with members that are followed for exactly this length, however well the speeds are then
+/// known; the settings may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
     length: Option<f64>,
     motors: &[LoadedMotor],
@@ -187,8 +190,8 @@ type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 /// An ensemble under way.
 struct Run {
     motors: Vec<LoadedMotor>,
-    /// How many of them the caller requested: each of these is carried twice, from far below and from far above all steady
-    /// speeds.
+    /// How many of them the caller requested: each of these is carried twice, from far below and from far
+    /// above all steady speeds.
     asked: usize,
     members: Vec<(Member, Vec<Window>)>,
     /// Duration of a window (rad) and its least impacts.
@@ -212,7 +215,8 @@ impl Run {
         let members = (0..settings.members)
             .map(|index| Ok((Member::new(&systems, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
-        // The time in which friction gives the platform's largest speed, in radians; that of the slowest rotor.
+        // The time in which friction gives the platform's largest speed, in radians; that of the slowest
+        // rotor.
         let rise = systems.iter().filter(|system| system.friction() > 0.0);
         let rise = rise.map(|system| system.twist_speed() / system.friction()).fold(0.0, f64::max);
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
@@ -312,13 +316,14 @@ impl Run {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// The rotor of a motor that started from far above; for a motor that the caller did not request, its only rotor.
+    /// The rotor of a motor that started from far above; for a motor that the caller did not request, its
+    /// only rotor.
     fn rotor_from_above(&self, motor: usize) -> usize {
         if motor < self.asked { self.motors.len() + motor } else { motor }
     }
 
-    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two rotors, and of the
-    /// one from far above.
+    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two
+    /// rotors, and of the one from far above.
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
         let after = left_out(self.windows());
@@ -351,8 +356,8 @@ impl Run {
             .collect();
     }
 
-    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk that settles this
-    /// part falls as one over the time for which it is followed.
+    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
+    /// that settles this part falls as one over the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor, left_out(self.windows())..self.windows());
@@ -477,8 +482,8 @@ impl Sum {
         self.rotor.add(&window.rotors[rotor]);
     }
 
-    /// The energy that came in; where less came in than the disks of all members have at their start, that: there are only
-    /// roundings then.
+    /// The energy that came in; where less came in than the disks of all members have at their start, that:
+    /// there are only roundings then.
     fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let system = motor.system.dimensionless();
         let axial = self.axial.normal_work + self.axial.perturbation_work;

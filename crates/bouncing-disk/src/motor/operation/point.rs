@@ -31,7 +31,8 @@ impl Estimate {
         Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
     }
 
-    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not positive.
+    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not
+    /// positive.
     pub(crate) fn of_ratio(dividends: &[f64], divisors: &[f64]) -> Option<Self> {
         let divisor = mean(divisors);
         let value = mean(dividends) / divisor;
@@ -126,7 +127,8 @@ pub enum Shortfall {
 pub enum Operation {
     /// It turns steadily, known to the requested accuracy.
     Steady(OperatingPoint),
-    /// The motor was not followed for long enough: the operating point as far as it is known, and what it lacks.
+    /// The motor was not followed for long enough: the operating point as far as it is known, and what it
+    /// lacks.
     Unsettled(OperatingPoint, Shortfall),
     /// The load overpowers the motor: it is accelerated for ever, and has no mean speed.
     Runaway {

@@ -171,8 +171,8 @@ impl InputSpread {
         let least = (variance - uncertain).max(0.0).sqrt();
         let standard_error = (most - deviation).max(deviation - least);
         let observed = standard_deviation(&values);
-        // The largest deviation within its error, not the deviation itself: an unresolved spread must not shrink to a
-        // point.
+        // The largest deviation within its error, not the deviation itself: an unresolved spread must not
+        // shrink to a point.
         let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
         let at = |value: f64| centre.value + real * (value - centre.value);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);

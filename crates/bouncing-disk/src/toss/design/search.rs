@@ -179,8 +179,8 @@ impl Grid {
         peaks
     }
 
-    /// By how much the objective could exceed `best` between points that are not next to it, if between two points it
-    /// changes no faster than from one to the other, or from either to its next neighbour.
+    /// By how much the objective could exceed `best` between points that are not next to it, if between two
+    /// points it changes no faster than from one to the other, or from either to its next neighbour.
     fn hidden_gain(&self, best: &Place) -> f64 {
         let mut gain = 0.0_f64;
         for (index, value) in self.values.iter().enumerate() {

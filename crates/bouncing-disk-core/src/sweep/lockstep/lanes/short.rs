@@ -1,6 +1,7 @@
 //! Flights that land within half a radian: `Vibration::short_flight`, many at a time.
 //!
-//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so they are collected.
+//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so they are
+//! collected.
 
 use core::f64::consts::{PI, TAU};
 
@@ -231,7 +232,8 @@ impl Short {
         let (end_ratio, end_velocity) = form.at(within_short(self.end[k]));
         // A launch from rest is legal only where the platform falls away, and then it moves off.
         let away = self.pulled[k] == 0;
-        // As `short_bracket`: no root in the pieces up to half a radian, and no dip, or none below the tangents.
+        // As `short_bracket`: no root in the pieces up to half a radian, and no dip, or none below the
+        // tangents.
         let end = within_short(self.end[k]);
         let lowest = CrestForm::lowest_of_tangents(
             end_ratio * end,

@@ -46,7 +46,8 @@ fn runs_follow_each_other_or_alternate() {
     assert_eq!(runs.runs()[0].speeds, [4.0, 5.0, 6.0]);
 }
 
-/// What an oscilloscope, a tacho and a spreadsheet of another country write: the units are in the file or given.
+/// What an oscilloscope, a tacho and a spreadsheet of another country write: the units are in the file or
+/// given.
 #[test]
 fn values_are_read_as_instruments_write_them() {
     let expected = read(PLAIN).expect("well formed");
