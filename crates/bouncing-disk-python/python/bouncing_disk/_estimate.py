@@ -191,7 +191,7 @@ class ExponentialFit:
     Attributes:
         steady_speed: steady speed (rad/s).
         time_constant: time constant t_c (s).
-        residual: root mean square of what is left (rad/s).
+        residual: root mean square of the residuals (rad/s).
         stall_acceleration: steady speed by time constant (rad/s^2).
     """
 
@@ -235,7 +235,7 @@ class RiseEstimate:
         constant: time constant of an exponential, rise time of a ramp (s).
         stall_acceleration: the first by the second (rad/s^2).
         start_speed: speed at the start time of the fit (rad/s); None for a start from rest.
-        residual: root mean square of what is left (rad/s).
+        residual: root mean square of the residuals (rad/s).
     """
 
     steady_speed: IntervalEstimate

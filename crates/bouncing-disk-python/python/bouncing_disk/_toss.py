@@ -96,15 +96,15 @@ class TossOrbit(Result):
 
     Attributes:
         kind: ``"periodic"``, ``"chattering"``, ``"chaotic"``, ``"undecided"`` or ``"at-rest"``.
-        period, platform_periods: impacts and platform periods of one round of a periodic or chattering
+        period, platform_periods: impacts and platform periods of one cycle of a periodic or chattering
             motion, else 0.
-        long_flights: flights of a chattering round that last longer than half a period.
+        long_flights: flights of a chattering cycle that last longer than half a period.
         multipliers: Floquet multipliers of a periodic orbit: two of the vertical motion, one of the rotation;
             else NaN, shape (3,).
         lyapunov_exponent: growth per impact of a motion that does not repeat, where it was measured.
         mean_angular_speed: mean angular speed (rad/s); None at rest.
         rotation_repeats: whether the angular speed repeats as well; None where nothing repeats.
-        time, impact_phase: instant (s) and phase (rad) of each collision: of one round, or all that were
+        time, impact_phase: instant (s) and phase (rad) of each collision: of one cycle, or all that were
             examined, shape (m,).
         axial_impact_velocity: axial velocity of the disk relative to the platform just before (m/s), not
             positive, shape (m,).
@@ -238,7 +238,7 @@ class EventTable(Result):
     error_bound: FloatArray
 
     def names(self) -> list[str]:
-        """What happened, in words: those of :attr:`KINDS`."""
+        """The kind of each event, in the words of :attr:`KINDS`."""
         return [self.KINDS[kind] for kind in self.kind]
 
 

@@ -26,7 +26,7 @@ import numpy as np
 from bouncing_disk._sweep.errors import SweepFolderError, SweepFolderWarning, SweepFunctionError
 from bouncing_disk._sweep.grid import Array, Grid, array_digest, refuse_masked
 
-#: What must have the same version everywhere.
+#: The packages that must have the same version everywhere.
 PACKAGES = ("bouncing-disk", "numpy")
 
 #: The name and the version of the files; the version rises when who reads older files could misunderstand
@@ -271,7 +271,7 @@ _LOCKED_BYTE = 1 << 20
 
 
 class FolderLock:
-    """A lock held from creation until :meth:`release`; never waited for."""
+    """A lock held from creation until :meth:`release`. Creating it never waits."""
 
     def __init__(self, folder: Path) -> None:
         path = folder / LOCK_FILE

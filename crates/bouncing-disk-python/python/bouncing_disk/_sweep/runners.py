@@ -55,7 +55,7 @@ def _asked() -> Callable[[tuple[str, ...]], dict[str, str]]:
 def check_versions(client: Any) -> None:
     """Refuse workers with versions other than this process has. Later ones are checked with each chunk."""
     told: Mapping[str, Any] = client.run(_asked(), PACKAGES, on_error="return")
-    # One that died before it answered is none any more.
+    # A worker that died before it answered no longer counts.
     answers = {worker: found for worker, found in told.items() if not isinstance(found, BaseException)}
     other = {worker: dict(found) for worker, found in answers.items() if dict(found) != versions()}
     if other:
