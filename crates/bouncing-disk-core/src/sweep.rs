@@ -31,7 +31,7 @@ mod settling;
 mod tests;
 
 pub use events::{SweepEvent, SweepImpact};
-// How many flights are computed at once is no promise: the model, benches and tests use these.
+// The number of flights computed at once may change: only the model, benches and tests use these.
 #[doc(hidden)]
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 #[doc(hidden)]

@@ -252,7 +252,7 @@ impl PeriodicOrbit {
     /// of the orbit, and never have been farther away than four times its first distance. The result is half
     /// of the first R that passes.
     ///
-    /// The items of `observer` are the starts, as many as there are at most.
+    /// The items of `observer` are the starts, counted at their maximum.
     ///
     /// # Errors
     /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of

@@ -227,7 +227,7 @@ impl Vibration {
         let first = self.contact_force(phase);
         let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {
-            // Not a number, too, comes to an end; nothing bounces where nothing pulls.
+            // NaN ends the sequence as well; without a pull no disk bounces.
             if !(launch > last_speed && first > 0.0) {
                 return None;
             }

@@ -65,8 +65,8 @@ impl RestProof {
         let (peak, loss) = (self.peak, self.loss);
         let drift = peak * cos;
         let pull = (1.0 - peak * sin) - PULL_ROUNDING * (1.0 + peak);
-        // The quadrant decides, not the sign of what is left: at the separation itself that is nothing, not a
-        // whole turn.
+        // The quadrant decides, not the sign of the remaining angle: at the separation itself the angle is
+        // zero, not a whole turn.
         let ahead = self.separation_angle - angle;
         let until_separation = if (cos >= 0.0) & (angle < PI) { ahead } else { ahead + TAU };
         let impulse = (until_separation + (self.separation_speed - drift)) - self.impulse_rounding;

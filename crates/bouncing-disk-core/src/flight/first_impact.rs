@@ -285,7 +285,7 @@ impl Vibration {
             }
             self.brief_flight_from_rest(from)
         } else if !away && is_brief(speed, pull) {
-            // The smallest of doubles is as near to no duration as there is.
+            // The smallest double stands for a duration of zero.
             let h = (2.0 * speed / pull).max(f64::from_bits(1));
             let (phase, turns) = turned_by(*from, h);
             Some(Impact { periods: 0, remainder: h, turns, phase, velocity: -speed, evaluations: 0 })

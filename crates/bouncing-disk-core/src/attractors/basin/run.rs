@@ -47,8 +47,8 @@ impl BasinRun {
     ) -> Result<Self, Error> {
         check_number_of(known)?;
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        // Zeros that the system gives at once, where writing those of a large grid takes seconds in which
-        // nobody is asked; whether there is room for them is known by then.
+        // The system provides these zeros at once; writing those of a large grid would take seconds without a
+        // call of the observer. The first line checks that there is room for them.
         drop(room_for::<Label>("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?);
         let labels = vec![UNDECIDED; columns * rows];
         Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })

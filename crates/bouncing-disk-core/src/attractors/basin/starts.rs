@@ -180,7 +180,7 @@ impl<'c, 'l> Starts<'c, 'l> {
                 return None;
             }
             if self.screen(judge, count).is_err() {
-                // No start goes on whose first state has not been judged to the end.
+                // A start advances only after its first state has been fully judged.
                 self.open = Lanes::NONE;
                 return None;
             }

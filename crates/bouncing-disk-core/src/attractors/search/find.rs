@@ -178,7 +178,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The marginal orbit that an orbit has crept towards which has been in these cells.
+    /// The marginal orbit towards which an orbit that visited these cells has crept.
     fn marginal(&mut self, recurrence: &Recurrence) -> Option<&mut Periodic> {
         let cells = &recurrence.cells;
         let width = CELLS_AWAY / f64::from(cells.side());
@@ -211,7 +211,8 @@ impl<'a> Finder<'a> {
                     self.repeats(state, impacts, platform_periods, 1);
                     continue;
                 }
-                // The motion itself knows whether it repeats after twice as many impacts, next to a doubling.
+                // Next to a doubling only the motion itself shows whether it repeats after twice as many
+                // impacts.
                 Seen::Verdict(Verdict::Undecided {
                     reason: UndecidedReason::OnPeriodicOrbit { impacts, .. },
                     ..

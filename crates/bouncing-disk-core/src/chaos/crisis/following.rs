@@ -101,7 +101,8 @@ impl CrisisSearch {
         ((self.impacts / u64::from(self.samples)) as usize).max(FEWEST_IMPACTS)
     }
 
-    /// Where the attractor that `inside` or the period-1 orbit leads to begins to lose orbits.
+    /// The forcing at which the attractor to which `inside` or the period-1 orbit leads begins to lose
+    /// orbits.
     pub(super) fn end_of_attractor(
         &self,
         inside: Option<&PeriodicOrbit>,
@@ -357,7 +358,7 @@ impl CrisisSearch {
         }
     }
 
-    /// The forcing of which a periodic orbit is one: by the height at the end of its first flight.
+    /// The forcing to which a periodic orbit belongs, from the height at the end of its first flight.
     fn forcing_of(&self, orbit: &PeriodicOrbit) -> Result<Option<f64>, Error> {
         let (from, to) = (orbit.states[0], orbit.states[1 % orbit.period()]);
         let launch = 0.0 - self.restitution * from.velocity();

@@ -16,7 +16,7 @@ use crate::sweep::survival_times;
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;
 
-/// The most flights from the first piece to a fold that is looked for.
+/// The most flights from the first piece to a fold for which the search looks.
 const MOST_FLIGHTS: u32 = 80;
 
 /// The most folds that are followed to their tangency.
@@ -32,7 +32,7 @@ const ASIDE: f64 = 1.0 / 64.0;
 /// The farthest that neighbouring samples may be apart at a fold (in the units of manifolds).
 const STEP: f64 = 0.2;
 
-/// How near to the stable direction a fold is taken to lie next to the stable manifold.
+/// The largest distance from the stable direction at which a fold counts as next to the stable manifold.
 const TOUCHES: f64 = 0.02;
 
 /// Parts into which the window is divided to find the fold.
@@ -358,7 +358,7 @@ impl Sought<'_> {
         Ok(rests(solution.forcing + aside)? > 0 && rests(solution.forcing - aside)? == 0)
     }
 
-    /// Everything at a forcing, with the coordinates of this impact of the second saddle.
+    /// The setting at a forcing, with the coordinates of this impact of the second saddle.
     fn setting(&self, forcing: f64, impact: usize) -> Result<Setting, Error> {
         let map = self.search.map(forcing)?;
         let inside = map.refine(&self.pair.inside.states)?;

@@ -39,8 +39,8 @@ impl core::fmt::Display for Phase {
     }
 }
 
-/// How far a pair that is read may be from the angle's: far more than any orbit drifts, far less than another
-/// angle shows.
+/// The largest difference of a pair that is read from that of its angle: far more than any orbit drifts, far
+/// less than for another angle.
 pub(crate) const PAIR_TOLERANCE: f64 = 1.0e-9;
 
 read_checked!(Phase as UncheckedPhase { angle: f64, sin: f64, cos: f64 });

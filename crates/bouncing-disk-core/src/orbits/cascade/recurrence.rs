@@ -105,8 +105,7 @@ impl<R: Real> ImpactTimes<R> {
 }
 
 impl<R: Real> Equations<R> {
-    /// Whether every number in them is one, and every flight one that leaves the platform and comes back to
-    /// it.
+    /// Whether all numbers are finite, and every flight leaves the platform and comes back to it.
     pub(crate) fn are_of_flights(&self) -> bool {
         let zero = R::of(0.0);
         self.flights.iter().all(|&(launch, duration)| launch > 0.0 && duration > 0.0 && duration.is_finite())
@@ -177,7 +176,7 @@ impl<R: Real> Equations<R> {
         let [first, second] = transfer.monodromy();
         let n = self.of_impacts.len();
         let one = R::of(1.0);
-        // (1 - M) y = what the right side has made of nothing in one turn.
+        // (1 - M) y = the change that the right side makes of zero in one turn.
         let (a, b, c, d) = (one - first[0], -second[0], -first[1], one - second[1]);
         let determinant = a * d - b * c;
         let [by_residual, by_peak] = [0, 1].map(|k| {

@@ -5,7 +5,7 @@ use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Unobserved;
 
-/// Steps of the arclength where a part is gone through for the first time, to learn how long it is.
+/// Steps of the arclength in a first pass through a part, which measures its length.
 const FIRST_STEP: f64 = 0.01;
 const LARGEST_STEP: f64 = 0.05;
 
@@ -64,7 +64,7 @@ impl Branch {
     pub fn within(&self, (low, high): (f64, f64), points: usize) -> Result<Vec<Vec<BranchPoint>>, Error> {
         within("high end of a range", high, low.next_up(), f64::MAX, "(low end, inf)")?;
         within("points of a part", points as f64, 2.0, 1.0e4, "[2, 1e4]")?;
-        // The branch ends where its own range does, also when it is gone along again.
+        // The branch ends where its own range does, also in a second pass.
         let (mut low, mut high) = (low, high);
         if let BranchEnd::RangeLimit(limit) = self.end {
             let below = self.points.iter().all(|point| point.parameter <= limit);

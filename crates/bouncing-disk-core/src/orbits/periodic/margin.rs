@@ -197,8 +197,8 @@ pub(super) fn errors(map: &ImpactMap, states: &[ImpactState], monodromy: DMat2) 
     }
 }
 
-/// The errors by what moves an orbit: the parameters, and of an `isolated` one, which is not polished, what
-/// its equations leave. The trace of the sequence is known to `rounding`.
+/// The errors of an orbit by the rounding of its parameters and, for an `isolated` orbit, which is not
+/// polished, by the residual of its equations. The trace of the sequence is known to `rounding`.
 fn measured_errors(
     map: &ImpactMap,
     states: &[ImpactState],
@@ -218,7 +218,7 @@ fn measured_errors(
     if isolated {
         length += own.length(&solved(&equations, equations.right.clone()));
     }
-    // Whatever is pushed in no particular way moves along the weak direction.
+    // Under a push in a generic direction the solution moves along the weak direction.
     let moved = solved(&equations, (0..states.len()).map(|i| DVec2::new(1.0 + i as f64, 1.0)).collect());
     let most = own.length(&moved);
     if !(length.is_finite() && most > 0.0 && most.is_finite()) {
