@@ -16,7 +16,7 @@ use crate::statistics::student_quantile;
 /// The fewest points of the sliding part.
 const LEAST_POINTS: usize = 8;
 
-/// The fewest independent points of the sliding part: the line takes two, and one is left to tell the error.
+/// The fewest independent points of the sliding part: the line takes two, and one is left for the error.
 const LEAST_INDEPENDENT: f64 = 3.0;
 
 /// Curves of more points are averaged in groups before they are fitted.
@@ -32,8 +32,8 @@ const LARGEST_CHANGE: f64 = 0.2;
 /// Residuals below this share of the largest speed are rounding.
 const EXACT: f64 = 1.0e-9;
 
-/// A line is given points from its fit of the sliding part, again and again until they are the same, at most
-/// so often.
+/// A fitted line selects the points of the sliding part for the next line, until the selection stays the
+/// same, at most so often.
 const ROUNDS: usize = 50;
 
 /// The rotor whose braking was measured.
@@ -242,8 +242,8 @@ impl Scatter {
         })
     }
 
-    /// The standard error of a line's slope: the larger one of that of noise of one size, and of that which
-    /// is as large at each point as its residual, made good for what the line has taken of it.
+    /// The standard error of a line's slope, the larger of two: for noise of constant size, and for noise
+    /// that is at each point as large as its residual, corrected for the part that the line absorbs.
     fn error_of(&self, line: &Line, times: &[f64], residuals: &[f64]) -> f64 {
         let squares = times.iter().zip(residuals).map(|(own, residual)| {
             let from_middle = own - line.time;
@@ -256,8 +256,9 @@ impl Scatter {
     }
 }
 
-/// The slopes of the first and the last half, where they differ by more than a fifth of the whole one's and
-/// than by chance. A bend looks like a long correlation: the residuals of the halves have less of it.
+/// The slopes of the first and the last half, if they differ by more than a fifth of the slope of the whole,
+/// and by more than chance. A bend looks like a long correlation: the residuals of the halves have less of
+/// it.
 fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64, f64)> {
     let half = times.len() / 2;
     let ((first_times, last_times), (first_speeds, last_speeds)) =
@@ -278,10 +279,10 @@ fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64
     (!by_chance).then_some((first.slope, last.slope))
 }
 
-/// The number of points before the standstill, less those in which the line is almost there.
+/// The number of points before the standstill, less those at which the line is almost at rest.
 fn sliding_points(times: &[f64], speeds: &[f64]) -> usize {
     let mut points = points_before_standstill(times, speeds);
-    // The line of fewer points is another one, so that the part is looked for again.
+    // A line through fewer points is another line, so the selection of the part repeats.
     for _ in 0..ROUNDS {
         if points < LEAST_POINTS {
             break;

@@ -430,7 +430,7 @@ impl Rows {
             return refused(FitRefusal::TooShort { duration, time_constant, least: 1.0 });
         }
         let curve = Saturation::of(&part.times, part.speeds, ramp, start, work)?;
-        // A ramp that goes on to the end of the curve, or is over before its second point, is no ramp.
+        // A ramp that lasts to the end of the curve, or ends before its second point, does not count.
         let is_ramp =
             curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
         let ramp = if is_ramp { part.rise(ramp, &curve, settings, work)?.ok() } else { None };

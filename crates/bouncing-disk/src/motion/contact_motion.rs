@@ -162,8 +162,8 @@ impl Contact {
             Due::Separation => (ContactEvent::Separation, change.speed),
             Due::SlipStart(direction) => (ContactEvent::StickToSlip(direction), change.speed),
             Due::SlipEnd { direction, began_here } => {
-                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again
-                // here.
+                // A slip that begins and ends at the same instant comes from rounding: the disk must not slip
+                // again here.
                 let idle = began_here && span == PhaseSpan::ZERO;
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 let event = friction

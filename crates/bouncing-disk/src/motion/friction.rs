@@ -89,7 +89,7 @@ pub(crate) struct Friction {
     /// Neither twist nor load: nothing pulls at the disk and friction holds it up to the separation, where
     /// rounding would else let it slip an instant before.
     unloaded: bool,
-    /// No friction and yet a relative acceleration: nothing ever holds.
+    /// Without friction, but with a relative acceleration, the disk is never held.
     slippery: bool,
 }
 

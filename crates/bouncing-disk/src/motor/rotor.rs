@@ -123,15 +123,15 @@ impl Rotor {
         self.orbit.as_ref().and_then(Orbit::launch)
     }
 
-    /// Goes on with an orbit that follows an impact at `phase`, computed elsewhere, after which the angular
-    /// speed is `speed`.
+    /// Continues with an orbit that was computed elsewhere and follows an impact at `phase`, after which the
+    /// angular speed is `speed`.
     pub(crate) fn go_on_after(&mut self, phase: Phase, orbit: Orbit, periods: u64, speed: f64) {
         self.orbit = Some(orbit);
         self.now = PhaseTime { periods, phase };
         self.speed = speed;
     }
 
-    /// Goes on with a launch that was computed elsewhere, at angular speed `speed`.
+    /// Continues with a launch that was computed elsewhere, at angular speed `speed`.
     pub(crate) fn go_on_with(
         &mut self,
         launch: Launch,

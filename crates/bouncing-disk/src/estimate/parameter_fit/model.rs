@@ -24,8 +24,8 @@ use crate::motor::rotor::transient::TransientSettings;
 const STEP: f64 = 0.05;
 
 /// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical
-/// motion. Neighbouring motions differ by their luck, and some lock on a cycle: neither says how the next one
-/// does.
+/// motion. Neighbouring motions differ by chance, and some lock on a cycle; neither says anything about the
+/// next motion.
 pub(crate) const SPAN: f64 = 0.4;
 
 /// Places on that span.

@@ -16,8 +16,8 @@ use crate::statistics::small_sample_widening;
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;
 
-/// About a quarter of the blocks speak of a parameter, those of the rise of the time constant, but so many
-/// count at least.
+/// About a quarter of the blocks determine a parameter, as those of the rise do the time constant; but at
+/// least so many count.
 const LEAST_SAMPLE: usize = 5;
 
 /// The most blocks: more would say hardly more about the error.

@@ -64,10 +64,10 @@ impl TransientMember {
     }
 }
 
-/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by
-/// what the seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases
-/// that are special; other seeds move on by the golden ratio of a step, so that a few of them are spread
-/// evenly, too.
+/// The phase at which the member of this index starts: the phases are spread evenly over the cycle, and
+/// turned by an angle that the seed selects, because a few phases are a sample of all of them. The seed 1
+/// turns by half a step, away from all special phases; each further seed adds the golden ratio of a step, so
+/// that a few seeds are spread evenly, too.
 pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
     /// 2^64 over the golden ratio.
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -193,8 +193,8 @@ impl Rotors {
         (self.periods[lane] as u64, self.speed[lane])
     }
 
-    /// The lanes to look at after an impact, one bit for each: where an interval or the transient ends, or
-    /// where the disk may come to rest.
+    /// The lanes that need work of their own after an impact, one bit for each: where an interval or the
+    /// transient ends, or where the disk may come to rest.
     pub(crate) fn attended(&self, may_rest: &[u64; LANES]) -> u64 {
         let lanes = self.passed.iter().zip(may_rest).enumerate();
         lanes.fold(0, |all, (lane, (passed, rests))| all | ((passed | rests) & (1 << lane)))

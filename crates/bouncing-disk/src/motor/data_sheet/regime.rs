@@ -52,7 +52,7 @@ pub enum MotorRegime {
         /// Periods of the stator in a round.
         platform_periods: u64,
     },
-    /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in
+    /// The rotor comes to rest after few flights, and a perturbed one repeats the same cycle: a trap, in
     /// which the speed rises along a ramp.
     LowPeriodChattering(ChatteringCycle),
     /// The rotor comes to rest now and then, after many flights, or after a number of flights that a small

@@ -14,11 +14,11 @@ use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::toss::chattering_cycle::{ChatteringCycle, LOCKED_FLIGHTS, LOCKED_WITHIN, LONG_FLIGHT};
 
-/// Perturbed relaunches of a rotor whose unperturbed round is short.
+/// Perturbed relaunches of a rotor whose unperturbed cycle is short.
 const RELAUNCHES: u32 = 64;
 
-/// Impacts after which an excursion is given up: of the unperturbed one, which is short or none, and of a
-/// perturbed one.
+/// Impacts after which an excursion is abandoned: the unperturbed one, which must be short, and a perturbed
+/// one.
 const MOST_IMPACTS: u64 = 400;
 const MOST_PERTURBED_IMPACTS: u64 = 4_000;
 
@@ -104,7 +104,7 @@ impl TrapVerdict {
 /// Flights that a summed chatter costs.
 const FLIGHTS_OF_EXCURSION: u64 = 4;
 
-/// From a separation to the next one, or to where it was given up.
+/// The way from a separation to the next one, or to where it was abandoned.
 #[derive(Debug, Clone, Copy)]
 struct Excursion {
     /// Radians.
@@ -114,8 +114,8 @@ struct Excursion {
 }
 
 impl Excursion {
-    /// Of a rotor that leaves with this relative speed, given up after so many impacts or more long flights;
-    /// `None` if the platform never falls away.
+    /// The excursion of a rotor that leaves with this relative speed, abandoned after so many impacts or more
+    /// long flights; `None` if the platform never falls away.
     fn of(
         map: &ImpactMap,
         speed: f64,
@@ -152,8 +152,8 @@ impl Excursion {
     }
 }
 
-/// The unperturbed round, if it is short. Every rest ends with the same separation, so that one excursion is
-/// the round.
+/// The unperturbed cycle, if it is short. Every rest ends with the same separation, so one excursion is the
+/// whole cycle.
 fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<ChatteringCycle>, Error> {
     let excursion = Excursion::of(map, 0.0, (MOST_IMPACTS, LOCKED_FLIGHTS), work)?;
     Ok(excursion.and_then(|excursion| excursion.cycle))

@@ -30,7 +30,7 @@ pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 const LEAST_IMPACTS: u64 = 50;
 const LEAST_PERIODS: f64 = 10.0;
 
-/// A round runs for at most so many times what all before took together, whatever it hopes for.
+/// A round is at most so many times as long as all rounds before it together, whatever the estimate.
 const GROWTH: f64 = 3.0;
 
 /// The factor by which the estimated number of windows is increased, so that a further round is seldom
@@ -343,7 +343,7 @@ impl Run {
         };
         let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
         let scale = unloaded.map(|(motor, [speeds, _])| {
-            // A motor without twist has no speed but that at which a load makes it creep.
+            // A motor without twist moves only if a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
             mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
         });

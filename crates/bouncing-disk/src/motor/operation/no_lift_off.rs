@@ -93,8 +93,8 @@ impl Lying {
     }
 }
 
-/// The angular speed at a phase to which a rotor from rest tends. What a period gains falls with the speed at
-/// its beginning, so that its sign changes once.
+/// The angular speed at a phase to which a rotor from rest tends. The gain of a period falls with the speed
+/// at its beginning, so its sign changes once.
 fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
     let mut gain = |speed: f64| Ok::<_, Error>(motion(system, phase, speed, 1, work)?.2 - speed);
     let first = gain(0.0)?;

@@ -8,8 +8,8 @@ use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Loads between none and the largest mean torque of friction, and between the two that the first search
-/// leaves.
+/// Steps of the load from zero to the largest mean torque of friction, and between the two loads that the
+/// first search leaves.
 const STEPS: usize = 16;
 
 /// The largest load tried, as a share of the largest torque: closer to it the remaining friction settles a
@@ -170,7 +170,7 @@ fn check_settled(operations: &[Operation]) -> Result<(), Error> {
 
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
 
-/// The speed; a motor that runs away has none, and no load here makes one do that.
+/// The speed of a steady motor; no load here makes a motor run away.
 fn speed_of(operation: &Operation) -> Estimate {
     operation.point().map_or(NO_SPEED, |point| point.speed)
 }

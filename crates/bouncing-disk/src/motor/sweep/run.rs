@@ -78,7 +78,7 @@ impl MotorSweepRun {
     }
 
     /// [`Self::advance`] that passes on the operations of each group as soon as it is finished, to be stored.
-    /// `record` is given the index of the group; it is called by the threads that do the work, several at a
+    /// `record` gets the index of the group; the threads that do the work call it, several at a
     /// time and in no certain order.
     ///
     /// # Errors

@@ -24,7 +24,7 @@ const SECTIONS: usize = 16;
 const MOST_BOXES: usize = 40;
 const CLIMBED: f64 = 1e-10;
 
-/// Stages that an observer hears of: the grid, and each refinement.
+/// Stages that are reported to an observer: the grid, and each refinement.
 pub(super) const STAGES: u64 = 1 + (PEAKS + BRACKETS.len() - 1) as u64;
 
 /// Work of one evaluation, in flights.
