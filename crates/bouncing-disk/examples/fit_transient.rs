@@ -1,4 +1,4 @@
-//! Steady speed and time constant of a motor from curves that scatter, with what they are uncertain by.
+//! Steady speed and time constant of a motor from curves that scatter, with their uncertainties.
 //!
 //!     cargo run --release -p bouncing-disk --example fit_transient
 #![allow(clippy::print_stdout, reason = "an example shows its result")]

@@ -31,8 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut run = BasinRun::new(map, grid, &known, settings)?;
     let stopped = run.advance(&stop);
     println!("stopped before the end: {}", matches!(stopped, Err(CoreError::Stopped { .. })));
-    // Needs the feature `float_roundtrip` of serde_json: without it a third of all numbers change in the last
-    // bit.
+    // Needs the feature `float_roundtrip` of serde_json: without it a third of all numbers change a last bit.
     let stored = serde_json::to_string(&run)?;
     let mut run: BasinRun = serde_json::from_str(&stored)?;
     run.advance(&bouncing_disk::Unobserved)?;
