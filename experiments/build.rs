@@ -1,11 +1,12 @@
 //! Digests of everything that determines a result, so that finished figures can be recognised as up to date.
 //!
-//! A figure depends on the libraries that this crate is built with, on all shared code of this crate, on the lock file
-//! and the data, and on its own module, `src/figures/ID.rs` and the folder `src/figures/ID`. A module that names another
-//! one (`fig06::`, a shared helper) depends on that one too, and a library on those that its manifest names. Naming is
-//! what counts: depending on too much only recomputes too much. The other crates do not count: what they write below
-//! their folders while they are built, such as the page's packages from npm, would make every figure look out of date.
-//! A user's own measurements are not known when this is built; `src/cache_key.rs` sees them when a figure is made.
+//! A figure depends on the libraries that this crate is built with, on all shared code of this crate, on the
+//! lock file and the data, and on its own module, `src/figures/ID.rs` and the folder `src/figures/ID`. A
+//! module that names another one (`fig06::`, a shared helper) depends on that one too, and a library on those
+//! that its manifest names. Naming is what counts: depending on too much only recomputes too much. The other
+//! crates do not count: what they write below their folders while they are built, such as the page's packages
+//! from npm, would make every figure look out of date. A user's own measurements are not known when this is
+//! built; `src/cache_key.rs` sees them when a figure is made.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
@@ -14,7 +15,8 @@ use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// Files that only list experiments; adding one to them changes no other. They may hold no function that a figure uses.
+/// Files that only list experiments; adding one to them changes no other. They may hold no function that a
+/// figure uses.
 const LISTS: [&str; 2] = ["src/registry.rs", "src/figures.rs"];
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -54,7 +56,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The folders of all crates in `crates` that the manifest of `package` names, and the manifests of those in turn.
+/// The folders of all crates in `crates` that the manifest of `package` names, and the manifests of those in
+/// turn.
 pub(crate) fn named_libraries(
     package: &Path,
     crates: &Path,

@@ -1,5 +1,5 @@
-//! The data of Figs. 6 and 7: the two that cost most. In draft quality; with `BOUNCING_DISK_PAPER=1` in paper quality as
-//! well, which takes minutes.
+//! The data of Figs. 6 and 7: the two that cost most. In draft quality; with `BOUNCING_DISK_PAPER=1` in paper
+//! quality as well, which takes minutes.
 
 use std::hint::black_box;
 

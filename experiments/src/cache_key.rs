@@ -1,8 +1,8 @@
 //! Recognises finished figures that are up to date.
 //!
-//! A cache key is written after all files of a figure. It holds the digest of the sources that determine the result,
-//! the quality, and a digest of every file: a changed source, a killed run and an edited or missing file are all
-//! seen.
+//! A cache key is written after all files of a figure. It holds the digest of the sources that determine the
+//! result, the quality, and a digest of every file: a changed source, a killed run and an edited or missing
+//! file are all seen.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -16,7 +16,7 @@ use crate::provenance;
 
 include!(concat!(env!("OUT_DIR"), "/digests.rs"));
 
-/// What a finished figure was made from, and its files.
+/// The inputs of a finished figure, and its files.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CacheKey {
     /// Of the cache key itself; the files have their own.
@@ -37,7 +37,8 @@ pub enum Stale {
     /// There is no cache key: never made, or the run was interrupted.
     #[error("not made yet")]
     Missing,
-    /// The files are of a format that is newer than this program: their format, who wrote it, and what this program reads.
+    /// The files are of a format that is newer than this program: their format, who wrote it, and what this
+    /// program reads.
     #[error("{message}")]
     Newer {
         /// All that.
@@ -100,8 +101,8 @@ impl CacheKey {
         self.files.get(name).is_some_and(|expected| digest(bytes) == *expected)
     }
 
-    /// Compares the cache key with this version, with the digest of the measurements and with the files; `read` gives the
-    /// content of a file.
+    /// Compares the cache key with this version, with the digest of the measurements and with the files;
+    /// `read` gives the content of a file.
     pub fn check(
         &self,
         id: &str,

@@ -1,4 +1,4 @@
-//! What the paper prints, and how it is judged.
+//! The printed numbers and statements of the paper, and how they are judged.
 //!
 //! [`printed`] reads numbers as the paper prints them, [`catalogue`] has all that it prints, and `paper` gives some of it to
 //! experiments as typed inputs. [`judging`] has the rule of each kind; [`Claim`] compares one printed number or statement with

@@ -1,4 +1,4 @@
-//! What a figure or table of the paper is: data, drawing, claims.
+//! The parts of a figure or table of the paper: data, drawing, claims.
 
 use std::fmt;
 use std::str::FromStr;
@@ -56,7 +56,7 @@ impl fmt::Display for Quality {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("unknown quality \"{given}\": draft or paper")]
 pub struct UnknownQuality {
-    /// What was given.
+    /// The given text.
     pub given: String,
 }
 
@@ -72,7 +72,8 @@ impl FromStr for Quality {
     }
 }
 
-/// Why an experiment gave no result. The cause is the [source](std::error::Error::source); [`chain`] shows all.
+/// Why an experiment gave no result. The cause is the [source](std::error::Error::source); [`chain`] shows
+/// all.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ExperimentError {
@@ -88,7 +89,7 @@ pub enum ExperimentError {
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
     Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
-    /// What a file says of its origin cannot be stored, or is of a newer format.
+    /// The origin of a file cannot be stored, or is of a newer format.
     #[error(transparent)]
     Provenance(Box<StorageError>),
     /// A number printed in the paper could not be read.
@@ -108,7 +109,7 @@ pub enum ExperimentError {
     Input {
         /// The file.
         path: std::path::PathBuf,
-        /// What the system or the parser reported.
+        /// The report of the system or the parser.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
 }
@@ -165,8 +166,8 @@ pub fn chain(error: &dyn std::error::Error) -> String {
 ///
 /// Everything is an associated function: an experiment has no state besides its data.
 pub trait Experiment: Sync + Send + 'static {
-    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is an
-    /// `Option`, never a NaN: storing a number that is not finite is an error.
+    /// The computed numbers: plain, serialisable, units in the field names. A number that does not exist is
+    /// an `Option`, never a NaN: storing a number that is not finite is an error.
     type Data: Serialize + DeserializeOwned + Send + Sync + 'static;
 
     /// `fig01` ... `fig14`, `table1` ... `table3`.
@@ -175,16 +176,17 @@ pub trait Experiment: Sync + Send + 'static {
     /// A short title for the gallery and for lists.
     const TITLE: &'static str;
 
-    /// What the figure shows, in a paragraph for `docs/results.md`; nothing for a figure beyond the paper. `{section4.merging}` stands for the computed number
-    /// of the claim that answers this entry of the [catalogue](crate::claims::catalogue).
+    /// A description of the figure, in a paragraph for `docs/results.md`; nothing for a figure beyond the
+    /// paper. `{section4.merging}` stands for the computed number of the claim that answers this entry of the
+    /// [catalogue](crate::claims::catalogue).
     const DISCUSSION: &'static str = "";
     /// The files of a user's measurements that can be drawn over this figure.
     const MEASUREMENTS: &'static [Layout] = &[];
-    /// What ends a chattering sequence in what is drawn, where there is one. A figure that compares both policies says so
-    /// in its data.
+    /// How a chattering sequence ends in the picture, if it shows one. A figure that compares both policies
+    /// says so in its data.
     const CHATTER_POLICY: Option<ChatterPolicy> = None;
 
-    /// What is drawn at random, and its seed; the first is *the* seed of the figure.
+    /// The random draws and their seeds; the first is *the* seed of the figure.
     fn seeds() -> Vec<(&'static str, u64)> {
         Vec::new()
     }
@@ -195,8 +197,8 @@ pub trait Experiment: Sync + Send + 'static {
     /// Computes the data. Deterministic: the same bits on every machine and with every number of threads.
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<Self::Data, ExperimentError>;
 
-    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The computed
-    /// numbers stay what they are; after an error the data are unchanged.
+    /// Puts a user's measurements, and what is fitted to them, into a field of the data of its own. The
+    /// computed numbers stay what they are; after an error the data are unchanged.
     fn overlay(_data: &mut Self::Data, _series: &Series) -> Result<(), ExperimentError> {
         Ok(())
     }
@@ -204,9 +206,9 @@ pub trait Experiment: Sync + Send + 'static {
     /// Draws the data.
     fn draw(data: &Self::Data) -> Result<Figure, ExperimentError>;
 
-    /// Every number and statement the paper prints about this figure, compared with the data, each taken from the
-    /// [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why nothing can be computed are
-    /// added by the framework.
+    /// Every number and statement the paper prints about this figure, compared with the data, each taken from
+    /// the [catalogue](crate::claims::catalogue) by its key. Entries of the catalogue that have a reason why
+    /// nothing can be computed are added by the framework.
     fn claims(_data: &Self::Data) -> Vec<Claim> {
         Vec::new()
     }
@@ -304,10 +306,10 @@ pub fn entry<E: Experiment>() -> RegisteredExperiment {
 /// The name and content of a file.
 pub type File = (String, Vec<u8>);
 
-/// What `ID.json` holds.
+/// The contents of `ID.json`.
 #[derive(Serialize, Deserialize)]
 struct Record {
-    /// Of every format version the first that is looked at.
+    /// The first part of a file of any format version to be read.
     provenance: Provenance,
     id: String,
     title: String,
@@ -336,8 +338,8 @@ impl RegisteredExperiment {
         (self.compute)(quality, measurements, progress)
     }
 
-    /// What a file of this format says of its origin. Where the experiment has several seeds, the first is *the* seed, and all of
-    /// them are among the parameters by what is drawn with them.
+    /// The origin of a file of this format. Where the experiment has several seeds, the first is *the* seed,
+    /// and all of them are among the parameters, by the names of their draws.
     pub fn provenance(&self, format: Format, quality: Quality) -> Result<Provenance, StorageError> {
         let mut provenance = provenance::new(format).with("figure", self.id)?.with("quality", &quality)?;
         if let Some((_, first)) = self.seeds.first() {

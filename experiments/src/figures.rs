@@ -1,7 +1,8 @@
-//! One module per figure or table of the paper, named as its identifier (`fig06`, `table2`), and one per figure beyond it,
-//! named with underscores (`extra_torque_speed`).
+//! One module per figure or table of the paper, named as its identifier (`fig06`, `table2`), and one per
+//! figure beyond it, named with underscores (`extra_torque_speed`).
 //!
-//! A new module is declared here and listed once in [`crate::registry::paper`] or [`crate::registry::extras`].
+//! A new module is declared here and listed once in [`crate::registry::paper`] or
+//! [`crate::registry::extras`].
 
 pub mod extra_attractors;
 pub mod extra_branches;

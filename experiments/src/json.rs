@@ -25,10 +25,10 @@ pub enum FiniteError {
 
 /// The data as JSON, if all numbers are finite.
 ///
-/// serde_json writes NaN and infinities as `null`, which an `Option` reads back as "absent": a failed computation
-/// would look like a quantity that does not exist. CBOR can hold such numbers: the data are made a tree of CBOR first, in
-/// which the first number that is not finite is found with its place. (A serialiser that keeps the path of an error,
-/// `serde_path_to_error`, would lose it within every `Option`.)
+/// serde_json writes NaN and infinities as `null`, which an `Option` reads back as "absent": a failed
+/// computation would look like a quantity that does not exist. CBOR can hold such numbers: the data are made
+/// a tree of CBOR first, in which the first number that is not finite is found with its place. (A serialiser
+/// that keeps the path of an error, `serde_path_to_error`, would lose it within every `Option`.)
 pub(crate) fn to_value<T: Serialize>(data: &T) -> Result<Value, FiniteError> {
     let mut place = String::new();
     match first_not_finite(&Tree::serialized(data).map_err(failed)?, &mut place) {
@@ -65,8 +65,8 @@ fn first_not_finite(tree: &Tree, place: &mut String) -> Option<f64> {
     }
 }
 
-/// The text of `value`, ending in a line end: one field per line, rows of numbers on one line, keys in the order of
-/// the map (sorted).
+/// The text of `value`, ending in a line end: one field per line, rows of numbers on one line, keys in the
+/// order of the map (sorted).
 pub fn to_text(value: &Value) -> String {
     let mut text = String::new();
     push(&mut text, value, 0);

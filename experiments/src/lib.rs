@@ -1,15 +1,15 @@
-//! Every figure and table of Liu, Friend and Yeo, Phys. Rev. E **80**, 046201 (2009): its data, its drawing and
-//! its printed numbers compared with ours.
+//! Every figure and table of Liu, Friend and Yeo, Phys. Rev. E **80**, 046201 (2009): its data, its drawing
+//! and its printed numbers compared with ours.
 //!
 //! One module of [`figures`] makes one figure or table. It implements [`Experiment`]:
 //!
 //! * `compute` computes plain, serialisable data (units in the field names); it knows no picture,
 //! * `draw` turns that data into a [`Figure`](bouncing_disk_plot::Figure); it computes nothing,
-//! * `claims` compares every number the paper prints with the computed one ([`Claim`]); what is printed stands in
-//!   the [catalogue](claims::catalogue) alone.
+//! * `claims` compares every number the paper prints with the computed one ([`Claim`]); printed numbers stand
+//!   in the [catalogue](claims::catalogue) alone.
 //!
-//! [`registry`] lists the experiments; [`output`] writes their files, each with its [`provenance`]; [`report`] makes the
-//! gallery and the committed pages from all of them.
+//! [`registry`] lists the experiments; [`output`] writes their files, each with its [`provenance`];
+//! [`report`] makes the gallery and the committed pages from all of them.
 
 pub mod cache_key;
 pub mod claims;

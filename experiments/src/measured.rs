@@ -1,9 +1,10 @@
-//! A user's own measurements: comma-separated files that are drawn over a figure and fitted as the paper fits its own.
+//! A user's own measurements: comma-separated files that are drawn over a figure and fitted as the paper fits
+//! its own.
 //!
-//! The paper prints its measured points only as pictures, so none come with this crate. [`Measurements`] holds what lies in
-//! `data/measured`; a figure names the files that it can show by their [`Layout`], and gets a [`Series`] of checked numbers.
-//! `data/measured/README.md` has the same layouts in words. The model's `csv_records` splits the lines; here is what a
-//! line must hold.
+//! The paper prints its measured points only as pictures, so none come with this crate. [`Measurements`]
+//! holds what lies in `data/measured`; a figure names the files that it can show by their [`Layout`], and
+//! gets a [`Series`] of checked numbers. `data/measured/README.md` has the same layouts in words. The model's
+//! `csv_records` splits the lines; here is what a line must hold.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -18,7 +19,8 @@ use crate::visible::{excerpt, visible};
 
 /// The largest legal magnitude, in the unit of any column: more is a wrong unit, and no fit to it overflows.
 const LARGEST: f64 = 1e9;
-/// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is finite.
+/// The smallest legal value where 0 is not legal, so that a logarithm or a quotient of two such values is
+/// finite.
 pub(crate) const SMALLEST: f64 = 1e-12;
 /// The smallest legal magnitude other than 0 where 0 is legal: less than any rounding of a program that has
 /// written the file, and enough that squares and quotients of legal numbers keep all their digits.
@@ -80,7 +82,7 @@ fn whole(number: f64) -> Option<u32> {
     f64::from(whole).total_cmp(&number).is_eq().then_some(whole)
 }
 
-/// What a column is for.
+/// The purpose of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Role {
     /// A quantity that may do anything within its range.

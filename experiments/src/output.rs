@@ -1,9 +1,10 @@
 //! Writes files so that a killed run leaves none half written, and that runs in the same folder do not
 //! disturb each other.
 //!
-//! Every file is written under another name and renamed. Whoever writes holds the [lock](OutputFolder::lock) of the folder
-//! meanwhile, so that the files and the cache key of a figure are of one run, the common files describe what is
-//! there, and a partial file that somebody finds while holding the lock is one of a run that was killed.
+//! Every file is written under another name and renamed. Whoever writes holds the [lock](OutputFolder::lock)
+//! of the folder meanwhile, so that the files and the cache key of a figure are of one run, the common files
+//! describe what is there, and a partial file that somebody finds while holding the lock is one of a run that
+//! was killed.
 
 use std::fs::{self, File};
 use std::io::{self, Write as _};
@@ -18,10 +19,10 @@ use crate::visible::visible_path;
 
 /// The largest file that is read back (bytes): a hundred times that of any figure.
 const LARGEST_FILE: u64 = 1 << 30;
-/// What the names of files that are not complete begin with.
+/// The beginning of the names of incomplete files.
 const PARTIAL: &str = ".bouncing-disk-partial-";
 
-/// What the system refuses.
+/// An operation that the system refuses.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot {action} {}", visible_path(path))]
 pub struct OutputError {
@@ -69,9 +70,9 @@ impl OutputFolder {
 
     /// Waits until no other run writes in the folder and keeps them out until the result is dropped.
     ///
-    /// The lock is on the folder itself, where the system can lock one: nothing is left behind, and it ends with the
-    /// process. Every writer opens the folder anew, so that threads of one process wait for each other, too: a thread that
-    /// holds the lock must write by [`LockedFolder`].
+    /// The lock is on the folder itself, where the system can lock one: nothing is left behind, and it ends
+    /// with the process. Every writer opens the folder anew, so that threads of one process wait for each
+    /// other, too: a thread that holds the lock must write by [`LockedFolder`].
     pub fn lock(&self) -> Result<LockedFolder<'_>, OutputError> {
         let file = open(&self.path).map_err(OutputError::of("write in the output folder", &self.path))?;
         // A file system may have no locks; what others are writing there must stay.
@@ -106,8 +107,8 @@ impl OutputFolder {
         }
     }
 
-    /// Writes all files of one figure and its cache key, with the digest of the measurements in them. Files of an
-    /// earlier run that are no longer made are removed.
+    /// Writes all files of one figure and its cache key, with the digest of the measurements in them. Files
+    /// of an earlier run that are no longer made are removed.
     pub fn write_set(
         &self,
         id: &str,
@@ -173,8 +174,8 @@ impl LockedFolder<'_> {
         self.publish(self.partials(files)?)
     }
 
-    /// The complete files on the disk, under other names than their own, which is where each belongs. They are removed
-    /// unless they get their names.
+    /// The complete files on the disk, under other names than their own, which is where each belongs. They
+    /// are removed unless they get their names.
     fn partials(&self, files: &[(&str, &[u8])]) -> Result<Vec<(PathBuf, NamedTempFile)>, OutputError> {
         let partial = |(name, bytes): &(&str, &[u8])| {
             let path = self.folder.path.join(name);
@@ -221,8 +222,8 @@ fn cache_key_name(id: &str) -> String {
     format!("{id}.cache-key")
 }
 
-/// Whether a cache key may name this file. A cache key is a file like others: what it says must not remove anything
-/// else.
+/// Whether a cache key may name this file. A cache key is a file like others: its text must not remove
+/// anything else.
 fn is_of_figure(id: &str, name: &str) -> bool {
     let own = name.strip_prefix(id).is_some_and(|rest| rest.starts_with('.'));
     own && Path::new(name).file_name().is_some_and(|last| last == name)

@@ -1,9 +1,9 @@
-//! What every written file says of its origin: program and version, the version of its format, the figure with
+//! The origin that every written file states: program and version, the version of its format, the figure with
 //! its quality and parameters, seed and chatter policy.
 //!
-//! It is put into a file when the file is written, and none of the digests that pin data and drawings sees it:
-//! another version of the program does not make a figure another one. It holds no time and no machine, so that
-//! files are the same bytes wherever they are made.
+//! It is put into a file when the file is written, and none of the digests that pin data and drawings sees
+//! it: another version of the program does not make a figure another one. It holds no time and no machine, so
+//! that files are the same bytes wherever they are made.
 //!
 //! | file | place |
 //! | --- | --- |
@@ -26,7 +26,8 @@ pub const CLAIM: Format = Format { name: "bouncing-disk claim", version: 1, olde
 pub const GALLERY: Format = Format { name: "bouncing-disk gallery", version: 1, oldest: 1 };
 /// The format of `ID.cache-key`.
 pub const CACHE_KEY: Format = Format { name: "bouncing-disk cache key", version: 1, oldest: 1 };
-/// The format of `digests.json`; version 1 had the digests of pictures with what they say of their origin taken out.
+/// The format of `digests.json`; version 1 had the digests of pictures with what they say of their origin
+/// taken out.
 pub const DIGESTS: Format = Format { name: "bouncing-disk digests", version: 2, oldest: 2 };
 /// The format of the files in `data/performance`.
 pub const PERFORMANCE: Format = Format { name: "bouncing-disk performance", version: 1, oldest: 1 };
@@ -44,8 +45,8 @@ pub(crate) fn text(provenance: &Provenance) -> String {
     serde_json::to_string(provenance).unwrap_or_default()
 }
 
-/// Refuses what was written in a newer format, by name. A file that says nothing of its origin, or whose origin is
-/// another program's, is judged by whoever reads the rest of it.
+/// Refuses what was written in a newer format, by name. A file that says nothing of its origin, or whose
+/// origin is another program's, is judged by whoever reads the rest of it.
 pub fn refuse_newer(format: Format, stored: Option<&Value>, file: &str) -> Result<(), StorageError> {
     match stored.map(|stored| Provenance::read(format, stored, Path::new(file))) {
         Some(Err(error @ StorageError::NewerFormat { .. })) => Err(error),

@@ -1,4 +1,4 @@
-//! What is made from the results of all figures: the gallery with `claims.json`, and the committed pages.
+//! The products of the results of all figures: the gallery with `claims.json`, and the committed pages.
 //!
 //! A claim becomes a row of words once; one set of templates turns rows into HTML and Markdown.
 
@@ -41,7 +41,7 @@ impl Row {
         Self {
             place: claim.place.clone(),
             quantity: claim.quantity.clone(),
-            // What the paper says in words is "true" in its catalogue.
+            // The catalogue has "true" for a statement in words.
             printed: if is_statement { "stated".to_owned() } else { with_unit(&claim.printed, &claim.unit) },
             computed: match &claim.computed {
                 Computed::Number(number) => with_unit(&of_digits(*number, 6), &claim.unit),
@@ -62,8 +62,8 @@ impl Row {
     }
 }
 
-/// The verdict of a claim as one reads it, with its cause and the verdict of single orbits. What is not the paper's is neither reproduced nor does it
-/// differ.
+/// The verdict of a claim in words, with its cause and the verdict of single orbits. A claim that is not the
+/// paper's is neither reproduced nor does it differ.
 fn verdict_words(claim: &Claim) -> String {
     let words = |verdict| match (claim.class, verdict) {
         (Class::Input, Verdict::NotComputable) => "put in",
@@ -142,8 +142,9 @@ fn environment() -> Environment<'static> {
     environment
 }
 
-/// How a number is written: `.3` with so many decimals, `e1` in powers of ten with so many decimals, `s4` with so many significant digits. Before it `%` for
-/// a share in per cent, `π` for a multiple of π, `m`, `µ` for thousandths and millionths, `k` for thousands.
+/// How a number is written: `.3` with so many decimals, `e1` in powers of ten with so many decimals, `s4`
+/// with so many significant digits. Before it `%` for a share in per cent, `π` for a multiple of π, `m`, `µ`
+/// for thousandths and millionths, `k` for thousands.
 fn number(number: f64, format: &str) -> Result<String, TemplateError> {
     let malformed = || TemplateError::new(ErrorKind::InvalidOperation, format!("{format} is no format"));
     let factors = [('%', 1e2), ('π', std::f64::consts::FRAC_1_PI), ('m', 1e3), ('µ', 1e6), ('k', 1e-3)];
@@ -161,7 +162,8 @@ fn number(number: f64, format: &str) -> Result<String, TemplateError> {
     }
 }
 
-/// The entry of a long list whose `field` is nearest to a number: a place in a list means nothing, and shifts.
+/// The entry of a long list whose `field` is nearest to a number: a place in a list means nothing, and
+/// shifts.
 fn near(list: Value, field: &str, wanted: f64) -> Result<Value, TemplateError> {
     let mut nearest: Option<(f64, Value)> = None;
     for entry in list.try_iter()? {

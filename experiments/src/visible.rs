@@ -1,4 +1,4 @@
-//! Shows texts of somebody else's, such as fields of a file and names of folders, in messages.
+//! Makes texts from outside, such as fields of a file and names of folders, visible in messages.
 //!
 //! A control character that reaches a terminal moves its cursor or changes its title; one that orders text
 //! from right to left makes a message read as something else; five megabytes hide it. None of them may pass.
@@ -8,8 +8,8 @@ use std::path::Path;
 /// How many characters of a text a message shows.
 const SHOWN: usize = 40;
 
-/// The beginning of a text in double quotes, with everything escaped that is not visible, and the length of the text where
-/// not all of it is shown: `"aaaa…" (5000000 characters)`.
+/// The beginning of a text in double quotes, with everything escaped that is not visible, and the length of
+/// the text where not all of it is shown: `"aaaa…" (5000000 characters)`.
 pub fn excerpt(text: &str) -> String {
     // Quotes and backslashes, too, so that the quotes around it are the only ones.
     let quotable = |c| matches!(c, '"' | '\\') || is_invisible(c);

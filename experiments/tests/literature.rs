@@ -1,7 +1,9 @@
-//! What others have published on bouncing balls: `data/literature` and `docs/literature.md` against the exact map.
+//! What others have published on bouncing balls: `data/literature` and `docs/literature.md` against the exact
+//! map.
 //!
-//! A statement with a `check` is computed here, and its row of the page must have that number and that verdict. The
-//! units of the data are those of the page; a frequency has amplitude, gravity and mass 1, so that P is its square.
+//! A statement with a `check` is computed here, and its row of the page must have that number and that
+//! verdict. The units of the data are those of the page; a frequency has amplitude, gravity and mass 1, so
+//! that P is its square.
 
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
@@ -96,7 +98,8 @@ impl Checked<'_> {
         last + (last - before) / (FEIGENBAUM_DELTA - 1.0)
     }
 
-    /// Whether a number is the printed one, to half a unit of its last digit or the grid on which it was read.
+    /// Whether a number is the printed one, to half a unit of its last digit or the grid on which it was
+    /// read.
     fn agrees(&self, number: f64) -> bool {
         let own = &self.own.inputs;
         if own.contains_key("low") {

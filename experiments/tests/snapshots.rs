@@ -109,8 +109,8 @@ fn check(id: &str) {
     settings.bind(|| insta::assert_snapshot!(id, text));
 }
 
-/// The 64-bit FNV-1a hash. Floats are written with the digits that give the same double back, so that the text has
-/// all their bits.
+/// The 64-bit FNV-1a hash. Floats are written with the digits that give the same double back, so that the
+/// text has all their bits.
 fn digest(text: &str) -> String {
     bouncing_disk::core::numerics::digest::Digest::of(text.as_bytes()).to_string()
 }
@@ -230,7 +230,8 @@ fn every_experiment_has_a_test_and_every_test_an_experiment() {
 fn results_do_not_depend_on_the_number_of_threads() {
     let entries = registry::all();
     let next = AtomicUsize::new(0);
-    // Each thread takes the next entry: one that computes with a single thread leaves the others of the machine free.
+    // Each thread takes the next entry: one that computes with a single thread leaves the others of the
+    // machine free.
     let compare = || {
         while let Some(entry) = entries.get(next.fetch_add(1, Ordering::Relaxed)) {
             let [alone, together] = [1, 7].map(|threads| {

@@ -1,4 +1,5 @@
-//! `cargo xtask dependencies`: what the libraries' dependencies bring, and whether their licences and sources are legal.
+//! `cargo xtask dependencies`: the crates behind the libraries' dependencies, and whether their licences and
+//! sources are legal.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -10,7 +11,7 @@ use serde::Deserialize;
 use crate::output::{complain, say};
 use crate::workspace::{cargo, in_workspace};
 
-/// What is counted and checked: the same whatever machine asks.
+/// The counted and checked dependencies, the same on every machine.
 const TARGET: &str = "x86_64-unknown-linux-gnu";
 const LIBRARIES: [&str; 3] = ["bouncing-disk-core", "bouncing-disk", "bouncing-disk-plot"];
 const CRATES_IO: &str = "registry+https://github.com/rust-lang/crates.io-index";
@@ -35,7 +36,7 @@ pub(crate) fn run() -> anyhow::Result<ExitCode> {
     Ok(ExitCode::FAILURE)
 }
 
-/// What a program prints.
+/// The output of a program.
 fn output(command: &mut Command) -> anyhow::Result<String> {
     let output = command.output().context("cannot start cargo")?;
     if !output.status.success() {
@@ -66,7 +67,8 @@ fn table() -> anyhow::Result<String> {
     Ok(text)
 }
 
-/// By the name of a direct dependency, all crates below it, itself included, from a tree with the depths as prefix.
+/// By the name of a direct dependency, all crates below it, itself included, from a tree with the depths as
+/// prefix.
 fn brought(tree: &str) -> BTreeMap<&str, BTreeSet<(&str, &str)>> {
     let mut brought: BTreeMap<_, BTreeSet<_>> = BTreeMap::new();
     let mut direct = "";

@@ -21,21 +21,22 @@ const TARGET: &str = "wasm32-unknown-unknown";
 
 #[derive(Args, Debug)]
 pub(crate) struct Options {
-    /// Write the page to this folder: explorer.html, which holds everything, and site/, the same in several files for a
-    /// web server.
+    /// Write the page to this folder: explorer.html, which holds everything, and site/, the same in several
+    /// files for a web server.
     #[arg(long, value_name = "DIR", default_value = "target/explorer")]
     out: PathBuf,
     /// Serve the page on this machine alone when it is built, by Python's web server, until interrupted.
     #[arg(long)]
     serve: bool,
-    /// Build no page, but its module with what computes the digests of results, and compare these in Node with those of
-    /// x86-64.
+    /// Build no page, but its module with what computes the digests of results, and compare these in Node
+    /// with those of x86-64.
     #[arg(long, conflicts_with = "serve")]
     digests: bool,
     /// The port of --serve; 0 takes any that is free.
     #[arg(long, value_name = "PORT", default_value_t = 8080, requires = "serve")]
     port: u16,
-    /// Another rustc, such as that of a distribution, which has or can build the standard library of WebAssembly.
+    /// Another rustc, such as that of a distribution, which has or can build the standard library of
+    /// WebAssembly.
     #[arg(long, value_name = "PATH")]
     rustc: Option<PathBuf>,
     /// Build the standard library of WebAssembly from the sources of that rustc, where it is not installed.
@@ -57,7 +58,8 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     let module = out.join("module");
     bound(&compiled(options, &[])?, &module)?;
     let page = in_workspace(PAGE);
-    // What is installed is what the lock file says, and nothing of it runs: packages bring their programs ready to use.
+    // Install exactly the packages of the lock file, without running their scripts: they bring their programs
+    // ready to use.
     succeed(tools::npm().current_dir(&page).args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]))?;
     succeed(
         Command::new("node")
@@ -118,7 +120,7 @@ fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
     Ok(folder.join(TARGET).join("web").join(format!("{LIBRARY}.wasm")))
 }
 
-/// Runs a program that tells its own errors.
+/// Runs a program that reports its own errors.
 fn succeed(command: &mut Command) -> Result<()> {
     let name = Path::new(command.get_program()).display().to_string();
     let status = command.status().with_context(|| format!("{name} cannot be run"))?;

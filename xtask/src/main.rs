@@ -1,6 +1,8 @@
 //! The chores of this repository.
 //!
-//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer` builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the licences.
+//! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer`
+//! builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the
+//! licences.
 
 mod dependencies;
 mod explorer;

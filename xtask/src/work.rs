@@ -13,7 +13,7 @@ use bouncing_disk_experiments::{Measurements, Quality};
 
 use crate::report::Report;
 
-/// What became of one figure.
+/// The outcome of one figure.
 #[derive(Debug)]
 pub(crate) struct Finished {
     pub(crate) id: &'static str,
@@ -24,8 +24,9 @@ pub(crate) struct Finished {
 /// Makes all entries, at most `threads` at a time. A figure that fails does not stop the others.
 ///
 /// The figures are taken by threads of their own and only their parallel parts run in the pool of computing
-/// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run time
-/// would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and 7 do.)
+/// threads. A pool thread that waits inside one figure would take up another figure meanwhile, and its run
+/// time would count for both. (It does where a figure runs searches side by side in the pool, as Figs. 6 and
+/// 7 do.)
 pub(crate) fn make_all(
     entries: &[&RegisteredExperiment],
     quality: Quality,

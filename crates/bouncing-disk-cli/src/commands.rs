@@ -89,7 +89,7 @@ mod tests {
         CommandLine::command().debug_assert();
     }
 
-    /// What begins with a minus is the value of an option that takes numbers, and no option.
+    /// A word that begins with a minus may be the value of an option that takes numbers, and no option.
     #[test]
     fn options_of_numbers_take_negative_ones() {
         fn check(command: &clap::Command) {

@@ -42,7 +42,7 @@ impl Context {
         Watcher { bar, last_line }
     }
 
-    /// Prints a note beside the result, unless that is unwanted.
+    /// Prints a note beside the result, unless notes are unwanted.
     pub(crate) fn note(self, text: &str) {
         if !self.quiet {
             complain(text);

@@ -1,4 +1,4 @@
-//! What ends a command before its result is there, and the exit status that it gives.
+//! The failures that end a command before its result is there, and their exit statuses.
 
 use std::io;
 use std::process::ExitCode;

@@ -1,8 +1,9 @@
-//! The program `bouncing-disk`: what the library `bouncing-disk` computes, on the command line.
+//! The program `bouncing-disk`: the computations of the library `bouncing-disk` on the command line.
 //!
 //! The program is thin. A command reads its parameters (`parameters`), calls the library, and delivers a
 //! report: a table on the terminal, or files (`output`). It has no physics and no numerics of its own. Grids
-//! go through `grid`, which divides them into chunks and keeps journals; `bouncing-disk-plot` draws the pictures.
+//! go through `grid`, which divides them into chunks and keeps journals; `bouncing-disk-plot` draws the
+//! pictures.
 //!
 //! The chapter on the command line in the book (`docs/command-line.md`) shows what it does.
 
@@ -27,7 +28,7 @@ use failure::{Failure, Result};
 fn main() -> ExitCode {
     let line = match CommandLine::try_parse() {
         Ok(line) => line,
-        // Help and version are no errors. A reader of the help that has gone is none either.
+        // Help and version are no errors. Neither is a reader of the help that has gone.
         Err(error) => {
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));

@@ -1,5 +1,5 @@
-//! W3: the basin at Gamma = 0.5, restitution 0.5, impact phase over the full cycle, normalised speed in [0, 2], each
-//! cell to rest, to the known period-2 orbit, or 500 impacts. The time is that of one cell.
+//! W3: the basin at Gamma = 0.5, restitution 0.5, impact phase over the full cycle, normalised speed in [0,
+//! 2], each cell to rest, to the known period-2 orbit, or 500 impacts. The time is that of one cell.
 
 use std::hint::black_box;
 

@@ -1,4 +1,5 @@
-//! How the time of one impact grows: with the length of an orbit, with the forcing, and with the length of a flight.
+//! How the time of one impact grows: with the length of an orbit, with the forcing, and with the length of a
+//! flight.
 
 use std::f64::consts::PI;
 use std::hint::black_box;
@@ -27,8 +28,9 @@ fn impacts(c: &mut Criterion) {
     group.finish();
 }
 
-/// Flights one after the other: each starts at the phase where the last one ended, at the next of the given speeds. The
-/// speeds are given, so that the mixture of flights is the same whatever the platform does to an orbit.
+/// Flights one after the other: each starts at the phase where the last one ended, at the next of the given
+/// speeds. The speeds are given, so that the mixture of flights is the same whatever the platform does to an
+/// orbit.
 fn chain(vibration: &Vibration, speeds: &[f64]) -> Phase {
     let mut phase = Phase::new(0.8).expect("finite");
     for &speed in black_box(speeds) {

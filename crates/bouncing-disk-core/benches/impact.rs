@@ -32,7 +32,8 @@ fn w1(c: &mut Criterion) {
             state
         });
     });
-    // Through memory from one step to the next, where the compiler does not make the steps a part of this loop.
+    // Through memory from one step to the next, where the compiler does not make the steps a part of this
+    // loop.
     group.bench_function("scalar_by_step", |bencher| {
         let mut state = start;
         bencher.iter(|| {
@@ -105,7 +106,8 @@ fn grazes() -> Vec<(Vibration, Launch)> {
         .collect()
 }
 
-/// A flight of each regime; independent launches, so that the processor may begin one before the last is done.
+/// A flight of each regime; independent launches, so that the processor may begin one before the last is
+/// done.
 fn regimes(c: &mut Criterion) {
     // P at Gamma = 0.55.
     let peak = 0.55 * TAU / 2.0;

@@ -1,4 +1,5 @@
-//! The limit: the sine-cosine pair alone. An impact returns the pair of its phase, so it cannot be had for less than one.
+//! The limit: the sine-cosine pair alone. An impact returns the pair of its phase, so it cannot be had for
+//! less than one.
 
 use std::f64::consts::FRAC_2_PI;
 use std::hint::black_box;

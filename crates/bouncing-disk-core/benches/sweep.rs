@@ -1,4 +1,5 @@
-//! Sweeps over many orbits against the same orbits one by one: columns of a bifurcation diagram, and lives near a crisis.
+//! Sweeps over many orbits against the same orbits one by one: columns of a bifurcation diagram, and lives
+//! near a crisis.
 
 use std::hint::black_box;
 

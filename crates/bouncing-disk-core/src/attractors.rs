@@ -1,8 +1,9 @@
 //! Attractors: the motions on which the disk ends, from which starts, and how certain that is.
 //!
-//! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so that starts in
-//! that region find every attractor that is not too small. A start counts as caught by a periodic orbit within its
-//! [trapping radius](crate::orbits::PeriodicOrbit::trapping_radius), the one definition of "near enough" here.
+//! Every impact is slower than [`ImpactMap::impact_speed_bound`](crate::ImpactMap::impact_speed_bound), so
+//! that starts in that region find every attractor that is not too small. A start counts as caught by a
+//! periodic orbit within its [trapping radius](crate::orbits::PeriodicOrbit::trapping_radius), the one
+//! definition of "near enough" here.
 //!
 //! ```
 //! use bouncing_disk_core::attractors::{AttractorSearch, Axis, BasinSettings, Grid};

@@ -1,7 +1,7 @@
 //! The vertical motion of a disk that bounces on a sinusoidally vibrating platform, without units.
 //!
-//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of the
-//! platform is its peak acceleration P = pi Gamma in units of g.
+//! Time is counted in radians of the platform's phase (1/omega), length in g/omega^2; the one parameter of
+//! the platform is its peak acceleration P = pi Gamma in units of g.
 //!
 //! ```
 //! use std::f64::consts::TAU;
@@ -13,7 +13,7 @@
 //! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
 //! let state = map.period_one(1).expect("it exists from Gamma = 1/3 on");
 //! assert!((map.step(state)?.duration() - TAU).abs() < 1e-12);
-//! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
+//! // One column of the orbit diagram: 50 impacts, after 200 that are discarded.
 //! let column = orbit_diagram(&[map.orbit(state, ChatterPolicy::Complete)], 200, 50, &Unobserved)?;
 //! assert_eq!(column[0].len(), 50);
 //! # Ok(())

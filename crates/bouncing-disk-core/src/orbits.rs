@@ -1,9 +1,9 @@
 //! Periodic orbits: how to find them, how stable they are, and where they begin, double and end.
 //!
-//! An orbit of n impacts in k periods of the platform is a fixed point of the n-th iterate of the impact map. It
-//! attracts where both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle; a fold
-//! has one at 1, a period doubling one at -1. The orbit with one impact in each period has a closed form:
-//! cos tau = (1 - r) / ((1 + r) Gamma).
+//! An orbit of n impacts in k periods of the platform is a fixed point of the n-th iterate of the impact map.
+//! It attracts where both eigenvalues of the derivative, its Floquet multipliers, lie inside the unit circle;
+//! a fold has one at 1, a period doubling one at -1. The orbit with one impact in each period has a closed
+//! form: cos tau = (1 - r) / ((1 + r) Gamma).
 //!
 //! ```
 //! use bouncing_disk_core::orbits::{OrbitSearch, doubling_cascade};

@@ -187,7 +187,7 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// Tells the observer that all is done; its answer no longer matters.
+    /// Reports to the observer that all is done; its answer no longer matters.
     pub fn end(&self) {
         let Progress { total, .. } = self.progress();
         // Whatever it says, there is nothing left to stop.
@@ -242,7 +242,7 @@ impl<'w> WorkCount<'w> {
     }
 }
 
-/// What the parts of a long call are given to count their flights with, each as they like; an error ends the
+/// A function with which each part of a long call counts its flights, in steps of its own; an error ends the
 /// call.
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
 

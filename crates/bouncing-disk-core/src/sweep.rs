@@ -1,14 +1,14 @@
 //! Many orbits at once: orbit diagrams, survival times, or anything that a visitor collects from their
 //! events.
 //!
-//! The events are those of each orbit by itself, to the bit, for any number of threads; the flights are computed some
-//! at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
+//! The events are those of each orbit by itself, to the bit, for any number of threads. The flights are
+//! computed several at a time in lockstep, in the lanes of vector instructions (docs/numerics/lockstep.md).
 //!
 //! ```
 //! use bouncing_disk_core::sweep::orbit_diagram;
 //! use bouncing_disk_core::{ChatterPolicy, ImpactMap, Unobserved, Vibration};
 //!
-//! // One column of the orbit diagram: 50 impacts after 200 that are not looked at.
+//! // One column of the orbit diagram: 50 impacts, after 200 that are discarded.
 //! let map = ImpactMap::new(Vibration::from_axial_forcing(0.45)?, 0.5)?;
 //! let start = map.period_one(1).expect("it exists from Gamma = 1/3 on");
 //! let column = orbit_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 200, 50, &Unobserved)?;
@@ -31,7 +31,7 @@ mod settling;
 mod tests;
 
 pub use events::{SweepEvent, SweepImpact};
-// How many flights are computed at once is no promise: the model, benches and tests use these.
+// The number of flights computed at once may change: only the model, benches and tests use these.
 #[doc(hidden)]
 pub use lockstep::flights::{Flights, LaneImpacts, LaneLoop, LaneRunner};
 #[doc(hidden)]

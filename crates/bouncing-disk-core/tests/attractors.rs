@@ -133,8 +133,8 @@ fn random_start(map: &ImpactMap, random: &mut SplitMix64) -> ImpactState {
     }
 }
 
-/// Whether a start, followed by single steps, ends on one of the attractors: it rests, comes to within 1e-4 rad of a
-/// periodic one, or is in the cells of another for most of the last 200 impacts.
+/// Whether a start, followed by single steps, ends on one of the attractors: it rests, comes to within 1e-4
+/// rad of a periodic one, or is in the cells of another for most of the last 200 impacts.
 fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool {
     let map = found.map();
     let peak = map.vibration().peak_acceleration();
@@ -159,8 +159,8 @@ fn ends_on_one(found: &Attractors, start: ImpactState, transient: usize) -> bool
     hits.into_iter().any(|hits| hits > 100)
 }
 
-/// What is found for random maps: attractors that last, maps with several of them, starts of the searches that
-/// are undecided, and the most random starts of one map that end on none.
+/// What is found for random maps: attractors that last, maps with several of them, starts of the searches
+/// that are undecided, and the most random starts of one map that end on none.
 ///
 /// A start that is on none of them after `transient` impacts is followed for a hundred times as many: a long
 /// transient is no attractor.
@@ -207,8 +207,8 @@ fn branch_of(impacts: usize, axial_forcing: f64, rising: bool) -> Branch {
     map.continued(known.orbit(), &settings, &Unobserved).expect("continued")
 }
 
-/// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and there the
-/// next one loses an impact that vanishes (docs/numerics/dynamics.md).
+/// Beyond the crisis orbits of 11, 12, 13 impacts in five periods are born in folds; a graze ends each, and
+/// there the next one loses an impact that vanishes (docs/numerics/dynamics.md).
 #[test]
 fn orbits_beyond_the_crisis_are_born_in_folds_and_handed_on_in_grazes() {
     let first = |branch: &Branch, is_one: fn(&BifurcationKind) -> bool| {

@@ -71,7 +71,8 @@ proptest! {
         prop_assert!((own - other).y_axis.abs().max_element() <= 1e-9 * scale, "{own} {other}");
     }
 
-    /// The map contracts areas by restitution^2 times the ratio of the impact speeds, whatever the platform does.
+    /// The map contracts areas by restitution^2 times the ratio of the impact speeds, whatever the platform
+    /// does.
     #[test]
     fn determinant_is_restitution_squared_times_the_speed_ratio(
         forcing in 0.05_f64..20.0, restitution in 0.05_f64..0.95, angle in 0.0..TAU, speed in 0.05_f64..4.0,
@@ -102,7 +103,8 @@ proptest! {
             total += impact.remainder;
             (at, launch) = (impact.phase, -restitution * impact.velocity);
         }
-        // Phases next to P sin tau = 1 round by 2e-16, which the pull 1 - P sin tau carries into every flight.
+        // Phases next to P sin tau = 1 round by 2e-16, which the pull 1 - P sin tau carries into every
+        // flight.
         let pull = map.vibration().contact_force(phase);
         let rounding = 4e-15 * (1.0 + forcing / pull) * total / (1.0 - restitution);
         prop_assert!(
@@ -294,8 +296,8 @@ fn basins_are_the_same_for_any_number_of_threads() {
 
 #[test]
 fn policies_agree_where_the_cut_does_not_matter() {
-    // Below the first doubling the chattering orbit settles on one toss a cycle: the impacts before the cut agree
-    // to what the cut throws away.
+    // Below the first doubling the chattering orbit settles on one toss a cycle: the impacts before the cut
+    // agree to what the cut throws away.
     let map = map(0.4, 0.5);
     let separation = map.vibration().separation_phase().expect("lifts off");
     let impacts = |policy| -> Vec<f64> {
@@ -361,8 +363,8 @@ fn illegal_arguments_are_named() {
     assert!(map(0.5, 0.5).refine(&[]).is_err());
 }
 
-/// At Gamma = k (1 - r)/(1 + r) an orbit with one impact every k periods is born at phase 0, where the angle wraps: each of its
-/// flights lasts k whole periods, wherever the rounding puts the impact.
+/// At Gamma = k (1 - r)/(1 + r) an orbit with one impact every k periods is born at phase 0, where the angle
+/// wraps: each of its flights lasts k whole periods, wherever the rounding puts the impact.
 #[test]
 fn orbits_at_their_birth_take_whole_periods() {
     let (mut flights, mut refined) = (0, 0);
@@ -417,8 +419,8 @@ fn a_chattering_disk_has_no_period() {
     }
 }
 
-/// Late in a chatter one impact is like the next one to any tolerance, in phase and in what is left of the speed. That is
-/// the disk's way to rest and no period, however late one looks.
+/// Late in a chatter one impact is like the next one to any tolerance, in phase and in what is left of the
+/// speed. That is the disk's way to rest and no period, however late one looks.
 #[test]
 fn impacts_late_in_a_chatter_are_no_period() {
     let map = map(0.2, 0.5);
@@ -428,7 +430,8 @@ fn impacts_late_in_a_chatter_are_no_period() {
     }
 }
 
-/// A solution of the shooting equations without speed, or one that takes no time, is a disk at rest and refused by name.
+/// A solution of the shooting equations without speed, or one that takes no time, is a disk at rest and
+/// refused by name.
 #[test]
 fn a_disk_at_rest_is_no_periodic_orbit() {
     let map = ImpactMap::new(Vibration::from_axial_forcing(0.2).unwrap(), 0.5).unwrap();
@@ -450,8 +453,9 @@ fn a_disk_at_rest_is_no_periodic_orbit() {
     assert!(refused.is_err(), "{refused:?}");
 }
 
-/// Just before the platform stops to fall away a disk at rest leaves it and is back within a rounding of the phase, without
-/// speed: that solves the shooting equations, and is refused for its speed and not only for the time that it takes.
+/// Just before the platform stops to fall away a disk at rest leaves it and is back within a rounding of the
+/// phase, without speed: that solves the shooting equations, and is refused for its speed and not only for
+/// the time that it takes.
 #[test]
 fn a_solution_without_speed_is_refused_by_name() {
     for peak in [1.1, 1.25, 1.5, 1.75] {
@@ -475,8 +479,9 @@ fn illegal_searches_of_a_period_are_named() {
     }
 }
 
-/// Where the pull is a rounding and a flight too short to change the phase, a disk hopped for ever with a speed of 1e-39: at the
-/// end of the fall of a platform with P next to 1, at the crest of P = 1, and at the very end of the fall of any.
+/// Where the pull is a rounding and a flight too short to change the phase, a disk hopped for ever with a
+/// speed of 1e-39: at the end of the fall of a platform with P next to 1, at the crest of P = 1, and at the
+/// very end of the fall of any.
 #[test]
 fn a_disk_next_to_weightlessness_comes_to_rest() {
     for (peak, restitution, angle, speed) in [
@@ -506,7 +511,8 @@ fn a_disk_next_to_weightlessness_comes_to_rest() {
     }
 }
 
-/// The cut of the paper drops impacts without a bound on what they would have done; a disk without rebound drops none.
+/// The cut of the paper drops impacts without a bound on what they would have done; a disk without rebound
+/// drops none.
 #[test]
 fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
     for (restitution, bound) in [(0.5, f64::INFINITY), (0.0, 0.0)] {
@@ -520,7 +526,8 @@ fn the_cut_of_the_paper_has_no_error_bound_unless_it_cuts_nothing() {
     }
 }
 
-/// A grid of whole periods away has the labels of the period from 0 to 1; its phases were rounded in periods times 2 pi.
+/// A grid of whole periods away has the labels of the period from 0 to 1; its phases were rounded in periods
+/// times 2 pi.
 #[test]
 fn grids_a_trillion_periods_away_have_the_same_phases() {
     let speed = Axis::new(0.0, 2.0, 2).unwrap();
@@ -554,8 +561,8 @@ fn what_is_printed_has_its_units() {
     assert_eq!(format!("{:.1}", Multipliers::Complex { real: 0.0, imaginary: 1.0 }), "0.0 +- 1.0 i");
 }
 
-/// Refined at the thresholds of existence and stability and next to them, and next to restitution 0 and 1, an orbit is one
-/// by the map itself and by its clock, or there is an error with a name.
+/// Refined at the thresholds of existence and stability and next to them, and next to restitution 0 and 1, an
+/// orbit is one by the map itself and by its clock, or there is an error with a name.
 #[test]
 fn orbits_refined_on_seams_are_orbits() {
     let (mut found, mut refused) = (0, 0);

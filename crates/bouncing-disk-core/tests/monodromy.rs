@@ -1,5 +1,5 @@
-//! The derivative around periodic orbits against differences in high precision, which know the gap and nothing of the
-//! library's derivative.
+//! The derivative around periodic orbits against differences in high precision, which know the gap and
+//! nothing of the library's derivative.
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::orbits::{OrbitSearch, PeriodicOrbit};
@@ -23,7 +23,8 @@ fn low(x: &High) -> f64 {
     x.to_f64().value()
 }
 
-/// Duration and velocity of the impact that ends about `duration` after an impact at `tau` with the velocity `v`.
+/// Duration and velocity of the impact that ends about `duration` after an impact at `tau` with the velocity
+/// `v`.
 fn flight((p, r): (&High, &High), (tau, v): (&High, &High), duration: f64) -> (High, High) {
     let (sin, cos) = tau.sin_cos();
     let launch = p * cos - r * v;

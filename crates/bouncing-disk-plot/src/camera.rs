@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 
 /// A pinhole camera whose upright direction is z.
 ///
-/// Lengths at the distance of the target keep their size; what is nearer appears larger.
+/// Lengths at the distance of the target keep their size; nearer ones appear larger.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: DVec3,

@@ -12,7 +12,7 @@ use crate::path::Path;
 use crate::style::{Anchor, Fill, Stroke, Style, TextStyle};
 use crate::svg::{Svg, TEXT_SIZE, TOLERANCE};
 
-/// What is drawn, in points of the page.
+/// The shapes, in points of the page.
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
     Shape(BezPath, Style),

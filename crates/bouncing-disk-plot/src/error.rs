@@ -15,7 +15,7 @@ pub enum DrawError {
     /// Braces or dollar signs of a label do not pair up, or a script or accent lacks its argument.
     #[error("label \"{label}\": {what}")]
     MalformedLabel {
-        /// What is wrong.
+        /// The fault.
         what: &'static str,
         /// The source of the label.
         label: String,
@@ -66,7 +66,7 @@ pub enum DrawError {
         /// The size of the palette.
         colours: usize,
     },
-    /// A list does not have a value for each point or cell, or there is none.
+    /// A list does not have a value for each point or cell, or it is empty.
     #[error("{what}: {given} values for {needed}")]
     Length {
         /// Which list.
@@ -89,7 +89,7 @@ pub enum DrawError {
     /// The renderer could not read the vector picture, or the PNG encoder failed.
     #[error("rendering failed: {message}")]
     Render {
-        /// What it reported.
+        /// Its report.
         message: String,
     },
 }

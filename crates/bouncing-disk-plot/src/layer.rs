@@ -1,4 +1,4 @@
-//! What a panel can hold.
+//! The layers that a panel can hold.
 
 use crate::annotation::{Arrow, Text};
 use crate::dense::DensePoints;
@@ -30,7 +30,7 @@ pub enum Layer {
 }
 
 impl Layer {
-    /// What the legend says, for the kinds of layers that it lists.
+    /// The name in the legend, for the kinds of layers that it lists.
     pub(crate) fn legend_name(&self) -> Option<&Label> {
         match self {
             Self::Line(Line { name, .. })

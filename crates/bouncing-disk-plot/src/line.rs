@@ -49,7 +49,7 @@ fn curve(frame: Rect, points: impl Iterator<Item = Point>) -> BezPath {
         end.is_some_and(|end| (end.x - point.x).abs() < RESOLUTION && (end.y - point.y).abs() < RESOLUTION)
     };
     let mut path = BezPath::new();
-    // The end of a piece that was left out because it nearly coincides with what is drawn.
+    // The end of a piece that was omitted because it nearly coincides with the point before.
     let mut skipped: Option<Point> = None;
     let mut previous = Point::new(f64::NAN, f64::NAN);
     for point in points {

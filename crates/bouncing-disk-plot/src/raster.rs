@@ -19,8 +19,8 @@ pub struct Raster {
 impl Raster {
     /// `width` times `height` cells over the data rectangle `x` by `y` (outer edges of the outermost cells).
     ///
-    /// `cells` are indices into `palette`, row by row; the first row lies at `y.0`, the first cell of a row at
-    /// `x.0`.
+    /// `cells` are indices into `palette`, row by row; the first row lies at `y.0`, the first cell of a row
+    /// at `x.0`.
     pub fn new(
         width: usize,
         height: usize,

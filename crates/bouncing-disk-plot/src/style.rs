@@ -87,7 +87,7 @@ impl From<Colour> for Fill {
     }
 }
 
-/// How a shape is drawn: its outline and its area, each of which may be left out.
+/// How a shape is drawn: its outline and its area, either of which may be missing.
 ///
 /// ```
 /// use bouncing_disk_plot::{Colour, Dash, Style};

@@ -69,7 +69,7 @@ impl Svg {
         self.text.push_str("</g>\n");
     }
 
-    /// A path with a stroke, a fill, or both; one with a point that is not finite is left out.
+    /// A path with a stroke, a fill, or both; a path with a point that is not finite is omitted.
     pub(crate) fn path(&mut self, path: &BezPath, style: &Style) {
         self.path_with("", path, style);
     }
@@ -132,7 +132,7 @@ impl Svg {
         Ok(())
     }
 
-    /// A label whose baseline (or middle) is at a point; left out where the point is not finite.
+    /// A label whose baseline (or middle) is at a point; omitted if the point is not finite.
     pub(crate) fn label(&mut self, label: &Label, at: Point, style: TextStyle) -> Result<(), DrawError> {
         let spans = label.spans()?;
         if label.is_empty() || !at.is_finite() {

@@ -1,4 +1,4 @@
-//! Where an axis has ticks and what they say.
+//! The ticks of an axis, and their labels.
 
 use std::f64::consts::PI;
 

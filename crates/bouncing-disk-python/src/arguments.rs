@@ -16,7 +16,7 @@ use pyo3::types::{PyBool, PyDict, PyFloat};
 
 use crate::errors;
 
-/// What a call returns.
+/// The result of a call.
 pub(crate) type Made<'py> = PyResult<Bound<'py, PyAny>>;
 
 /// The arguments of a call.
@@ -54,7 +54,7 @@ impl<'py> Arguments<'py> {
         self.0.get_item(name)?.ok_or_else(|| PyKeyError::new_err(name.to_owned()))
     }
 
-    /// An argument that may be left out.
+    /// An optional argument.
     pub(crate) fn given(&self, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         Ok(Some(self.get(name)?).filter(|value| !value.is_none()))
     }
@@ -110,7 +110,7 @@ impl<'py> Arguments<'py> {
         row(&self.get(name)?, name)
     }
 
-    /// What an object of the package holds.
+    /// The contents of an object of the package.
     pub(crate) fn held<T: PyClass<Frozen = True>>(&self, name: &str) -> PyResult<Bound<'py, T>> {
         held(&self.get(name)?, name)
     }
@@ -121,7 +121,7 @@ impl<'py> Arguments<'py> {
     }
 }
 
-/// What an object of the package holds.
+/// The contents of an object of the package.
 pub(crate) fn held<'py, T: PyClass<Frozen = True>>(
     object: &Bound<'py, PyAny>,
     name: &str,
@@ -251,7 +251,8 @@ impl Numbers {
     }
 }
 
-/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would count.
+/// Refuses masked values: NumPy takes what is below a mask for values, so that gaps of measurements would
+/// count.
 fn refuse_masked(object: &Bound<'_, PyAny>) -> PyResult<()> {
     let py = object.py();
     static IS_MASKED: PyOnceLock<Py<PyAny>> = PyOnceLock::new();

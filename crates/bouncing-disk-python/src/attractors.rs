@@ -22,7 +22,7 @@ use crate::parameters::python_map;
 use crate::results::{array, column, holders, holding, make, matrix, room_for};
 
 holders! {
-    /// What an `Attractors` holds.
+    /// The contents of an `Attractors`.
     Attractors(AttractorsModel) = shown_attractors;
 }
 
@@ -171,7 +171,7 @@ fn known_orbits(known: &Bound<'_, PyAny>) -> PyResult<Vec<(OrbitModel, Option<f6
     Ok(orbits)
 }
 
-/// An orbit with its radius, which is sought where it is not given.
+/// An orbit with its radius, which is computed if it is not given.
 fn known(
     map: &ImpactMap,
     (orbit, radius): (OrbitModel, Option<f64>),

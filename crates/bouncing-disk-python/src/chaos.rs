@@ -1,4 +1,4 @@
-//! What orbits do in the long run: diagrams, lives, exponents, verdicts, manifolds and crises.
+//! The long-term behaviour of orbits: diagrams, lives, exponents, verdicts, manifolds and crises.
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
@@ -17,7 +17,7 @@ use crate::orbits::{PeriodicOrbit, shown_orbit};
 use crate::results::{array, column, complex, holders, holding, make, matrix, room_for, signed};
 
 holders! {
-    /// What a `Crisis` holds.
+    /// The contents of a `Crisis`.
     Crisis(CrisisModel) = shown_crisis;
 }
 
@@ -219,7 +219,7 @@ fn evidence(verdict: &Verdict) -> Evidence {
     }
 }
 
-/// What the orbit of each start does for good.
+/// The long-term motion of the orbit of each start.
 #[pyfunction]
 pub(crate) fn verdicts(a: Arguments<'_>) -> Made<'_> {
     let (starts, py) = (Starts::of(&a)?, a.py());

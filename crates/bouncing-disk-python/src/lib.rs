@@ -20,7 +20,7 @@ mod toss;
 
 use pyo3::prelude::*;
 
-/// What the Python package calls.
+/// The functions that the Python package calls.
 #[pymodule]
 mod _native {
     #[pymodule_export]

@@ -1,4 +1,5 @@
-//! Long calls: the interpreter's lock is released, Ctrl-C stops them, a callable is told how far they are.
+//! Long calls: they release the interpreter's lock, Ctrl-C stops them, and they report progress to a
+//! callable.
 //!
 //! The work is done by a pool of threads; the calling thread waits, wakes up a few times in every 0.2 s, lets
 //! Python look at its signals, and calls the callable. So the callable is only ever called by the thread that
@@ -23,7 +24,7 @@ use crate::{errors, threads};
 /// How often signals are looked at, and the callable is called.
 const INTERVAL: Duration = Duration::from_millis(40);
 
-/// What the threads that compute and the one that waits share.
+/// The state that the computing threads share with the waiting one.
 #[derive(Default)]
 struct Watched {
     done: AtomicU64,
@@ -41,7 +42,7 @@ impl Observer for Watched {
 }
 
 impl Watched {
-    /// Lets Python handle its signals, and tells the callable how far the call is.
+    /// Lets Python handle its signals, and reports the progress of the call to the callable.
     fn look(&self, progress: Option<&Py<PyAny>>) -> PyResult<()> {
         Python::attach(|py| {
             py.check_signals()?;

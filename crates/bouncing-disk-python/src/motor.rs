@@ -14,7 +14,7 @@ use crate::arguments::{Arguments, Made, Real, row};
 use crate::parameters::Motor;
 use crate::results::{column, made, make, signed};
 
-/// What a data sheet says before anything turns.
+/// The report of a data sheet before anything turns.
 #[pyfunction]
 pub(crate) fn report(a: Arguments<'_>) -> Made<'_> {
     let (motor, none) = (a.held::<Motor>("self")?.get().0, f64::NAN);
@@ -221,7 +221,7 @@ pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
     made(py, "MotorMap", fields)
 }
 
-/// The numbers of the round without perturbation: impacts, periods of the stator, long flights; 0 where there
+/// The numbers of the cycle without perturbation: impacts, periods of the stator, long flights; 0 where there
 /// is none.
 fn round(verdict: &TrapVerdict) -> [i64; 3] {
     verdict.cycle.map_or([0; 3], |cycle| {
@@ -338,7 +338,7 @@ pub(crate) fn local_sensitivities(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
-/// What the two calls over ranges share.
+/// The arguments that the two calls over ranges share.
 struct Sample<'py> {
     ranges: Vec<ParameterRange>,
     quantity: SensitivityQuantity,

@@ -17,9 +17,9 @@ use crate::parameters::{pair, state};
 use crate::results::{array, column, complex, holders, holding, make, matrix};
 
 holders! {
-    /// What a `PeriodicOrbit` holds.
+    /// The contents of a `PeriodicOrbit`.
     PeriodicOrbit(OrbitModel) = shown_orbit;
-    /// What a `Branch` holds.
+    /// The contents of a `Branch`.
     Branch(BranchModel) = shown_branch;
 }
 

@@ -1,4 +1,4 @@
-//! What the classes of parameters hold, and the numbers that follow from them: systems, motors, maps, cuts.
+//! The contents of the classes of parameters, and their derived numbers: systems, motors, maps, cuts.
 
 use std::f64::consts::TAU;
 
@@ -15,7 +15,7 @@ use crate::arguments::{Arguments, Count, Made, Real, extracted, held};
 use crate::results::matrix;
 use crate::{errors, long_call};
 
-/// What a `System` holds. Its numbers are made when Python asks for the first one.
+/// The contents of a `System`. Its numbers are made when Python asks for the first one.
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct System(pub(crate) SystemModel);
 
@@ -55,7 +55,7 @@ impl System {
     }
 }
 
-/// What a `Motor` holds.
+/// The contents of a `Motor`.
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct Motor(pub(crate) MotorModel);
 
@@ -92,7 +92,7 @@ impl Motor {
     }
 }
 
-/// What a `ChatterCut` holds.
+/// The contents of a `ChatterCut`.
 #[pyclass(frozen, module = "bouncing_disk._native")]
 pub(crate) struct ChatterCut(pub(crate) Cut);
 
@@ -108,7 +108,7 @@ impl ChatterCut {
     }
 }
 
-/// What an `ImpactMap` holds, and the axial forcing if that was given: what is computed from the peak
+/// The contents of an `ImpactMap`, and the axial forcing if it was given: one computed from the peak
 /// acceleration may differ in the last place. Its steps are what loops in Python call themselves.
 #[pyclass(frozen, name = "ImpactMap", module = "bouncing_disk._native")]
 pub(crate) struct Map(pub(crate) ImpactMap, Option<f64>);
@@ -312,8 +312,8 @@ pub(crate) fn excluded_by(name: &str) -> Vec<&'static str> {
     field.map_or_else(Vec::new, |field| field.excluded().iter().map(|other| other.name()).collect())
 }
 
-/// A map by its arguments, of which one forcing is left out. They come one by one, which takes half the time of a
-/// dictionary.
+/// A map by its arguments, one of the two forcings missing. They come one by one, which takes half the time
+/// of a dictionary.
 #[pyfunction]
 #[pyo3(signature = (axial_forcing, peak_acceleration, restitution))]
 pub(crate) fn impact_map(

@@ -94,12 +94,12 @@ pub(crate) fn room_for<T>(count: usize) -> Result<Vec<T>, Error> {
     Ok(room)
 }
 
-/// What the library stores, as JSON.
+/// An object that the library stores, as JSON.
 pub(crate) fn stored<T: serde::Serialize>(value: &T) -> PyResult<String> {
     serde_json::to_string(value).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// What the library has stored; its checks are those of a value that is made.
+/// An object that the library has stored; reading runs the checks of its constructor.
 pub(crate) fn read<T: serde::de::DeserializeOwned>(py: Python<'_>, json: &str) -> PyResult<T> {
     serde_json::from_str(json).map_err(|error| {
         let place = Some((error.line(), error.column()));

@@ -21,7 +21,7 @@ use crate::results::{array, column, holders, holding, make, room_for};
 use crate::{errors, long_call};
 
 holders! {
-    /// What a `Trajectory` holds: the system, and the motion.
+    /// The contents of a `Trajectory`: the system, and the motion.
     Trajectory((SystemModel, Motion)) = shown_trajectory;
 }
 
@@ -31,7 +31,7 @@ const MOST_EVENTS: u64 = 1_000_000;
 /// The most samples.
 const MOST_SAMPLES: u64 = 1 << 24;
 
-/// What an event counts as for an observer, in flights.
+/// The work of an event, in flights.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 const SPINS: [(&str, InitialSpin); 2] =
@@ -69,7 +69,7 @@ fn shown_toss<'py>(py: Python<'py>, toss: &TossPerformance) -> Made<'py> {
 
 /// The toss of a disk from its platform.
 ///
-/// Thousands a second are asked for, so that it takes no dictionary.
+/// Callers request thousands a second, so it takes no dictionary.
 #[pyfunction]
 pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<'py, PyAny>) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);

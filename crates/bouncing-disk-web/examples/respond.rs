@@ -1,6 +1,6 @@
-//! Answers the requests of the page natively: a request on each line of the standard input, and on each line of the
-//! standard output whether it was refused, the digest of the answer and its JSON. The tests of the page compare the
-//! digests with those of WebAssembly.
+//! Answers the requests of the page natively: a request on each line of the standard input, and on each line
+//! of the standard output whether it was refused, the digest of the answer and its JSON. The tests of the
+//! page compare the digests with those of WebAssembly.
 //!
 //!     echo '{"call": "orbit", "axial_forcing": 0.45, "restitution": 0.5,
 //!            "start": {"impact_phase": 1.2, "normalised_speed": 1.3}}' | tr -d '\n' |

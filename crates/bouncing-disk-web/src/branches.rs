@@ -1,6 +1,6 @@
 //! Branches of periodic orbits over the forcing, stable and unstable.
 //!
-//! Which branches there are, and where their bifurcations lie, does not depend on the window that is looked at: each is
+//! The branches and their bifurcations do not depend on the visible window: each is
 //! followed from its birth on, and the window gets its own points of it.
 
 use bouncing_disk::core::orbits::{
@@ -24,14 +24,16 @@ const MOST_POINTS: usize = 2_000;
 /// Points of a branch in the window: enough for a curve on a screen.
 const POINTS: usize = 100;
 
-/// How far above its birth a pair is picked up, relative: nearer first, but for those that an earlier impact forestalls there.
+/// How far above its birth a pair is picked up, relative: nearer first, but for those that an earlier impact
+/// forestalls there.
 const ABOVE_BIRTH: [f64; 4] = [1e-3, 0.1, 0.5, 2.0];
 
-/// A branch is followed to a multiple of its forcing, then its lengths are counted in the forcing that it has there: those of
-/// a nearly elastic disk go over many decades.
+/// A branch is followed to a multiple of its forcing, then its lengths are counted in the forcing that it has
+/// there: those of a nearly elastic disk go over many decades.
 const STRIDE: f64 = 2.0;
 
-/// Branches are followed so far beyond the first doubling of the pair that they come from: all doublings lie there.
+/// Branches are followed so far beyond the first doubling of the pair that they come from: all doublings lie
+/// there.
 const BEYOND_DOUBLING: f64 = 2.0;
 
 /// How many branches there are in a window, and their bifurcations with the first impact of the orbit there. Numbers: rows
@@ -72,7 +74,7 @@ fn settings(range: (f64, f64), rising: bool) -> Result<Continuation, CoreError> 
     )
 }
 
-/// A branch that the equations do not give is none; all other errors are some.
+/// A branch that the equations do not give is `None`; any other error is passed on.
 fn if_any<T>(found: Result<T, CoreError>) -> Result<Option<T>, CoreError> {
     match found {
         Err(CoreError::NoBranch { .. }) => Ok(None),
@@ -89,7 +91,8 @@ struct Found {
 }
 
 impl Found {
-    /// The branches through one that has just been born, both ways, and those that double from it one after the other.
+    /// The branches through one that has just been born, both ways, and those that double from it one after
+    /// the other.
     fn family(&mut self, map: &ImpactMap, orbit: &PeriodicOrbit, birth: f64) -> Result<(), Refusal> {
         let forcing = map.vibration().axial_forcing();
         let (low, doubling) = (0.5 * birth, ImpactMap::first_doubling_forcing(map.restitution()));
@@ -163,7 +166,7 @@ impl Found {
         let impacts = first.orbit.period();
         let here = branch.bifurcations.iter().filter(|one| (low..=high).contains(&one.point.parameter));
         let parts = branch.within(self.window, POINTS)?;
-        // That it is born where another one doubles has been told with that one.
+        // The branch that doubles there has already reported this birth.
         let here: Vec<_> = here.filter(|one| one.kind != BifurcationKind::Birth).collect();
         if parts.is_empty() && here.is_empty() {
             return Ok(());

@@ -17,16 +17,17 @@ const MOST_IMPACTS: usize = 1 << 22;
 /// Most impacts of an orbit before those that are recorded.
 const MOST_LEFT_OUT: usize = 1_000_000;
 
-/// Longest period (impacts) of an orbit that is seen to be on its way to it, and how far it may still move on while it is
-/// recorded: in units of the normalised speed, and of the platform's largest angular speed.
+/// Longest period (impacts) of an orbit that is seen to be on its way to it, and how far it may still move on
+/// while it is recorded: in units of the normalised speed, and of the platform's largest angular speed.
 const LONGEST_PERIOD: usize = 32;
 const SETTLED: f64 = 1e-6;
 
 /// Normalised speeds that differ by less are those of one impact that repeats itself, or will.
 const NEARLY: f64 = 1e-3;
 
-/// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it hits as fast as in
-/// the motion of one impact a period. So many times that share of an impact are left out before its spin is recorded.
+/// In one impact a disk takes up the share 2/Gamma_T of the platform's largest angular speed at most, if it
+/// hits as fast as in the motion of one impact a period. This many times Gamma_T/2 impacts are discarded
+/// before its spin is recorded.
 const SPIN_UPS: f64 = 10.0;
 
 struct Column {
@@ -35,10 +36,10 @@ struct Column {
     settled: bool,
 }
 
-/// Orbits that came to rest for ever and have no impacts left, those that are still on their way to what they repeat, and
-/// the most impacts that were left out of one. Numbers: rows of the forcing, the phase of impact (rad), the normalised
-/// speed, and the angular speed after the impact in units of omega Phi (NaN where the platform does not twist or there is
-/// no friction).
+/// Orbits that came to rest for ever and have no impacts left, those that have not yet settled on their final
+/// motion, and the most impacts that were discarded from one. Numbers: rows of the forcing, the phase of
+/// impact (rad), the normalised speed, and the angular speed after the impact in units of omega Phi (NaN
+/// where the platform does not twist or there is no friction).
 pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     let system = request.system.build()?;
     let forcings = forcings(request)?;
@@ -113,8 +114,8 @@ fn forcings(request: &DiagramRequest) -> Result<Vec<f64>, Refusal> {
     Ok((from..to).map(|column| low + (high - low) * (column as f64 / (count - 1) as f64)).collect())
 }
 
-/// Impacts with the angular speed after each, in units of the platform's largest one (NaN where it has none, and where no
-/// friction hands it on).
+/// Impacts with the angular speed after each, in units of the platform's largest one (NaN where it has none,
+/// and where no friction hands it on).
 fn rotating(
     system: &System,
     axial_forcing: f64,

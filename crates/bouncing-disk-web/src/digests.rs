@@ -1,8 +1,8 @@
 //! Digests that name the bits of results: the same on every machine.
 //!
-//! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is compiled for
-//! (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core. `tests/test_same_bits.py`
-//! of the Python package makes the same calls.
+//! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is
+//! compiled for (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core.
+//! `tests/test_same_bits.py` of the Python package makes the same calls.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;
@@ -37,7 +37,7 @@ pub fn digests() -> Result<String, String> {
     Ok(format!("{{\n{}\n}}\n", lines.join(",\n")))
 }
 
-/// What differs from the golden digests of the core, a line each: nothing, wherever IEEE 754 is kept.
+/// The differences from the golden digests of the core, a line each: none, wherever IEEE 754 is kept.
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 #[must_use]
 pub fn golden_differences() -> Vec<String> {

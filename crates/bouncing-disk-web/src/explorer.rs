@@ -1,4 +1,4 @@
-//! What answers the requests of the page.
+//! The answers to the requests of the page.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -8,7 +8,7 @@ use crate::request::Request;
 use crate::shared_basins::SharedAttractors;
 use crate::{branches, diagram, motion, motor, orbit};
 
-/// Answers requests. It keeps the attractors of the last map, whose basins are asked for row by row.
+/// Answers requests. It keeps the attractors of the last map, because the page requests basins row by row.
 #[cfg_attr(target_arch = "wasm32", wasm_bindgen)]
 #[derive(Debug, Default)]
 pub struct Explorer {

@@ -19,12 +19,12 @@ const MOST_EVENTS: usize = 500_000;
 /// Most periods of an answer.
 const MOST_PERIODS: u64 = 100_000;
 
-/// Energy is per mass from the start to the end (J/kg): what came in by the platform, what impacts, friction and the load
-/// took, and what the disk has more than at the start. Numbers: a row for each sample with the time, height, angle,
-/// velocity and angular speed of the disk, and height, angle, velocity and angular speed of the platform; then a row for
-/// each event with its time, phase, normalised speed and tangential velocity of an impact (an angular speed relative to
-/// the platform; both else NaN), the angular speed after it and the height. Bytes: modes of the samples, kinds of the
-/// events by their place in `event_kinds`.
+/// Energy is per mass from the start to the end (J/kg): what came in by the platform, what impacts, friction
+/// and the load took, and what the disk has more than at the start. Numbers: a row for each sample with the
+/// time, height, angle, velocity and angular speed of the disk, and height, angle, velocity and angular speed
+/// of the platform; then a row for each event with its time, phase, normalised speed and tangential velocity
+/// of an impact (an angular speed relative to the platform; both else NaN), the angular speed after it and
+/// the height. Bytes: modes of the samples, kinds of the events by their place in `event_kinds`.
 pub(crate) fn answer(
     system: &System,
     start: MotionStart,
@@ -45,7 +45,8 @@ pub(crate) fn answer(
     let snapshots = engine.clone().sample(span, samples as usize, &Unobserved)?;
     let mut records = Vec::new();
     let mut ledger = EnergyLedger::default();
-    // The event after the end, and what follows the last one where nothing more happens, are not finished then.
+    // The event after the end, and what follows the last one where nothing more happens, are not finished
+    // then.
     let unfinished = loop {
         match engine.advance()? {
             Some(record) if record.time.order(&end).is_gt() => {

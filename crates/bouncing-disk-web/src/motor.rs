@@ -20,12 +20,13 @@ const FEW_IMPACTS: u64 = 5_000_000;
 /// Most impacts that a request may allow: those of the library's default.
 const MOST_IMPACTS: u64 = 20_000_000;
 
-/// How far away a trap is told, as a relative change of the preload or the amplitude.
+/// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
-/// What a data sheet says before anything turns, with its system and the mass of its rotor (kg). The trap is the nearest
-/// preload at which the motor may be caught in a motion of few impacts: whether it is, the relative change of the preload
-/// or the amplitude that reaches it, and from where to where in the forcing it reaches.
+/// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
+/// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
+/// relative change of the preload or the amplitude that reaches it, and from where to where in the forcing it
+/// reaches.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report(&Unobserved)?;
@@ -98,9 +99,9 @@ const fn refused_since(reason: &FitRefusal) -> &'static str {
     }
 }
 
-/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and input power
-/// (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the numbers are the best so
-/// far), 2 runaway (the load drives the rotor; the numbers are NaN).
+/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and
+/// input power (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the
+/// numbers are the best so far), 2 runaway (the load drives the rotor; the numbers are NaN).
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
     let settings = settings(*relative_error, *most_impacts, *seed)?;

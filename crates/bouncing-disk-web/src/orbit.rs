@@ -1,4 +1,4 @@
-//! What follows from the parameters of a system, and what one orbit does for good.
+//! Derived quantities of a system, and the long-term motion of one orbit.
 
 use std::f64::consts::TAU;
 
@@ -12,8 +12,9 @@ use serde_json::json;
 use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, map};
 
-/// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing turns; the
-/// peak acceleration is in units of the preload. A platform that `bounces` falls away from a disk at rest on it.
+/// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing
+/// turns; the peak acceleration is in units of the preload. A platform that `bounces` falls away from a disk
+/// at rest on it.
 pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
     Reply::short(&json!({
         "axial_forcing": system.axial_forcing(),
@@ -26,9 +27,10 @@ pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
     }))
 }
 
-/// Impacts and platform periods of a round are null where nothing repeats; the two Floquet multipliers are pairs of real
-/// and imaginary parts. The exponent is the growth per impact with its standard error; that of a periodic orbit follows
-/// from its multipliers and has none. `rounding_dependent`: the cycle after a rest was chosen by rounding.
+/// Impacts and platform periods of a round are null where nothing repeats; the two Floquet multipliers are
+/// pairs of real and imaginary parts. The exponent is the growth per impact with its standard error; that of
+/// a periodic orbit follows from its multipliers and has none. `rounding_dependent`: the cycle after a rest
+/// was chosen by rounding.
 pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) -> Result<Reply, Refusal> {
     let map = map(axial_forcing, restitution)?;
     let verdict = map.verdict(start.state()?, VerdictSettings::default())?;
@@ -38,7 +40,7 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
         Verdict::Periodic { impacts, platform_periods, multipliers: found, .. } => {
             round = Some((*impacts, *platform_periods));
             multipliers = Some(pairs(*found));
-            // JSON has no infinity: that of a superstable orbit is left out.
+            // JSON has no infinity, so the exponent of a superstable orbit is omitted.
             exponent = Some(found.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite());
             "periodic"
         }

@@ -1,6 +1,6 @@
-//! Requests. Numbers are SI and angles are radians, unless a name says otherwise: phases of pictures are in periods of the
-//! platform, and the speeds of impacts are normalised by the amplitude of the platform's velocity, |w_A| Gamma/(A omega),
-//! as in Fig. 7 of the paper. A range goes from a low to a high number.
+//! Requests. Numbers are SI and angles are radians, unless a name says otherwise: phases of pictures are in
+//! periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
+//! velocity, |w_A| Gamma/(A omega), as in Fig. 7 of the paper. A range goes from a low to a high number.
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::motor::MotorParameters;
@@ -75,13 +75,14 @@ pub(crate) enum Request {
         samples_per_period: u64,
     },
     Diagram(DiagramRequest),
-    /// What the orbit from a start does for good.
+    /// The long-term motion of the orbit from a start.
     Orbit {
         axial_forcing: f64,
         restitution: f64,
         start: ImpactStart,
     },
-    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they lie in a range.
+    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they
+    /// lie in a range.
     Branches {
         restitution: f64,
         axial_forcing: [f64; 2],
@@ -92,7 +93,7 @@ pub(crate) enum Request {
         restitution: f64,
     },
     Basins(BasinsRequest),
-    /// What a data sheet says before anything turns.
+    /// The report of a data sheet before anything turns.
     MotorReport {
         sheet: MotorParameters,
     },
@@ -115,8 +116,8 @@ pub(crate) enum Request {
     },
 }
 
-/// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular forcing, the
-/// phase lag and the load of the system, of which the amplitude alone is that of the column.
+/// The columns `[from, to)` of an orbit diagram of `count` forcings. Angular speeds follow from the angular
+/// forcing, the phase lag and the load of the system, of which the amplitude alone is that of the column.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct DiagramRequest {
@@ -127,7 +128,7 @@ pub(crate) struct DiagramRequest {
     pub(crate) start: ImpactStart,
     pub(crate) transient: usize,
     pub(crate) recorded: usize,
-    /// Most impacts that are left out of an orbit that has not settled after `transient` ones.
+    /// Most impacts that are discarded from an orbit that has not settled after `transient` ones.
     #[serde(default)]
     pub(crate) patience: usize,
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
@@ -166,7 +167,7 @@ pub(crate) struct LoadsRequest {
     pub(crate) sheet: MotorParameters,
     pub(crate) load_torques: Vec<f64>,
     pub(crate) relative_error: f64,
-    /// Most impacts that the answer may take, up to 20 million; 5 million where nothing is said.
+    /// Most impacts that the answer may take, up to 20 million; 5 million by default.
     #[serde(default)]
     pub(crate) most_impacts: Option<u64>,
     pub(crate) seed: u64,

@@ -23,10 +23,11 @@ impl SharedAttractors {
         Ok(self.0.insert(found))
     }
 
-    /// All attractors of a map with the shares of a sample of starts that end on them, and their 95 % intervals. A label
-    /// is what `rows` has in its cells, null beyond the 251 that a byte holds; an attractor that does not last may lead to
-    /// another one; a periodic one has one of its impacts. The sample has so many starts, evenly over all phases and the
-    /// speeds up to the bound that no attractor exceeds at that phase; `fastest_start` is the largest of that bound.
+    /// All attractors of a map with the shares of a sample of starts that end on them, and their 95 %
+    /// intervals. A label is what `rows` has in its cells, null beyond the 251 that a byte holds; an
+    /// attractor that does not last may lead to another one; a periodic one has one of its impacts. The
+    /// sample has so many starts, evenly over all phases and the speeds up to the bound that no attractor
+    /// exceeds at that phase; `fastest_start` is the largest of that bound.
     pub(crate) fn list(&mut self, axial_forcing: f64, restitution: f64) -> Result<Reply, Refusal> {
         let found = self.of(axial_forcing, restitution)?;
         let attractors = found.all().iter().enumerate();

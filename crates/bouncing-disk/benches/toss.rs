@@ -1,5 +1,5 @@
-//! A single toss of the paper's Table I: its performance up to the separation, and the whole trajectory until the dough
-//! lands.
+//! A single toss of the paper's Table I: its performance up to the separation, and the whole trajectory until
+//! the dough lands.
 
 use std::hint::black_box;
 

@@ -1,4 +1,5 @@
-//! A branch of periodic orbits: from its birth in a fold through its period doubling, and the branch that begins there.
+//! A branch of periodic orbits: from its birth in a fold through its period doubling, and the branch that
+//! begins there.
 //!
 //!     cargo run --release -p bouncing-disk --example branches
 #![allow(clippy::print_stdout, reason = "an example shows its result")]

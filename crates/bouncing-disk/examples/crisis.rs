@@ -9,7 +9,7 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::chaos::CrisisSearch;
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Where do orbits on the attractor that the period-1 orbit leads to begin to come to rest?
+    // At which forcing do orbits on the attractor of the period-1 orbit begin to come to rest?
     match CrisisSearch::new(0.5, (0.559, 0.562))?.crisis(None, &Unobserved)? {
         Ok(crisis) => {
             println!("crisis at Gamma = {:.7} +- {:.0e}", crisis.forcing, crisis.forcing_error);

@@ -1,4 +1,5 @@
-//! The best toss of a dough on hands whose flour makes the friction uncertain, and the trap that is nearest to a motor.
+//! The best toss of a dough on hands whose flour makes the friction uncertain, and the trap nearest to a
+//! motor.
 //!
 //!     cargo run --release -p bouncing-disk --example design_toss
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
@@ -10,7 +11,7 @@ use bouncing_disk::toss::{TossConstraints, TossHalfUnits, TossObjective, best_to
 use bouncing_disk::{Error, Motor};
 
 fn main() -> Result<(), Error> {
-    // The dough and the stroke of Table I; the friction may be anything from 0.5 to 0.7, and the ceiling is low.
+    // The dough and the stroke of Table I; a friction anywhere from 0.5 to 0.7, and a low ceiling.
     let constraints = TossConstraints {
         friction: [0.5, 0.7],
         angular_frequency: [10.0, 18.0],

@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             doubling.forcing_error
         );
     }
-    // From seven doublings on there are estimates; ten are best in doubles.
+    // Estimates need seven doublings; in doubles, ten give the best ones.
     if let Some(estimate) = feigenbaum_estimates(&cascade).last() {
         println!("delta = {:.6} +- {:.0e}", estimate.delta, estimate.delta_error);
         println!("alpha = {:.6} +- {:.0e}", estimate.alpha, estimate.alpha_error);

@@ -1,4 +1,5 @@
-//! Where the energy goes: the hand's work during a toss, entry by entry, and a balance that closes to rounding.
+//! Where the energy goes: the hand's work during a toss, entry by entry, and a balance that closes to
+//! rounding.
 //!
 //!     cargo run --release -p bouncing-disk --example energy
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
@@ -11,7 +12,7 @@ fn main() -> Result<(), Error> {
     let floured = System::pizza_toss().with_disk(|dough| dough.friction = 0.2)?;
     let toss = single_toss(&floured, InitialSpin::AbsoluteRest)?;
 
-    // Joules per kilogram of dough; every entry is computed for itself, none as what the others leave.
+    // Joules per kilogram of dough; every entry is computed on its own, none as the remainder of the others.
     let energy = toss.energy;
     println!("work by the normal force {:7.4} J/kg", energy.normal_work);
     println!("work by friction         {:7.4} J/kg", energy.friction_work);

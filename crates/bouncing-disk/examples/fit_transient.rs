@@ -1,4 +1,4 @@
-//! Steady speed and time constant of a motor from curves that scatter, with what they are uncertain by.
+//! Steady speed and time constant of a motor from curves that scatter, with their uncertainties.
 //!
 //!     cargo run --release -p bouncing-disk --example fit_transient
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
@@ -9,8 +9,8 @@ use bouncing_disk::estimate::{FitError, FitSettings, MeasuredRun, MeasuredSpeeds
 use bouncing_disk::motor::TransientSettings;
 
 fn main() -> Result<(), FitError> {
-    // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones. With the
-    // feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
+    // Synthetic measurements: ten simulated runs of the motor of Table III take the place of recorded ones.
+    // With the feature `csv`, `MeasuredSpeeds::from_csv` reads recorded ones from a file.
     let settings = TransientSettings { duration: 6.0, intervals: 120, ..TransientSettings::default() };
     let synthetic = TransientEnsemble::new(&System::motor(), &settings, 10, &Unobserved)?.curves;
     let runs: Vec<MeasuredRun> = synthetic
@@ -19,7 +19,7 @@ fn main() -> Result<(), FitError> {
         .map(|(curve, member)| MeasuredRun { member, times: curve.times, speeds: curve.speeds })
         .collect();
 
-    // What is fitted is the mean over the runs; their scatter gives the 95 % intervals.
+    // The fit is to the mean over the runs; their scatter gives the 95 % intervals.
     let fit = MeasuredSpeeds::new(runs.clone())?.fit(&FitSettings::default(), &Unobserved)?;
     println!("steady speed {:.3} rad/s", fit.steady_speed());
     println!("time constant {:.3} s", fit.time_constant());

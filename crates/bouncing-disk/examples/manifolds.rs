@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
 
-    // Does the basin change there? A little slower and a little faster than every fourth impact on it.
+    // Does the basin change across it? Compare starts slightly slower and faster than every fourth impact.
     let found = map.attractors(&AttractorSearch::default(), &Unobserved)?;
     let label = |state: &ImpactState, factor: f64| {
         found.basin_label(

@@ -25,11 +25,11 @@ fn main() -> Result<(), Error> {
         );
     }
 
-    // One run is one throw of the dice. What a motor does is the mean over many, with its error.
+    // One run is one throw of the dice. The behaviour of a motor is the mean over many, with its error.
     let motors = TransientEnsemble::new(&motor, &settings, 32, &Unobserved)?;
     let (speed, stall) = (motors.steady_speed, motors.stall_acceleration);
     println!("steady speed {:.2} +- {:.2} rad/s", speed.mean, speed.standard_error);
-    // After this time all but 1/e of the steady speed is there.
+    // After this time the motor has reached its steady speed but for a share of 1/e.
     let constant = motors.time_constant;
     println!("time constant {:.3} +- {:.3} s", constant.mean, constant.standard_error);
     println!("stall acceleration {:.1} +- {:.1} rad/s^2", stall.mean, stall.standard_error);

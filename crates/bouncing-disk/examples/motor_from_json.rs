@@ -8,7 +8,7 @@ use std::error::Error;
 
 use bouncing_disk::Motor;
 
-/// SI units throughout; what else there is, and what may be left out, is in `MotorParameters`.
+/// SI units throughout; `MotorParameters` describes all fields, and says which of them may be missing.
 const DATA_SHEET: &str = r#"{
     "drive_frequency": 40e3,
     "amplitude": 0.5e-6,
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let motor = Motor::from_json(DATA_SHEET)?;
     println!("{}\n", motor.report(&Unobserved)?);
 
-    // A preload in N that was given as an acceleration: legal, and told.
+    // A preload in N that was given as an acceleration: legal, but with a warning.
     let mistaken = Motor::from_json(&DATA_SHEET.replace("preload_force", "preload_acceleration"))?;
     for warning in mistaken.warnings() {
         println!("warning: {warning}");

@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
     for field in sweep.replaced() {
         println!("(the {field} of the data sheet is left out)");
     }
-    // One vertical motion for each preload carries all loads.
+    // All loads at one preload share one vertical motion.
     println!("{} cells in {} groups", sweep.cells(), sweep.groups().len());
 
     let result = sweep.run(&Unobserved)?;

@@ -19,15 +19,15 @@ fn main() -> Result<(), Error> {
     for forcing in forcings {
         let map = ImpactMap::new(Vibration::from_axial_forcing(forcing)?, restitution)?;
         let orbit = map.period_one(1).expect("it exists for Gamma >= (1 - r)/(1 + r)");
-        // A little off it: where it is unstable, this start leaves it at once.
+        // Start a little off the orbit: where it is unstable, the motion leaves it at once.
         let start = ImpactState::new(orbit.phase(), 1.01 * orbit.velocity())?;
         orbits.push(map.orbit(start, ChatterPolicy::Complete));
     }
 
-    // All of them at once: 512 impacts of each after 20,000 that are not looked at.
+    // Follow all of them at once: 512 impacts of each, after 20,000 that are discarded.
     let columns = orbit_diagram(&orbits, 20_000, 512, &Unobserved)?;
     for (forcing, column) in forcings.iter().zip(&columns) {
-        // Which millionths of a period the phases lie in: the floor keeps the last one below the whole.
+        // The phases in whole millionths of a period; `floor` keeps the last one below a whole period.
         let phases: BTreeSet<i64> =
             column.iter().map(|impact| (impact.phase().cycles() * 1e6).floor() as i64).collect();
         let shown: Vec<String> =

@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = BasinSettings::default();
     let whole = found.basins(grid, settings, &Unobserved)?;
 
-    // The periodic attractors are what a run of basins needs to know. This observer stops it at its fourth call.
+    // A run of basins needs the periodic attractors. This observer stops it at its fourth call.
     let known: Vec<_> = found.known().cloned().collect();
     let calls = AtomicU32::new(0);
     let stop = |_: Progress| {
@@ -31,13 +31,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut run = BasinRun::new(map, grid, &known, settings)?;
     let stopped = run.advance(&stop);
     println!("stopped before the end: {}", matches!(stopped, Err(CoreError::Stopped { .. })));
-    // Needs the feature `float_roundtrip` of serde_json: without it a third of all numbers change in the last bit.
+    // Needs the feature `float_roundtrip` of serde_json: without it a third of all numbers change a last bit.
     let stored = serde_json::to_string(&run)?;
     let mut run: BasinRun = serde_json::from_str(&stored)?;
     run.advance(&bouncing_disk::Unobserved)?;
     println!("the same basins after it was stored: {}", run.into_basins()? == whole);
 
-    // Rows may be made anywhere, in any order; attractors without a period are recognised, too.
+    // Rows may be computed anywhere, in any order; attractors without a period are recognised, too.
     let upper = found.basins_of_rows(grid, 60..120, settings, &Unobserved)?;
     let lower = found.basins_of_rows(grid, 0..60, settings, &Unobserved)?;
     println!("the same basins from two halves: {}", Basins::stacked([lower, upper])? == whole);

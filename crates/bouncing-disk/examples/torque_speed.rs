@@ -1,4 +1,5 @@
-//! A motor under loads: its torque-speed curve with power and efficiency, its stall load, and its best phase lag.
+//! A motor under loads: its torque-speed curve with power and efficiency, its stall load, and its best phase
+//! lag.
 //!
 //!     cargo run --release -p bouncing-disk --example torque_speed
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
@@ -23,7 +24,7 @@ fn main() -> Result<(), Error> {
     })?;
     let settings = OperatingSettings::default();
 
-    // All loads ride on one vertical motion. Each number comes with its standard error.
+    // All loads share one vertical motion. Each number comes with its standard error.
     let loads = [0.0, 0.2, 0.4, 0.6, 0.8, 1.2].map(|share| share * motor.largest_torque());
     for operation in motor.torque_speed_curve(&loads, &settings, &Unobserved)? {
         let load = 1e3 * operation.load_torque();

@@ -23,7 +23,7 @@ fn main() -> Result<(), Error> {
         );
     }
 
-    // Every event until the dough is back: `Scales` carries times and states to seconds, metres and radians.
+    // Every event until the dough is back: `Scales` converts times and states to seconds, metres and radians.
     let floured = pizza.with_disk(|dough| dough.friction = 0.2)?;
     let (flight, units) = (toss_trajectory(&floured, InitialSpin::AbsoluteRest)?, floured.scales());
     for record in flight.records() {

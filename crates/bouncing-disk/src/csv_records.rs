@@ -49,7 +49,8 @@ pub fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
     (1..).zip(text.lines()).filter(move |(_, line)| !is_blank(line) && !is_remark(line))
 }
 
-/// The [`plain`] fields of a line; a quotation mark at the beginning of a field protects separators up to the next one.
+/// The [`plain`] fields of a line; a quotation mark at the beginning of a field protects separators up to the
+/// next one.
 ///
 /// # Errors
 ///

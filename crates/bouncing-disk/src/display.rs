@@ -3,7 +3,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-/// Significant digits where no precision is asked for.
+/// Significant digits if no precision is requested.
 const DIGITS: usize = 6;
 
 /// A number as a person writes it.

@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-/// What can go wrong in the model. Every variant carries the numbers needed to see why.
+/// An error of the model. Every variant carries the numbers needed to see why it occurred.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
 /// ones of a range, such as counts, without a fraction.
@@ -167,8 +167,8 @@ pub(crate) fn moderate(field: &'static str, value: f64) -> Result<f64, Error> {
     check(value.abs() <= LARGEST, field, value, "[-1e100, 1e100] (dimensionless)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
-/// there because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory
+/// is an error. The limit is needed because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: usize, limit: usize) -> Result<Vec<T>, Error> {
     within_limit(what, count, limit)?;
     let mut room = Vec::new();
@@ -196,7 +196,7 @@ pub(crate) fn check(legal: bool, field: &'static str, value: f64, range: &'stati
 mod tests {
     use super::*;
 
-    /// As those of the core: a number of any size is told in few digits, not in hundreds of zeros.
+    /// As in the core, an error states a number of any size in few digits, not with hundreds of zeros.
     #[test]
     fn texts_tell_numbers_of_any_size_in_few_digits() {
         for number in [1.25e-300, 1.25e-121, 1.25e300] {

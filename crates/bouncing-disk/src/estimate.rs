@@ -1,8 +1,8 @@
 //! Estimates from computed or measured speeds of a rotor, with intervals, or the reason why a fit is refused.
 //!
 //! A run-up gives the steady speed and the time constant of alpha_ss (1 - exp(-t/t_c)), by least squares over
-//! its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha gives
-//! the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
+//! its mean curve, with 95 % intervals by resampling. A braking curve with the angular acceleration alpha
+//! gives the friction mu = -m a_g^2 alpha/(a_e N) (Eq. 17 of Liu, Friend and Yeo).
 //!
 //! ```
 //! use bouncing_disk::estimate::{BrakingFit, BrakingRotor};

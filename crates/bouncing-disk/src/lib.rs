@@ -1,4 +1,4 @@
-//! A disk that bounces on a platform which vibrates and twists: pizza dough on a hand, the rotor of an
+//! A disk bouncing on a platform that vibrates and twists: pizza dough on a hand, the rotor of an
 //! ultrasonic motor on its stator (Liu, Friend and Yeo, Phys. Rev. E 80, 046201 (2009)).
 //!
 //! A [`System`] is a [`Disk`] on a [`Platform`], in SI units. [`Engine`] computes its motion event by event.
@@ -47,7 +47,8 @@
 //! Everything is deterministic to the last bit: the same parameters and start give the same events on every
 //! machine.
 
-// The workspace's experiments read such files, too. No part of the documented surface, and no promise.
+// The experiments of the workspace read such files, too. It is no part of the documented interface, and may
+// change.
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod csv_records;
@@ -57,7 +58,7 @@ pub mod estimate;
 pub mod motion;
 pub mod motor;
 pub mod parameters;
-// As `csv_records`: for the experiments as well, and no promise.
+// Like `csv_records`, it also serves the experiments, and may change.
 #[cfg(feature = "csv")]
 #[doc(hidden)]
 pub mod regular_file;

@@ -1,9 +1,9 @@
 //! Ultrasonic motors: data sheet, run-up, speed under a load, sweeps and sensitivities.
 //!
 //! The stator throws the rotor and turns it by friction at each impact. Because the mean normal force is the
-//! preload, no motor gives more torque than mu m g a_e. From rest the mean speed rises about as
-//! alpha_ss (1 - exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means
-//! over ensembles, with standard errors.
+//! preload, no motor gives more torque than mu m g a_e. From rest the mean speed rises about as alpha_ss (1 -
+//! exp(-t/t_c)) (Sec. V of Liu, Friend and Yeo). Single run-ups are chaotic, so speeds are means over
+//! ensembles, with standard errors.
 //!
 //! ```
 //! use bouncing_disk::core::Unobserved;

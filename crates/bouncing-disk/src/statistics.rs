@@ -20,12 +20,14 @@ const STUDENT_QUANTILES: [f64; 10] = [
 /// The window of the autocorrelation ends after so many correlation times (Sokal).
 const WINDOW: f64 = 5.0;
 
-/// The integrated correlation time of residuals, 1 + 2 (rho_1 + rho_2 + ...), in points: at least 1, and 1 for independent ones.
+/// The integrated correlation time of residuals, 1 + 2 (rho_1 + rho_2 + ...), in points: at least 1, and 1
+/// for independent ones.
 ///
-/// `parameters` have been fitted. It is the larger one of two estimates: the sum of the autocorrelations up to
-/// five times their sum so far, which knows no model, and (1 + rho_1)/(1 - rho_1) of residuals of which each remembers
-/// only the one before, which has the smaller error (docs/numerics/motors.md, "Fits with intervals").
-/// `None` where the window has not ended before a fourth of the residuals: they remember each other for too long.
+/// `parameters` have been fitted. It is the larger one of two estimates: the sum of the autocorrelations up
+/// to five times their sum so far, which knows no model, and (1 + rho_1)/(1 - rho_1) of residuals of which
+/// each remembers only the one before, which has the smaller error (docs/numerics/motors.md, "Fits with
+/// intervals"). `None` where the window has not ended before a fourth of the residuals: they remember each
+/// other for too long.
 pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f64> {
     let n = residuals.len();
     let variance: f64 = residuals.iter().map(|value| value * value).sum();
@@ -62,8 +64,9 @@ pub(crate) fn correlation_time(residuals: &[f64], parameters: usize) -> Option<f
 
 /// The 97.5 % quantile of Student's distribution, for the whole part of the degrees of freedom, at least 1.
 ///
-/// Fewer degrees of freedom have the larger quantile, so that cutting off their fraction makes an interval wider. Beyond
-/// ten it is the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5), off by less than 1e-6.
+/// Fewer degrees of freedom have the larger quantile, so that cutting off their fraction makes an interval
+/// wider. Beyond ten it is the expansion in the inverse degrees of freedom (Abramowitz and Stegun 26.7.5),
+/// off by less than 1e-6.
 pub(crate) fn student_quantile(degrees: f64) -> f64 {
     let whole = (degrees as u64).max(1);
     if let Some(quantile) = usize::try_from(whole - 1).ok().and_then(|index| STUDENT_QUANTILES.get(index)) {
@@ -81,9 +84,9 @@ pub(crate) fn student_quantile(degrees: f64) -> f64 {
     terms.iter().rev().fold(0.0, |sum, term| sum * inverse + term)
 }
 
-/// How much wider than the bootstrap's an interval must be so that it holds for a sample of `size` independent values: the
-/// resampled variance lacks the factor size/(size - 1), and what is left has Student's distribution
-/// (docs/numerics/motors.md, "Fits with intervals").
+/// How much wider than the bootstrap's an interval must be so that it holds for a sample of `size`
+/// independent values: the resampled variance lacks the factor size/(size - 1), and what is left has
+/// Student's distribution (docs/numerics/motors.md, "Fits with intervals").
 pub(crate) fn small_sample_widening(size: usize) -> f64 {
     let size = size as f64;
     (size / (size - 1.0)).sqrt() * student_quantile(size - 1.0) / NORMAL_975
@@ -123,8 +126,8 @@ mod tests {
     use super::*;
     use crate::testing::Noise;
 
-    /// The share of Student's distribution between -t and t, by Simpson's rule over the angle atan(x/sqrt(degrees)), in which
-    /// its density is a power of the cosine.
+    /// The share of Student's distribution between -t and t, by Simpson's rule over the angle
+    /// atan(x/sqrt(degrees)), in which its density is a power of the cosine.
     fn share_within(t: f64, degrees: f64) -> f64 {
         let end = bouncing_disk_core::numerics::elementary::atan(t / degrees.sqrt());
         let density = |angle: f64| pow(bouncing_disk_core::numerics::elementary::cos(angle), degrees - 1.0);

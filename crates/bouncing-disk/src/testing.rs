@@ -118,7 +118,8 @@ pub(crate) fn start(system: DimensionlessSystem) -> impl Strategy<Value = Initia
 /// A system, a start and a policy.
 pub(crate) fn motion() -> impl Strategy<Value = (DimensionlessSystem, InitialCondition, ChatterPolicy)> {
     (system(), policy()).prop_flat_map(|(system, policy)| {
-        // The paper's cut has no rule for a disk that hits hard and does not rebound: the core reports NoLiftOff.
+        // The paper's cut has no rule for a disk that hits hard and does not rebound: the core reports
+        // NoLiftOff.
         (Just(system), start(system), Just(policy))
     })
 }

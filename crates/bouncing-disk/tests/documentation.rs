@@ -1,5 +1,5 @@
-//! What the pages written by hand say of the code is so: the tutorial's programs are the examples and print what it
-//! says, every file, item, link and section that is named exists, and the contents list every page.
+//! What the pages written by hand say of the code is so: the tutorial's programs are the examples and print
+//! what it says, every file, item, link and section that is named exists, and the contents list every page.
 
 use std::collections::BTreeSet;
 use std::ffi::OsStr;
@@ -209,8 +209,8 @@ fn the_examples_print_what_the_tutorial_says() {
     assert_eq!(blocks("rust").len(), blocks("text").len());
 }
 
-/// The crises and the coexisting attractors that the tutorial warns of: each is looked for a hundredth of a forcing to
-/// either side.
+/// The crises and the coexisting attractors that the tutorial warns of: each is looked for a hundredth of a
+/// forcing to either side.
 #[test]
 fn what_the_tutorial_says_of_crises_and_attractors_is_so() {
     let map = |forcing: f64, restitution: f64| {
@@ -310,7 +310,7 @@ fn definitions(text: &str) -> impl Iterator<Item = &str> {
 fn the_map_of_the_paper_is_right() {
     let mut faults = Faults::default();
     let text = read("docs/architecture.md");
-    let (_, table) = text.split_once("## Where the paper is").expect("a section");
+    let (_, table) = text.split_once("## Where to find the paper's equations").expect("a section");
     let (table, _) = table.split_once("\n## ").expect("another one");
     let mut libraries = files();
     libraries.retain(|path| {

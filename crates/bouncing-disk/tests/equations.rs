@@ -1,4 +1,5 @@
-//! One test per equation of the paper, on an SI system of no special values, through the public interface only.
+//! One test per equation of the paper, on an SI system of no special values, through the public interface
+//! only.
 //!
 //! Eqs. (14) and (17) have theirs beside the items that implement them.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -261,7 +262,8 @@ fn equation_15_the_platform_falls_away_at_the_arc_sine() {
     assert_eq!(system(0.31, 0.0, 0.0).dimensionless().vibration().separation_phase(), None);
 }
 
-/// A disk on the period-1 orbit ends at the platform's speed at impact, largest for a phase lag of minus its phase.
+/// A disk on the period-1 orbit ends at the platform's speed at impact, largest for a phase lag of minus its
+/// phase.
 #[test]
 fn equation_16_period_one_turns_with_the_platform_at_impact() {
     let at = |lag: f64| {

@@ -1,7 +1,9 @@
-//! Motions of disk and platform from starts and parameters that land on seams: time, speeds and energy must tell the same story.
+//! Motions of disk and platform from starts and parameters that land on seams: time, speeds and energy must
+//! tell the same story.
 //!
-//! The energy balance alone does not see a clock that is wrong, so the duration of every flight is taken from the velocities at
-//! its ends: a disk in free flight loses one unit of axial speed a radian. The load's work must be that of this time.
+//! The energy balance alone does not see a clock that is wrong, so the duration of every flight is taken from
+//! the velocities at its ends: a disk in free flight loses one unit of axial speed a radian. The load's work
+//! must be that of this time.
 #![allow(unreachable_pub, reason = "the modules of a test have no public interface")]
 #![allow(dead_code, reason = "the generators are shared with the tests of the math core")]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -27,10 +29,12 @@ use launches::SplitMix;
 use seams::{angle, nearby, one_of, peak};
 use shards::Kind;
 
-/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics/solver.md, "Energy").
+/// Bound on the closure of the energy balance, relative to what was added up (docs/numerics/solver.md,
+/// "Energy").
 const CLOSURE: f64 = 1.0e-13;
 
-/// Bound on how far two carried pairs are off their angles: 8e-13 rad are measured after 1e7 short flights (see `Phase`).
+/// Bound on how far two carried pairs are off their angles: 8e-13 rad are measured after 1e7 short flights
+/// (see `Phase`).
 const LARGEST_PARTING: f64 = 2.0e-12;
 
 /// Bound on what the rounding of two phases and four speeds leaves between two durations, relative to those.
@@ -122,7 +126,8 @@ fn contradiction(system: &DimensionlessSystem, record: &EventRecord) -> Option<S
     }
     let fastest = record.segment.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
     let carried = parted * peak * (1.0 + fastest);
-    // A speed is what friction and load leave of each other, known to the rounding of what each of them could do.
+    // A speed is what friction and load leave of each other, known to the rounding of what each of them could
+    // do.
     let pulls = system.friction() * (1.0 + system.peak_acceleration()) + system.load().abs();
     let speeds = pulls * record.span.radians()
         + record.segment.state.angular_speed.abs()

@@ -14,9 +14,10 @@ pub fn not_computable(figure: &str) -> Vec<Claim> {
         .collect()
 }
 
-/// What is wrong with the claims of a figure or table: entries that are not answered by exactly one claim (an identity by one at most), claims that
-/// answer what is not theirs, numbers that come from no entry, claims without data or not judged as their kind has to be, differences
-/// without a cause, and claims that count for the paper though they do not answer an entry of its own.
+/// The faults of the claims of a figure or table: entries that are not answered by exactly one claim (an
+/// identity by one at most), claims that answer an entry of another figure, numbers that come from no entry,
+/// claims without data or not judged by the rule of their kind, differences without a cause, and claims that
+/// count for the paper though they do not answer an entry of its own.
 pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let entries = match entries() {
         Ok(entries) => entries,
@@ -27,7 +28,7 @@ pub fn faults(figure: &str, claims: &[Claim]) -> Vec<String> {
     let unanswered = own.iter().filter_map(|key| {
         let answers = claims.iter().filter(|claim| matches!(&claim.source, Source::Entry(of) if of == key));
         let count = answers.count();
-        // What is true by construction needs no answer.
+        // A statement that is true by construction needs no answer.
         let optional = count == 0 && find(key).is_ok_and(|entry| entry.class == Class::Identity);
         (count != 1 && !optional).then(|| format!("{key} is answered by {count} claims"))
     });

@@ -16,7 +16,7 @@ use super::judging::Kind;
 use super::printed::PrintedNumber;
 use crate::json;
 
-/// What a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
+/// The kind of thing that a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Class {
@@ -60,7 +60,7 @@ pub struct PrintedEntry {
     pub figure: String,
     /// Where it is printed: "Fig. 6 caption", "Sec. IV B".
     pub place: String,
-    /// What the number is; the statement itself where there is no number.
+    /// The meaning of the number, or the statement itself if there is no number.
     pub quantity: String,
     /// The unit of the number; empty for a pure number.
     pub unit: String,
@@ -68,7 +68,7 @@ pub struct PrintedEntry {
     pub printed: Option<String>,
     /// Why nothing can be computed for it.
     pub reason: Option<String>,
-    /// What it is: the paper's own, an input, or true by construction.
+    /// Its class: the paper's own, an input, or true by construction.
     #[serde(default)]
     pub class: Class,
     /// By which rule it is judged, if it is the paper's own and can be computed.
@@ -84,7 +84,7 @@ pub enum CatalogueError {
     File {
         /// The file.
         file: &'static str,
-        /// What the parser reported.
+        /// The report of the parser.
         cause: Arc<serde_path_to_error::Error<serde_json::Error>>,
     },
     /// There is no such entry.
@@ -93,7 +93,7 @@ pub enum CatalogueError {
         /// What was asked for.
         key: String,
     },
-    /// The entry is no number of the kind asked for.
+    /// The entry is no number of the requested kind.
     #[error("the printed text \"{printed}\" of \"{key}\" is no {wanted}")]
     NoNumber {
         /// The entry.
@@ -118,7 +118,7 @@ macro_rules! files {
 // In the order of the paper.
 files!["section1", "section2", "table1", "section3", "table2", "section4", "section5", "table3", "appendix",];
 
-/// What a file of `data/paper` holds.
+/// The contents of a file of `data/paper`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -194,7 +194,7 @@ mod tests {
         }
     }
 
-    /// What is fitted or found is a matter of a claim, not of what is printed.
+    /// Whether a number is fitted or found depends on the claim, not on the printed text.
     #[test]
     fn an_entry_is_of_the_paper_an_input_or_an_identity() {
         for entry in all() {

@@ -1,11 +1,12 @@
 //! A number or statement printed in the paper, compared with ours.
 //!
-//! The verdict is the result of a comparison; nothing in this crate can set it by hand. What is printed comes from the
-//! [catalogue]; a printed number is compared at the precision it is printed with: half a unit of its last digit, read off
-//! the printed text. What decides a statement is the rule of its [`Kind`] and the [`Cases`] in which it holds.
+//! The verdict is the result of a comparison; nothing in this crate can set it by hand. Printed numbers come
+//! from the [catalogue]; a printed number is compared at the precision it is printed with: half a unit of its
+//! last digit, read off the printed text. The rule of its [`Kind`] and the [`Cases`] in which it holds decide
+//! a statement.
 //!
-//! Only what the paper itself asserts counts for or against it: the [`Class`] of a claim tells that from inputs, from what was
-//! fitted, from what is true by construction, and from what this work adds.
+//! Only statements of the paper itself count for or against it: the [`Class`] of a claim separates them from
+//! inputs, from what was fitted, from what is true by construction, and from what this work adds.
 
 use serde::{Serialize, Serializer};
 
@@ -45,7 +46,7 @@ pub struct Claim {
     pub(crate) id: String,
     /// Where in the paper: "Fig. 6 caption", "Sec. IV B".
     pub(crate) place: String,
-    /// What is compared.
+    /// The compared quantity.
     pub(crate) quantity: String,
     /// The unit of the printed number; empty for a pure number.
     pub(crate) unit: String,
@@ -62,7 +63,8 @@ pub struct Claim {
     /// Why it differs, in few words: rows with the same cause differ for one reason.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) cause: Option<&'static str>,
-    /// The share of the inputs that print alike for which it holds; `None` where it does not depend on unprinted digits.
+    /// The share of the inputs that print alike for which it holds; `None` where it does not depend on
+    /// unprinted digits.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) share: Option<f64>,
     /// The second verdict on a statement about a motor.
@@ -73,12 +75,13 @@ pub struct Claim {
     pub(crate) source: Source,
 }
 
-/// The verdict of single orbits that nothing perturbs, on a statement that is judged by the mean of an ensemble.
+/// The verdict of single orbits that nothing perturbs, on a statement that is judged by the mean of an
+/// ensemble.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct SingleOrbits {
     /// The verdict.
     pub verdict: Verdict,
-    /// What it is taken over.
+    /// The inputs over which it is taken.
     pub cases: Cases,
 }
 
@@ -93,8 +96,9 @@ pub enum Source {
 }
 
 impl Claim {
-    /// The answer to the entry `key` of the [catalogue], a printed number: `computed`, in the unit of the entry, compared
-    /// within half a unit of the last printed digit. A computed NaN or infinity differs from every number.
+    /// The answer to the entry `key` of the [catalogue], a printed number: `computed`, in the unit of the
+    /// entry, compared within half a unit of the last printed digit. A computed NaN or infinity differs from
+    /// every number.
     ///
     /// An unknown key, or an entry that is no number, gives a claim that differs and says so in its note.
     pub fn printed(key: &str, computed: f64) -> Self {
@@ -104,14 +108,15 @@ impl Claim {
         })
     }
 
-    /// The answer to the entry `key`, a statement in words: in which cases our data agree, and the numbers that show it. The rule of
-    /// its kind decides. The entry may name a number, as in "for Γ < 0.52 ...".
+    /// The answer to the entry `key`, a statement in words: in which cases our data agree, and the numbers
+    /// that show it. The rule of its kind decides. The entry may name a number, as in "for Γ < 0.52 ...".
     ///
-    /// `None` says that there are no data to judge it by ([`all`], [`any`] of nothing), which is a [fault](Self::lacks_data).
+    /// `None` says that there are no data to judge it by ([`all`], [`any`] of nothing), which is a
+    /// [fault](Self::lacks_data).
     pub fn printed_statement(key: &str, cases: impl Into<Cases>, evidence: impl Into<String>) -> Self {
         let cases = cases.into();
         Self::of_entry(key, |entry| {
-            // What is true by construction has no exception.
+            // A statement that is true by construction has no exception.
             let kind = entry.kind.unwrap_or(Kind::Always);
             let verdict = kind.verdict(cases);
             let holds = (cases.tried > 0).then_some(verdict == Verdict::Reproduced);
@@ -121,8 +126,8 @@ impl Claim {
         })
     }
 
-    /// Judges a number, or a statement of this work, over inputs that print alike or single orbits ([`Cases::sampled`]). Of a number the computed
-    /// value stays that of the printed inputs.
+    /// Judges a number, or a statement of this work, over inputs that print alike or single orbits
+    /// ([`Cases::sampled`]). Of a number the computed value stays that of the printed inputs.
     pub fn judged_over(mut self, cases: Cases) -> Self {
         if cases.tried == 0 {
             return self;
@@ -153,8 +158,9 @@ impl Claim {
         self.close_to_a_bound(cases)
     }
 
-    /// Says that the verdict hangs on a word or a range that the paper does not define: `by_definition` are those under the definitions that were
-    /// tried. Where some reproduce the claim and others do not, it cannot be computed; where none does, the kindest counts.
+    /// Says that the verdict hangs on a word or a range that the paper does not define: `by_definition` are
+    /// those under the definitions that were tried. Where some reproduce the claim and others do not, it
+    /// cannot be computed; where none does, the kindest counts.
     pub fn by_definition(mut self, by_definition: &[Verdict]) -> Self {
         if by_definition.iter().all(|verdict| *verdict == self.verdict) {
             return self;
@@ -173,8 +179,8 @@ impl Claim {
         self.note(words)
     }
 
-    /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its maximum, as a share of what it spans,
-    /// `accepted` the share of the drawn places that would agree.
+    /// A place that is read off a drawn curve: `lower` is by how much the curve there is lower than its
+    /// maximum, as a share of what it spans, `accepted` the share of the drawn places that would agree.
     pub fn at_printed_place(mut self, lower: f64, accepted: f64) -> Self {
         self.tolerance = None;
         self.verdict = match lower <= LINE_WIDTH {
@@ -194,7 +200,8 @@ impl Claim {
         self
     }
 
-    /// Says that a parameter of ours was chosen so that this number comes out, and which: it does not count for the paper.
+    /// Says that a parameter of ours was chosen so that this number comes out, and which: it does not count
+    /// for the paper.
     pub fn fitted(self, parameter: impl AsRef<str>) -> Self {
         let note = format!("fitted: {}", parameter.as_ref());
         Self { class: Class::Fitted, ..self }.note(note)
@@ -242,12 +249,13 @@ impl Claim {
         }
     }
 
-    /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the catalogue:
-    /// [`printed`](Self::printed).
+    /// A printed number, compared within half a unit of its last printed digit. In a figure it comes from the
+    /// catalogue: [`printed`](Self::printed).
     ///
-    /// `printed` is the text exactly as printed: `"0.486"`, `"14 ± 5"` (compared with 14), `"0.323π"`,
-    /// `"11.6 %"`, `"10⁻⁹"`, `"1.5 × 10⁻⁶"`, `"1e-6"`, `"≈ 22"`. `computed` is in the unit of the printed number;
-    /// a printed multiple of π is compared as the product. A computed NaN or infinity differs from every number.
+    /// `printed` is the text exactly as printed: `"0.486"`, `"14 ± 5"` (compared with 14), `"0.323π"`, `"11.6
+    /// %"`, `"10⁻⁹"`, `"1.5 × 10⁻⁶"`, `"1e-6"`, `"≈ 22"`. `computed` is in the unit of the printed number; a
+    /// printed multiple of π is compared as the product. A computed NaN or infinity differs from every
+    /// number.
     ///
     /// A printed text that is not a number gives a claim that differs and says so in its note.
     pub(crate) fn number(names: [&str; 4], printed: &str, computed: f64) -> Self {
@@ -262,18 +270,19 @@ impl Claim {
         let Some(read) = PrintedNumber::read(printed) else {
             return claim.note("the printed text could not be read as a number");
         };
-        // A value exactly between two printed ones may round either way; the product of the decimal digits and
-        // the unit is itself rounded, hence the small widening.
+        // A value exactly between two printed ones may round either way; the product of the decimal digits
+        // and the unit is itself rounded, hence the small widening.
         let reproduced = (computed - read.value).abs() <= read.half_unit * (1.0 + 1e-9);
         let verdict = if reproduced { Verdict::Reproduced } else { Verdict::Differs };
         Self { verdict, tolerance: Some(read.half_unit), ..claim }
     }
 
-    /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper will
-    /// want. What is printed comes from the catalogue: [`printed_statement`](Self::printed_statement).
+    /// A statement in words that is not printed: a check of this work, or a remark that a reader of the paper
+    /// will want. A printed statement comes from the catalogue:
+    /// [`printed_statement`](Self::printed_statement).
     ///
-    /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the numbers
-    /// that show it.
+    /// `quantity` is the statement, `holds` whether our data agree (`None`: there are none), `evidence` the
+    /// numbers that show it.
     pub fn statement(
         id: &str,
         place: &str,
@@ -303,7 +312,8 @@ impl Claim {
         self
     }
 
-    /// Whether it should have been judged by data and there are none. Such a claim is no finding but a fault of the experiment.
+    /// Whether it should have been judged by data, but no data exist. Such a claim is no finding but a fault
+    /// of the experiment.
     pub fn lacks_data(&self) -> bool {
         let reasoned = match &self.source {
             Source::Entry(key) => catalogue::find(key).is_ok_and(|entry| entry.reason.is_some()),

@@ -1,7 +1,8 @@
 //! The rules by which a number or a statement of the paper is judged: one for each kind.
 //!
-//! `docs/judging.md` has them for readers; a test compares the two. Every entry of the [catalogue](super::catalogue) that the
-//! paper asserts names its kind, and the kind alone turns [`Cases`] into a [`Verdict`].
+//! `docs/judging.md` has them for readers; a test compares the two. Every entry of the
+//! [catalogue](super::catalogue) that the paper asserts names its kind, and the kind alone turns [`Cases`]
+//! into a [`Verdict`].
 
 use std::iter::Sum;
 
@@ -27,11 +28,12 @@ impl Verdict {
         [Self::Reproduced, Self::Differs, Self::DependsOnUnprintedDigits, Self::NotComputable];
 }
 
-/// The least share of single orbits, or of inputs that print alike, for which a statement counts as reproduced; one minus it is the
-/// largest for which it counts as differing.
+/// The least share of single orbits, or of inputs that print alike, for which a statement counts as
+/// reproduced; one minus it is the largest for which it counts as differing.
 pub const AGREED_SHARE: f64 = 0.95;
 
-/// A curve that is lower by no more than this share of what it spans is as high, for a reader of the picture: the width of a line.
+/// A curve that is lower by no more than this share of what it spans is as high, for a reader of the picture:
+/// the width of a line.
 pub const LINE_WIDTH: f64 = 0.01;
 
 /// A place that agrees with more than this share of a curve is no place.
@@ -81,7 +83,8 @@ impl Cases {
         }
     }
 
-    /// Whether more draws might move the share across one of the bounds: it is nearer to it than two standard errors. A handful is no sample.
+    /// Whether more draws might move the share across one of the bounds: it is nearer to it than two standard
+    /// errors. A handful is no sample.
     pub fn is_close(self) -> bool {
         let near = |share: f64, error: f64| {
             [AGREED_SHARE, 1.0 - AGREED_SHARE].iter().any(|bound| (share - bound).abs() < 2.0 * error)
@@ -90,7 +93,8 @@ impl Cases {
             && self.share().zip(self.standard_error()).is_some_and(|(share, error)| near(share, error))
     }
 
-    /// Of draws that print alike, and of single orbits: reproduced from [`AGREED_SHARE`] on, differing where it fails for as many.
+    /// Of draws that print alike, and of single orbits: reproduced from [`AGREED_SHARE`] on, differing where
+    /// it fails for as many.
     pub fn sampled(self) -> Verdict {
         match self.share() {
             None => Verdict::NotComputable,
@@ -155,7 +159,7 @@ kinds! {
     Number = "number", "Reproduced where ours, at exactly the printed inputs, agrees within half a unit of the last printed digit.";
     /// A printed number that the authors computed from rounded measurements.
     Measured = "measured", "Judged over inputs that all round to the printed ones: reproduced for 95 % of them or more, differing for 5 % or less, otherwise dependent on unprinted digits.";
-    /// What the paper reads off drawn curves: a maximum, its place, that two maxima are at one place.
+    /// A reading from drawn curves: a maximum, its place, or the coincidence of two maxima.
     Maximum = "maximum", "Of the drawn curves. A value is judged as a number; a place agrees where the curve there is lower than its maximum by no more than a line's width, a hundredth of what the curve spans. Where more than half of the drawn places would agree, it is no data.";
     /// A formula with an equality.
     Equation = "equation", "Reproduced where both sides agree but for rounding.";
@@ -197,7 +201,8 @@ impl Kind {
     }
 }
 
-/// All pairs of points that differ, by rising abscissa: in how many the ordinate rises (`sign` 1) or falls (−1).
+/// All pairs of points that differ, by rising abscissa: in how many the ordinate rises (`sign` 1) or falls
+/// (−1).
 pub fn trend(points: impl IntoIterator<Item = (f64, f64)>, sign: f64) -> Cases {
     let mut points: Vec<(f64, f64)> = points.into_iter().collect();
     points.sort_by(|one, other| one.0.total_cmp(&other.0));

@@ -23,7 +23,7 @@ impl std::fmt::Display for Uncertain {
 /// The keys of entries, each with the power of ten that takes its unit to that of the field.
 type Keys = [(&'static str, i32)];
 
-/// What can be read from entries.
+/// Types that can be read from entries.
 trait FromCatalogue: Sized {
     fn from_catalogue(keys: &Keys) -> Result<Self, CatalogueError>;
 }
@@ -137,7 +137,7 @@ structs! {
         launch_speed_m_per_s: Uncertain = "section3.launch_speed";
         /// The dough's measured rotary speed at separation.
         launch_angular_speed_rad_per_s: Uncertain = "section3.launch_angular_speed";
-        /// What the paper's model predicts for it.
+        /// The prediction of the paper's model for it.
         predicted_airborne_speed_rad_per_s: String = "section3.predicted_airborne_speed";
         /// φ_L of the observed tosses.
         observed_amplitude_angle_rad: String = "section3.observed_amplitude_angle";
@@ -171,9 +171,9 @@ structs! {
         semielliptical_phase_lag_rad: f64 = "section4.semielliptical_phase_lag";
         /// Γ_T of Fig. 6(d).
         semielliptical_angular_forcing: f64 = "section4.angular_forcing_of_fig6d";
-        /// Γ below which the chattering orbit is said to follow the pattern of single tosses.
+        /// Γ below which, as the paper says, the chattering orbit follows the pattern of single tosses.
         single_tosses_end: f64 = "section4.single_tosses_end";
-        /// Γ above which the attractors are said to merge.
+        /// Γ above which the attractors merge, as the paper says.
         merging: f64 = "section4.merging";
         /// Γ of the panels of Fig. 7.
         axial_forcings_of_fig7: [f64; 5] = "section4.axial_forcing_of_fig7a", "section4.axial_forcing_of_fig7b",
@@ -210,7 +210,8 @@ structs! {
         /// The lowest and the highest g.
         preload_accelerations_m_per_s2: [f64; 2] = "section5.lowest_preload_acceleration",
             "section5.highest_preload_acceleration";
-        /// The range of preloads in which the measured trends hold; printed in mNm, meant in mN (`docs/errata.md`).
+        /// The range of preloads in which the measured trends hold; printed in mNm, meant in mN
+        /// (`docs/errata.md`).
         measured_range_n: [f64; 2] = "section5.lowest_preload" e -3, "section5.highest_preload" e -3;
         /// The preload above which the measured stall torque has a plateau; printed in mNm, meant in mN.
         plateau_n: f64 = "section5.plateau_preload" e -3;

@@ -23,13 +23,13 @@ pub struct PrintedNumber {
 }
 
 impl PrintedNumber {
-    /// Reads a number as the paper prints it; `None` when the text is none.
+    /// Reads a number as the paper prints it; `None` if the text is no number.
     pub fn read(text: &str) -> Option<Self> {
         Self::read_shifted(text, 0)
     }
 
-    /// Reads a number and multiplies it by a power of ten (a unit with a prefix, a percentage) in the text, so that it
-    /// is rounded once.
+    /// Reads a number and multiplies it by a power of ten (a unit with a prefix, a percentage) in the text,
+    /// so that it is rounded once.
     pub fn read_shifted(text: &str, power: i32) -> Option<Self> {
         let text = plain_ascii(text);
         let (number, uncertainty) = match text.split_once("+-") {
@@ -48,8 +48,8 @@ impl PrintedNumber {
     }
 }
 
-/// Whether a printed number is a multiple of π, so that one compares with ours in the same form. In `cos(0.26π)` the π belongs
-/// to the angle, and the number itself is none.
+/// Whether a printed number is a multiple of π, so that one compares with ours in the same form. In
+/// `cos(0.26π)` the π belongs to the angle, and the number itself is no multiple.
 pub(crate) fn is_multiple_of_pi(text: &str) -> bool {
     text.contains('π') && !text.contains('(')
 }
@@ -117,7 +117,8 @@ fn split_exponent(text: &str) -> Option<(&str, i32)> {
     Some((mantissa, exponent.trim().trim_start_matches('+').parse().ok()?))
 }
 
-/// Unicode signs of printed numbers in ASCII: `−` to `-`, `×` to `*`, `±` to `+-`, `π` to `pi`, `10⁻⁹` to `10^-9`.
+/// Unicode signs of printed numbers in ASCII: `−` to `-`, `×` to `*`, `±` to `+-`, `π` to `pi`, `10⁻⁹` to
+/// `10^-9`.
 fn plain_ascii(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     let mut raised = false;

@@ -29,7 +29,7 @@ const REACH: f64 = 0.3;
 /// The least share that is drawn.
 const LEAST: f64 = 3.0e-4;
 
-/// What is drawn alike: its name and colour. The digits are platform periods for each impact.
+/// Motions that are drawn alike, with their name and colour. The digits are platform periods for each impact.
 const KINDS: [(&str, Colour); 7] = [
     ("rest", Colour::LIGHT_GREY),
     ("1", Colour::BLUE),
@@ -64,7 +64,8 @@ pub struct ExtraAttractorsData {
     sweeps: Vec<Sweep>,
     /// Top of |w_A Γ/(ωA)| of the basins: the bound of every attractor.
     top: f64,
-    /// The labels of the cells, row by row: of each column a letter, `a` for an undecided one, `b` for rest, and so on.
+    /// The labels of the cells, row by row: of each column a letter, `a` for an undecided one, `b` for rest,
+    /// and so on.
     rows: Vec<String>,
     /// The attractors in the order of their labels.
     names: Vec<String>,

@@ -44,7 +44,8 @@ pub struct ExtraBranches;
 #[derive(Debug, Serialize, Deserialize)]
 pub struct ExtraBranchesData {
     restitution: f64,
-    /// The attractors that begin with one impact every k periods, followed upwards, and a disk that has been at rest.
+    /// The attractors that begin with one impact every k periods, followed upwards, and a disk that has been
+    /// at rest.
     followed: Vec<Dot>,
     from_rest: Vec<Dot>,
     branches: Vec<BranchLine>,

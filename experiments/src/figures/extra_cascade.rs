@@ -20,7 +20,7 @@ const PUBLISHED: [f64; 2] = [4.669_201_609_102_99, 2.502_907_875_095_892_7];
 const OTHER_RESTITUTIONS: [&str; 2] = ["0.1", "0.8"];
 const COLOURS: [Colour; 3] = [Colour::BLACK, Colour::BLUE, Colour::VERMILION];
 
-/// What is smaller is drawn here: distances of forcings, and of constants.
+/// The least distances of forcings and of constants that the picture shows; smaller ones are drawn here.
 const LEAST: f64 = 1e-17;
 const LEAST_DEVIATION: f64 = 1e-12;
 
@@ -49,7 +49,7 @@ struct Doubling {
     axial_forcing: String,
     /// Γ_∞ − Γ_n, the last one by δ.
     to_limit: f64,
-    /// What the doubles state as their error, and what it is.
+    /// The error that the cascade in doubles states, and the true one.
     stated_error_in_doubles: f64,
     error_in_doubles: f64,
 }

@@ -1,4 +1,5 @@
-//! Beyond the paper: what the attractor of Fig. 6 touches where it is lost, and how long orbits live beyond.
+//! Beyond the paper: the tangency at which the attractor of Fig. 6 is lost, and how long orbits live beyond
+//! it.
 
 use bouncing_disk::core::chaos::{Crisis, CrisisLives, CrisisSearch, ManifoldKind, ManifoldSettings};
 use bouncing_disk::core::numerics::elementary::pow;
@@ -15,11 +16,12 @@ use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
-/// Γ between which the crisis is sought.
+/// Γ between which the crisis lies.
 const RANGE: (f64, f64) = (0.5595, 0.5615);
 /// The largest distance in Γ at which lives are counted; each next one is half of it.
 const FARTHEST: f64 = 1.0e-3;
-/// What panel (a) shows, and half the width and the height of panel (b): phases in periods, normalised speeds.
+/// The ranges of panel (a), and half the width and the height of panel (b): phases in periods, normalised
+/// speeds.
 const SHOWN: [(f64, f64); 2] = [(-0.12, 0.32), (0.95, 1.65)];
 const MAGNIFIED: (f64, f64) = (0.006, 0.010);
 
@@ -124,7 +126,8 @@ fn spot(state: ImpactState) -> Spot {
     (if cycles < 0.5 { cycles } else { cycles - 1.0 }, state.normalised_speed())
 }
 
-/// The first impact that is back at the saddle after the one that lies farthest from it: where the manifold folds.
+/// The first impact that is back at the saddle after the one that lies farthest from it: where the manifold
+/// folds.
 fn magnified(orbit: &[ImpactState], saddle: &PeriodicOrbit) -> Option<Spot> {
     let distance = |state: &ImpactState| {
         let own = spot(*state);

@@ -1,4 +1,5 @@
-//! Beyond the paper: the best hand motion of a toss under constraints, and what is left of it where inputs are off.
+//! Beyond the paper: the best hand motion of a toss under constraints, and how much of its advantage remains
+//! if inputs are off.
 
 use bouncing_disk::core::Unobserved;
 use std::f64::consts::PI;
@@ -21,8 +22,8 @@ use crate::progress::Progress;
 /// Friction between hand and dough, with more or less flour.
 const FRICTION: [f64; 2] = [0.4, 0.7];
 
-/// Angular frequencies of the hand (rad/s): at 8 rad/s and below the dough hardly leaves the hand, and any error keeps it
-/// there.
+/// Angular frequencies of the hand (rad/s): at 8 rad/s and below the dough hardly leaves the hand, and any
+/// error keeps it there.
 const FREQUENCIES: [f64; 2] = [9.0, 16.0];
 
 /// Limits of the flight (m): none, and that of a low ceiling; and how each is drawn.
@@ -50,7 +51,7 @@ pub struct ExtraDesign;
 /// The data of the best tosses.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct ExtraDesignData {
-    /// The best hand at each frequency, one list for each limit of height, and what is left of it.
+    /// The best hand at each frequency, one list for each limit of height, with its robustness.
     curves: Vec<Vec<(TossDesign, TossRobustness)>>,
     /// The hand of Table I, and its least airborne speed over the range of friction.
     table_one: Stroke,
@@ -148,7 +149,8 @@ impl Experiment for ExtraDesign {
     }
 }
 
-/// The airborne speed (rad/s), in whichever direction, that the hand of Table I gives the dough; 0 where it does not leave.
+/// The airborne speed (rad/s), in either direction, that the hand of Table I gives the dough; 0 where it does
+/// not leave.
 fn speed(friction: f64) -> Result<f64, ExperimentError> {
     let mut dough = TossConstraints::pizza_toss().dough;
     dough.friction = friction;

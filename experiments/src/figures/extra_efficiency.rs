@@ -32,8 +32,8 @@ pub struct ExtraEfficiencyData {
     /// Phase lags of the columns (rad), and loads of the rows, as shares of the largest torque μ m g a_e.
     phase_lags_rad: Vec<f64>,
     load_shares: Vec<f64>,
-    /// Mechanical power over the power put in, row by row: negative where the load drives the motor back. `None` where no
-    /// power is put in.
+    /// Mechanical power over the power put in, row by row: negative where the load drives the motor back.
+    /// `None` where no power is put in.
     power_ratios: Vec<Vec<Option<f64>>>,
     speeds_rad_per_s: Vec<Vec<Option<f64>>>,
     /// Lag (rad), load and efficiency of the best motor of the map.
@@ -196,8 +196,8 @@ fn colour_bar(area: Rect, levels: usize) -> Panel {
 
 fn shares(data: &ExtraEfficiencyData, area: Rect) -> Panel {
     let driving = data.along_load.iter().take_while(|point| point.mechanical_power.value >= 0.0);
-    // Load, and the heights up to which work and friction reach. What is stored, and what the perturbation puts in, are no
-    // share of anything.
+    // Load, and the heights up to which work and friction reach. The stored energy, and the work of the
+    // perturbation, are no share of anything.
     let heights: Vec<[f64; 3]> = driving
         .map(|point| {
             let [work, friction, restitution] =

@@ -1,4 +1,5 @@
-//! Beyond the paper: fits of synthetic transients with their intervals, and durations at which they are refused.
+//! Beyond the paper: fits of synthetic transients with their intervals, and durations at which they are
+//! refused.
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::elementary::exp;
@@ -17,8 +18,8 @@ use crate::progress::Progress;
 /// Seed of the synthetic transients.
 const SEED: u64 = 2_009;
 
-/// What the transients are made from: rad/s, s; the scatter of the members' speeds, relative; noise in rad/s, and its
-/// correlation from point to point; members, and points in a time constant.
+/// The parameters of the synthetic transients: rad/s, s; the scatter of the members' speeds, relative; noise
+/// in rad/s, and its correlation from point to point; members, and points in a time constant.
 const STEADY_SPEED: f64 = 20.0;
 const TIME_CONSTANT: f64 = 0.6;
 const SCATTER: f64 = 0.05;
@@ -44,8 +45,8 @@ pub struct ExtraFitData {
     durations: Vec<Duration>,
 }
 
-/// What a duration, in time constants, allows: of synthetic ensembles those that were tried, those whose fit is accepted, and of
-/// these the intervals that cover the truth.
+/// What a duration, in time constants, allows: of synthetic ensembles those that were tried, those whose fit
+/// is accepted, and of these the intervals that cover the truth.
 #[derive(Debug, Serialize, Deserialize)]
 struct Duration {
     time_constants: f64,

@@ -22,7 +22,7 @@ const EXPONENTS: (f64, f64) = (-0.9, 0.9);
 /// Impacts before those that are drawn.
 const SKIPPED: usize = 1_000;
 
-/// What each kind is called and drawn in; what is drawn last lies on top.
+/// The name and colour of each kind; the last one drawn lies on top.
 const KINDS: [(Kind, &str, Colour); 4] = [
     (Kind::Rest, "with rests", Colour::LIGHT_GREY),
     (Kind::Periodic, "periodic", Colour::BLUE),
@@ -34,17 +34,18 @@ const KINDS: [(Kind, &str, Colour); 4] = [
 #[derive(Debug)]
 pub struct ExtraLyapunov;
 
-/// What a disk does at one forcing.
+/// The motion of a disk at one forcing.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Column {
     axial_forcing: f64,
     kind: Kind,
-    /// The exponent per impact; none for a cycle that doubles follow exactly: no perturbation survives a rest.
+    /// The exponent per impact; none for a cycle that doubles follow exactly: no perturbation survives a
+    /// rest.
     exponent: Option<f64>,
     impact_phase_cycles: Vec<f64>,
 }
 
-/// What a disk does for good.
+/// The long-term motion of a disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 enum Kind {
     Periodic,
@@ -133,7 +134,7 @@ impl Experiment for ExtraLyapunov {
     }
 }
 
-/// What a verdict says, and its exponent per impact.
+/// The kind of a verdict, and its exponent per impact.
 fn judged(verdict: &Verdict) -> (Kind, Option<f64>) {
     match *verdict {
         Verdict::Periodic { impacts, multipliers, .. } => {

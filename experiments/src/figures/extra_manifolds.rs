@@ -34,8 +34,8 @@ pub struct ExtraManifolds;
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Basins {
     axial_forcing: f64,
-    /// What becomes of the cells, row by row: 0 comes to rest, 1 does not or is on the orbit that a saddle is born with,
-    /// 2 is on another periodic orbit.
+    /// The fate of the cells, row by row: 0 comes to rest, 1 does not or is on the orbit that a saddle is
+    /// born with, 2 is on another periodic orbit.
     rows: Vec<String>,
     /// The stable manifolds, piece by piece, and the saddles.
     manifolds: Vec<Vec<Spot>>,
@@ -118,7 +118,8 @@ fn is_other(orbit: &PeriodicOrbit) -> bool {
     orbit.period() as u64 != orbit.platform_periods
 }
 
-/// A saddle of two impacts in one period, both multipliers positive: what is born in a fold with that attractor's parent.
+/// A saddle of two impacts in one period, both multipliers positive: it is born in a fold with that
+/// attractor's parent.
 fn is_partner(orbit: &PeriodicOrbit) -> bool {
     let trace = orbit.monodromy.x_axis.x + orbit.monodromy.y_axis.y;
     orbit.period() == 2 && orbit.platform_periods == 1 && trace > 2.0

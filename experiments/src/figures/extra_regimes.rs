@@ -1,4 +1,4 @@
-//! Beyond the paper: what a disk does for good, over forcing and restitution.
+//! Beyond the paper: the long-term motion of a disk, over forcing and restitution.
 
 use std::f64::consts::{FRAC_1_PI, TAU};
 

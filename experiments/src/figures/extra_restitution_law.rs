@@ -44,7 +44,8 @@ struct Followed {
     dots: Vec<(f64, f64)>,
     /// The first Γ at which the disk comes to rest; `None` if it never does.
     lost_at: Option<f64>,
-    /// Γ of the first period doubling, where the derivative of the map along the period-1 orbit has the multiplier -1.
+    /// Γ of the first period doubling, where the derivative of the map along the period-1 orbit has the
+    /// multiplier -1.
     first_doubling: f64,
 }
 
@@ -112,8 +113,8 @@ fn map<L: RestitutionLaw>(axial_forcing: f64, law: &L) -> Result<ImpactMap<L>, E
     Ok(ImpactMap::with_law(Vibration::from_axial_forcing(axial_forcing)?, law.clone()))
 }
 
-/// The impact of the period-1 orbit in closed form: the disk lands with v = 2π/(1 + r) where the platform rises with
-/// π (1 - r)/(1 + r) and brakes.
+/// The impact of the period-1 orbit in closed form: the disk lands with v = 2π/(1 + r) where the platform
+/// rises with π (1 - r)/(1 + r) and brakes.
 fn period_one(axial_forcing: f64, restitution: f64) -> Result<ImpactState, ExperimentError> {
     let angle = acos((1.0 - restitution) / (1.0 + restitution) / axial_forcing);
     Ok(ImpactState::new(Phase::new(angle)?, -TAU / (1.0 + restitution))?)

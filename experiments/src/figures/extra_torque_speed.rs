@@ -15,8 +15,8 @@ use serde::{Deserialize, Serialize};
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
 
-/// The highest load of the curve, as a share of the largest torque. Beyond it the motor is driven back faster and faster, and
-/// needs ever longer to settle.
+/// The highest load of the curve, as a share of the largest torque. Beyond it the motor is driven back faster
+/// and faster, and needs ever longer to settle.
 const LAST_SHARE: f64 = 0.8;
 
 /// Duration of the transients in rise times ωΦ a_g²/(μ a_e g).

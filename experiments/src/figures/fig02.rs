@@ -97,14 +97,16 @@ struct Trajectory {
     path: HandPath,
 }
 
-/// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of it.
+/// The shape of a path does not depend on its size: the contact radius is 1 m here, the stroke this many of
+/// it.
 const CONTACT_RADIUS: f64 = 1.0;
 const STROKE: f64 = 1.5;
 
 /// Any frequency gives the same path.
 const ANGULAR_FREQUENCY: f64 = 1.0;
 
-/// θ of (a)–(c) and φ_L of (d)–(f): for (a) Sec. IV A names θ, for (c) Sec. III B; the others are not in the text.
+/// θ of (a)–(c) and φ_L of (d)–(f): for (a) Sec. IV A names θ, for (c) Sec. III B; the others are not in the
+/// text.
 const PHASE_LAGS: [f64; 3] = [-FRAC_PI_2, -FRAC_PI_4, 0.0];
 const AMPLITUDE_ANGLES: [f64; 3] = [0.05 * PI, 0.25 * PI, 0.45 * PI];
 

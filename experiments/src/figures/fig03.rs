@@ -87,14 +87,15 @@ pub struct Fig03Data {
 /// A spring that is compressed by so many times the rotor's displacement is compressed by "much more" than it.
 const MUCH_GREATER: f64 = 100.0;
 
-/// A flight under an effectively constant preload lasts as long and falls as fast as one under a constant preload to this share.
+/// A flight under an effectively constant preload lasts as long and falls as fast as one under a constant
+/// preload to this share.
 const SAME_FLIGHT: f64 = 0.01;
 
 /// The spring's change of preload, and what it does to a flight.
 fn sprung_rotor(data: &Fig03Data) -> Claim {
     let sprung = &data.sprung;
     let flights = sprung.motors.iter().flat_map(|motor| &motor.springs);
-    // Hooke's law bounds the preload, which is no test; what has to be seen is that the flight hardly differs.
+    // Hooke's law bounds the preload, which is no test; the test is that the flight hardly differs.
     let same = claim::all(flights.filter(|flight| flight.deflection_over_travel >= MUCH_GREATER), |flight| {
         flight.duration_change.abs() <= SAME_FLIGHT && flight.fall_speed_change.abs() <= SAME_FLIGHT
     });

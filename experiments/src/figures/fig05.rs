@@ -185,11 +185,11 @@ struct Toss {
     sliding_at_separation: bool,
     /// The dough's lowest speed in contact.
     lowest_speed_rad_per_s: f64,
-    /// What the speed gains in the second half of the time in contact.
+    /// The increase of the speed in the second half of the time in contact.
     late_gain_rad_per_s: f64,
 }
 
-/// What a phase lag does to the toss.
+/// The effect of a phase lag on the toss.
 #[derive(Debug, Serialize, Deserialize)]
 struct Dependence {
     phase_lag_rad: f64,
@@ -320,7 +320,7 @@ const LAST_TIME: [f64; 3] = [0.9, 0.32, 0.32];
 const COLOURS: [Colour; 2] = [Colour::BLUE, Colour::VERMILION];
 const LAGS: [&str; 2] = [r"$\theta_1 = 0$", r"$\theta_2 = \pi/2$"];
 
-/// One row: what is drawn, and on which axis.
+/// One row: the drawn quantity and its axis.
 struct Row {
     hand: fn(&Toss) -> &[f64],
     dough: fn(&Toss) -> &[f64],
@@ -513,7 +513,7 @@ fn no_slip(data: &Fig05Data) -> Claim {
     )
 }
 
-/// What θ does.
+/// The effect of θ.
 fn phase_lag(data: &Fig05Data) -> Vec<Claim> {
     let lags = &data.lags;
     let late = |wanted: fn(f64) -> bool| {

@@ -103,7 +103,7 @@ mod tests {
     use crate::claims::{Class, Computed};
     use crate::progress::Silent;
 
-    /// What is judged over a list of data is not judged where the list is empty.
+    /// A claim that is judged over a list of data is not judged if the list is empty.
     #[test]
     fn no_statement_of_the_paper_holds_without_data() {
         let mut data = Fig06::compute(Quality::Draft, &Silent).expect("runs");

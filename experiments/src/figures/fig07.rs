@@ -133,7 +133,7 @@ mod tests {
         data.along_window.clear();
         data.beyond.clear();
         data.panels[3].boundary_exponents.clear();
-        // What is judged by the panels themselves.
+        // Claims that the panels themselves decide.
         let panels =
             ["section4.chattering_is_easier", "section4.rest_chatters", "section4.basin_fills_plane"];
         for claim in Fig07::claims(&data) {

@@ -141,7 +141,8 @@ impl Beam {
 }
 
 const HEIGHT: f64 = 262.0;
-/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up, in mm.
+/// Azimuth and elevation of the eye (rad), its distance, and all lengths but the ball's and a_e's: made up,
+/// in mm.
 const AZIMUTH: f64 = 0.5;
 const ELEVATION: f64 = 0.25;
 const DISTANCE: f64 = 260.0;
@@ -264,7 +265,7 @@ fn sizes(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, tip: f64) -> D
     )
 }
 
-/// What the parts are called.
+/// The names of the parts.
 fn names(mut drawing: Drawing, data: &Fig08Data, camera: &Camera, (foot, magnet_top): (f64, f64)) -> Drawing {
     let radius = 0.5 * data.ball_diameter_mm;
     let at = |height: f64| camera.project(DVec3::new(0.0, 0.0, height));

@@ -151,7 +151,7 @@ fn trials(series: &Series) -> Result<Vec<Trial>, ExperimentError> {
     fitted.collect()
 }
 
-/// What the caption says about the trials; nothing when there are none.
+/// The sentence of the caption about the trials; empty if there are none.
 fn caption(trials: &[Trial]) -> String {
     if trials.is_empty() {
         return String::new();

@@ -162,7 +162,8 @@ fn abrupt(data: &Fig12Data) -> Claim {
     .by_definition(&under_definitions(data, 1, AlikeMotor::stops_abruptly))
 }
 
-/// Lines are told apart in a window of [`SEEN_CYCLES`] cycles where neighbours are this share of the rise in it apart.
+/// Lines are told apart in a window of [`SEEN_CYCLES`] cycles where neighbours are this share of the rise in
+/// it apart.
 const SEEN_APART: f64 = 0.05;
 
 /// See [`SEEN_APART`].

@@ -337,7 +337,7 @@ fn arc(case: &TossCase, platform: &Platform) -> Result<Arc, ExperimentError> {
     })
 }
 
-/// What a row computes from the hand and the dough of Table I.
+/// The computation of a row from the hand and the dough of Table I.
 type Quantity = fn(&TossCase, &System) -> f64;
 
 /// Label, unit, decimals, origin and formula of the quantities that follow from Table I.

@@ -124,8 +124,8 @@ pub struct Table2Data {
     airborne_speed_rad_per_s: f64,
     effects: Vec<Effect>,
     combined: Combined,
-    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum of
-    /// squares.
+    /// Effect of c, a_e, a_g, μ and both launch speeds, from which Eq. (14) computes ω and φ_L: the root sum
+    /// of squares.
     uncertainty_from_launch_speeds_rad_per_s: f64,
 }
 

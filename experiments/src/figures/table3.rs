@@ -196,7 +196,8 @@ pub struct Table3Data {
     ball_gyration_radius_mm: f64,
 }
 
-/// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the stall load.
+/// The steady speed of a motor without load, and what the tolerances of its inputs make of it and of the
+/// stall load.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Speed {
     speed_rad_per_s: f64,
@@ -205,7 +206,8 @@ struct Speed {
     stall_over_inputs_rad_per_s2: OverInputs,
 }
 
-/// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation within a decade.
+/// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation
+/// within a decade.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct OverInputs {
     /// The least and the largest.
@@ -246,7 +248,8 @@ struct Drop {
     restitution_range: [f64; 2],
     /// Of these heights, drawn evenly, those whose ε rounds to the printed one.
     restitution_agreement: Cases,
-    /// The agreement of the impact speed with gravitational accelerations up to the highest preload of Sec. V B.
+    /// The agreement of the impact speed with gravitational accelerations up to the highest preload of Sec. V
+    /// B.
     agreement_to_highest: Cases,
     impact_speed_m_per_s: f64,
     /// For the heights that are printed as the drop height.

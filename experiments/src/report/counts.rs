@@ -1,7 +1,8 @@
 //! How many claims of which class came out how, in the words that every summary uses.
 //!
-//! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they cannot count differently. The
-//! headline is about the paper alone: what was fitted, put in, is true by construction or was added by this work stands beside it.
+//! Results page, gallery, README and the last lines of `cargo xtask figures` all count here, so that they
+//! cannot count differently. The headline is about the paper alone: what was fitted, put in, is true by
+//! construction or was added by this work stands beside it.
 
 use std::collections::BTreeSet;
 
@@ -39,7 +40,7 @@ impl Counts {
         [reproduced, differs, depends, no_data, fitted, input, identity, this_work]
     }
 
-    /// What came out of the paper's own numbers and statements, in a sentence.
+    /// The verdicts on the paper's own numbers and statements, in a sentence.
     pub fn headline(&self) -> String {
         let [reproduced, differs, depends, no_data, ..] = self.row();
         format!(
@@ -50,7 +51,7 @@ impl Counts {
         )
     }
 
-    /// What is no evidence for or against the paper, in a sentence.
+    /// The claims that are no evidence for or against the paper, in a sentence.
     pub fn beside(&self) -> String {
         let [.., fitted, inputs, identities, this_work] = self.row();
         let [reproduced, differs, depends, _] = self.single_orbits;

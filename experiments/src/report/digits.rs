@@ -1,7 +1,8 @@
 //! How many digits the pages show.
 //!
-//! A number on `docs/results.md` and `docs/errata.md` has four significant digits. More are kept where they decide a verdict, and only
-//! those that `recomputed.json` lists: each of them another program, from the equations alone, has to find, or it is an input.
+//! A number on `docs/results.md` and `docs/errata.md` has four significant digits. More are kept where they
+//! decide a verdict, and only those that `recomputed.json` lists: each of them another program, from the
+//! equations alone, has to find, or it is an input.
 
 use std::sync::OnceLock;
 
@@ -16,7 +17,7 @@ const DIGITS: usize = 4;
 #[cfg_attr(not(test), expect(dead_code, reason = "only tests ask for names and meanings"))]
 struct Kept {
     id: String,
-    /// What it is, with its unit.
+    /// Its meaning, with its unit.
     meaning: String,
     /// As the pages show it.
     value: String,
@@ -28,7 +29,7 @@ fn kept() -> &'static [Kept] {
     KEPT.get_or_init(|| serde_json::from_str(include_str!("../../recomputed.json")).unwrap_or_default())
 }
 
-/// The text with every longer number rounded. What stands in backquotes, links and names is no number.
+/// The text with every longer number rounded, except in backquotes, links and names.
 pub(super) fn rounded(text: &str) -> String {
     let mut page = String::with_capacity(text.len());
     for (index, piece) in text.split('`').enumerate() {

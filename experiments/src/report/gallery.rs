@@ -1,4 +1,4 @@
-//! What is made from all figures that lie in a folder: `claims.json` and the gallery, one HTML page without scripts and
+//! The products of all figures in a folder: `claims.json` and the gallery, one HTML page without scripts and
 //! without anything from the network.
 
 use minijinja::context;
@@ -71,7 +71,7 @@ impl Summary {
                 }
             };
             let state = folder.check(id, quality, &measurements.digest(entry.measurements));
-            // What was wrong with measurements that have been replaced says nothing about the new ones.
+            // Faults of measurements that have been replaced say nothing about the new ones.
             if state != Err(Stale::Measurements) {
                 warnings.extend(made.warnings.iter().map(|warning| (id.to_owned(), warning.clone())));
             }
@@ -131,7 +131,7 @@ impl Summary {
     }
 }
 
-/// What lies in a folder of an experiment, or why it cannot be used.
+/// The files of an experiment in a folder, or why they cannot be used.
 fn stored(
     entry: &RegisteredExperiment,
     folder: &OutputFolder,
@@ -143,15 +143,15 @@ fn stored(
         other => other.to_string(),
     })?;
     let name = format!("{}.json", entry.id);
-    // What the program did not write itself may have any form.
+    // A file that the program did not write itself may have any form.
     if !cache_key.holds(&name, bytes) {
         return Err(Stale::File { name }.to_string());
     }
     entry.read(bytes).map_err(|error| chain(&error))
 }
 
-/// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place for that,
-/// and the figures may have been made in different qualities.
+/// A claim as it is stored, with what it says of its origin: `claims.json` is an array and has no other place
+/// for that, and the figures may have been made in different qualities.
 fn claim_of(claim: &Claim, entry: &RegisteredExperiment, quality: Quality) -> Value {
     // Claims hold strings, booleans and finite numbers only, so that this cannot fail.
     let mut stored = serde_json::to_value(claim).unwrap_or_default();

@@ -1,9 +1,10 @@
 //! The committed pages and pictures: `docs/results.md`, `docs/errata.md`, `docs/figures` and `docs/extras`.
 //!
-//! They are made in paper quality. Whether they are out of date must be known without the minutes that takes: [`Digests`],
-//! written with the pictures, holds for each figure a digest of what it was made from in *both* qualities: data, drawing and
-//! section. A draft run sees every change of model, drawing, caption, claims and printed numbers. It does not see one that only
-//! the paper grids feel, nor one of the page's head (docs/architecture.md).
+//! They are made in paper quality. Whether they are out of date must be known without the minutes that takes:
+//! [`Digests`], written with the pictures, holds for each figure a digest of what it was made from in *both*
+//! qualities: data, drawing and section. A draft run sees every change of model, drawing, caption, claims and
+//! printed numbers. It does not see one that only the paper grids feel, nor one of the page's head
+//! (docs/architecture.md).
 
 use std::collections::BTreeMap;
 
@@ -33,10 +34,10 @@ pub const LARGEST_VECTOR: usize = 700_000;
 /// Widths of a picture (pixels), from the best on: the first counts whose file is small enough.
 const PICTURE_WIDTHS: [u16; 4] = [1100, 950, 800, 650];
 
-/// The template of the errata. What it writes out itself are numbers that the paper prints: a test reads all of them. A
-/// number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or that of the claim that
-/// answers an entry of the catalogue, `{{ claims["section4.merging"]|number(".4") }}`: the computed number, or the share
-/// of the inputs that print alike for which it holds.
+/// The template of the errata. The numbers that it writes out are printed in the paper: a test reads all of
+/// them. A number of ours is one of the data of a figure, `{{ fig06.merging.survived|number(".7") }}`, or
+/// that of the claim that answers an entry of the catalogue, `{{ claims["section4.merging"]|number(".4") }}`:
+/// the computed number, or the share of the inputs that print alike for which it holds.
 const ERRATA: &str = include_str!("errata.md");
 /// Its name among the digests.
 pub const TEMPLATE: &str = "errata template";
@@ -70,7 +71,7 @@ pub enum PagesError {
     Figure {
         /// The figure.
         id: &'static str,
-        /// What went wrong.
+        /// The error.
         source: Box<ExperimentError>,
     },
     /// There are no files of a figure in the output folder.
@@ -93,12 +94,12 @@ pub enum PagesError {
     /// A file cannot be read or written.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// What a file says of its origin cannot be stored, or is of a newer format.
+    /// The origin of a file cannot be stored, or is of a newer format.
     #[error(transparent)]
     Provenance(#[from] Box<StorageError>),
 }
 
-/// What the committed pages and pictures were made from.
+/// Digests of everything from which the committed pages and pictures were made.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Digests {
     /// Which version of the program wrote them.
@@ -109,7 +110,8 @@ pub struct Digests {
     pub figures: BTreeMap<String, FigureDigests>,
 }
 
-/// What the picture of one figure, and its section of the page where it has one, were made from.
+/// Digests of everything from which the picture of one figure, and its section of the page if it has one,
+/// were made.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FigureDigests {
     /// Digest of data, drawing and section in draft quality.
@@ -139,8 +141,8 @@ struct Figure {
 }
 
 impl Figure {
-    /// The documentation shows no measurements: what was made with some, or in another quality by a run since, is
-    /// not taken for it.
+    /// The documentation shows no measurements: a figure made with some, or in another quality by a later
+    /// run, is not accepted.
     fn read(
         entry: &RegisteredExperiment,
         folder: &OutputFolder,
@@ -189,8 +191,9 @@ impl Figure {
     }
 }
 
-/// Writes the pictures and their digests into `docs` from the figures in both output folders, and the pages of those of the
-/// paper: nothing before everything is drawn, and the digests, which all is compared with, last.
+/// Writes the pictures and their digests into `docs` from the figures in both output folders, and the pages
+/// of those of the paper: nothing before everything is drawn, and the digests, which all is compared with,
+/// last.
 pub fn write(
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
@@ -246,8 +249,8 @@ fn write_with(
     Ok(folder.write_all(&files)?)
 }
 
-/// Names of committed files that are missing, were edited, or were made from other figures than those of `quality`
-/// in `made`. Of figures that have not been made there, the picture's file alone is checked.
+/// Names of committed files that are missing, were edited, or were made from other figures than those of
+/// `quality` in `made`. Of figures that have not been made there, the picture's file alone is checked.
 pub fn outdated(
     pictures: Pictures,
     entries: &[&RegisteredExperiment],
@@ -329,7 +332,8 @@ fn errata(template: &str, figures: &[(&str, Figure)]) -> Result<String, Template
     Ok(digits::rounded(&page))
 }
 
-/// The numbers of the claims that answer entries of the catalogue, by key: shares where a statement is judged by them.
+/// The numbers of the claims that answer entries of the catalogue, by key: shares where a statement is judged
+/// by them.
 fn claim_numbers<'a>(claims: impl IntoIterator<Item = &'a Claim>) -> BTreeMap<&'a str, f64> {
     let number = |claim: &'a Claim| {
         let Source::Entry(key) = &claim.source else { return None };
@@ -446,7 +450,8 @@ mod tests {
                 assert_eq!(folders.outdated(pictures, Draft), picture);
                 write();
             }
-            // What has not been made is not compared; another drawing of the draft alone is.
+            // Figures that have not been made are not compared; a changed drawing of the draft alone is
+            // detected.
             let nothing = OutputFolder::existing(folders.docs.path());
             let unmade = outdated_with(PROSE, pictures, &[&folders.demo], (Draft, &nothing), &folders.docs);
             assert!(unmade.expect("readable").is_empty() && current());
@@ -518,7 +523,7 @@ mod tests {
         found
     }
 
-    /// What is written out beside the references is printed in the paper, or names a place in it.
+    /// Numbers written out beside the references are printed in the paper, or name a place in it.
     #[test]
     fn every_other_number_of_the_errata_is_printed_in_the_paper() {
         /// Numbers that are neither results nor the paper's: of definitions and years.

@@ -52,8 +52,9 @@ fn has_target(rustc: Option<&Path>) -> bool {
     files.any(|file| file.is_ok_and(|file| file.file_name().to_string_lossy().starts_with("libstd")))
 }
 
-/// The program of the version of the library that the module is built with: they fit together only then. It is compiled
-/// once, from crates.io, and without optimisation: it runs for a few seconds, and would be compiled for minutes.
+/// The program of the version of the library that the module is built with: they fit together only then. It
+/// is compiled once, from crates.io, and without optimisation: it runs for a few seconds, and would be
+/// compiled for minutes.
 pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
     let version = locked_version("wasm-bindgen")?;
     let root = folder.join(format!("wasm-bindgen-{version}"));

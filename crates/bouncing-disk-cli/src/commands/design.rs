@@ -23,7 +23,7 @@ const OVER: Words<OverFriction> =
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Frequency, amplitude angle and phase lag of the hand are chosen, the stroke is given, and the dough is that of the system, \
-whose platform is not looked at. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
+whose platform is not used. Units are SI. In .csv and pictures there is the motion of the best toss at the middle of \
 the range of friction. See docs/numerics/design.md and `TossConstraints` of the library.
 
 Examples:

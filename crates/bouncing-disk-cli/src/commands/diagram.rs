@@ -38,7 +38,7 @@ pub(crate) struct DiagramArgs {
     map: MapArgs,
     #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
     start: Vec<Start>,
-    /// Impacts that are not looked at
+    /// Impacts to discard before the recorded ones
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 3_000)]
     transient: usize,
     /// Impacts of each orbit that are recorded
@@ -68,7 +68,7 @@ pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
 /// Phases nearer than this count as one (periods).
 const SAME_PHASE: f64 = 1e-6;
 
-/// What an impact takes (bytes): a phase and a speed.
+/// The size of an impact (bytes): a phase and a speed.
 const IMPACT: u64 = 16;
 
 #[derive(Debug, Clone, Serialize, Deserialize)]

@@ -92,7 +92,8 @@ fn fitted(text: &str) -> Result<FitRange, String> {
 pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
     let inputs: Vec<&Path> =
         [Some(&args.file), args.motor.as_ref()].into_iter().flatten().map(PathBuf::as_path).collect();
-    // A fit of parameters is one of a certain motor. Data of another fit the paper's badly, and nobody sees why.
+    // A fit of parameters is one of a certain motor. Data of another fit the paper's badly, and nobody sees
+    // why.
     if !args.parameter.is_empty() && args.motor.is_none() && args.preset.is_none() {
         let message = "--parameter needs the motor whose parameters are sought: its data sheet (--motor FILE) or one of \
                        the paper (--preset NAME)";

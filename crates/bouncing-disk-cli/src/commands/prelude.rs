@@ -1,4 +1,4 @@
-//! What most commands need.
+//! Items that most commands need.
 
 pub(super) use std::io::Write;
 

@@ -53,7 +53,7 @@ pub(crate) struct TossArgs {
     /// Follows the disk through many tosses, and says what it settles on
     #[arg(help_heading = OWN, long)]
     many: bool,
-    /// With --many: impacts that are not looked at before the motion is judged
+    /// With --many: impacts to discard before the motion is judged
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4_000, requires = "many")]
     transient: usize,
     /// With --many: impacts that the motion is judged by

@@ -1,4 +1,5 @@
-//! `bouncing-disk verdicts`: what the disk does for good, over the forcing, or over forcing and restitution.
+//! `bouncing-disk verdicts`: the long-term motion of the disk, over the forcing, or over forcing and
+//! restitution.
 
 use bouncing_disk::Observer;
 use bouncing_disk::core::{
@@ -305,8 +306,8 @@ impl<'a> Found<'a> {
     }
 }
 
-/// The kinds of motion that the disk settles on, without the evidence; their places are those of the picture's
-/// [`REGIMES`](pictures::REGIMES).
+/// The kinds of motion that the disk settles on, without the evidence; their places are those of the
+/// picture's [`REGIMES`](pictures::REGIMES).
 const KINDS: [&str; 10] = [
     "at rest",
     "cycle with rest",

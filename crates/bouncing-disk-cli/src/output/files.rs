@@ -1,4 +1,4 @@
-//! Files of results: which kinds there are, where they may go, and that none is ever seen half written.
+//! Files of results: their kinds, where they may go, and how they appear as a whole or not at all.
 
 use std::ffi::OsString;
 use std::fmt::{self, Display, Formatter};

@@ -1,5 +1,5 @@
-//! How near a start must come to an attracting periodic orbit to count as caught: a radius that is proven, and
-//! one that samples make wider (docs/numerics/dynamics.md, "Radii of attraction").
+//! How near a start must come to an attracting periodic orbit to count as caught: a radius that is proven,
+//! and one that samples make wider (docs/numerics/dynamics.md, "Radii of attraction").
 //!
 //! Distances are in radians; a radian of phase counts as much as the speed P.
 
@@ -14,29 +14,30 @@ use crate::numerics::error::Error;
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 use crate::run::{Observer, Watch, WorkCount};
 
-/// The first radius that is tried, the last, and the smallest of the circles.
+/// The radius that is tried first, the largest, and the one at which the search gives up.
 const FIRST_RADIUS: f64 = 0.1;
 const LARGEST_RADIUS: f64 = 1.0;
 const SMALLEST_RADIUS: f64 = 1.0e-5;
 
-/// Ratio of the radii of circles beyond the first, and the share of the widest one that counts.
+/// Ratio of the radii of successive wider circles, and the share of the widest that the result is.
 const WIDENING: f64 = 1.15;
 const SHARE_OF_WIDEST: f64 = 0.7;
 
-/// Impacts of an orbit up to which circles about all impacts are followed at once.
+/// Most impacts of an orbit that is tested by whether its circles trap.
 const SHORT: usize = 8;
 
-/// The largest circle from which starts must come back nearer to the impact that they began beside, the
-/// circles inside it, the starts on each, and the share of the radius that counts.
+/// For the test of whether starts come back nearer to the impact that they began beside: the largest radius,
+/// the one at which the search gives up, the circles of each trial as shares of its radius, the starts on
+/// each circle, and the share of the radius that the result is.
 const LARGEST_CIRCLE: f64 = 0.05;
 const SMALLEST_CIRCLE: f64 = 1.0e-8;
 const CIRCLES: [f64; 3] = [1.0, 0.5, 0.25];
 const CIRCLE_SAMPLES: u32 = 16;
 const SHARE_OF_CIRCLE: f64 = 0.5;
 
-/// Part of the radius within which a start has come so much nearer that it need not be followed further; the
-/// rounds of the orbit after which it must at least have come nearer, as it does slowly next to a doubling or
-/// a fold; and the multiple of the radius that it may stray then.
+/// The share of its first distance at which a start is near enough to stop following it; the rounds of the
+/// orbit after which a slower one, as next to a doubling or a fold, must at least be nearer; and how far that
+/// one may have strayed, as a multiple of its first distance.
 const NEARER: f64 = 0.125;
 const ROUNDS: u32 = 200;
 const STRAYING: f64 = 4.0;
@@ -47,7 +48,7 @@ const LARGEST_REGION: f64 = 0.5;
 const ROUNDINGS: f64 = 0.99;
 const SMALLEST_REGION: f64 = 64.0 * f64::EPSILON;
 
-/// Squarings of the derivative around the orbit: their power is beyond any that leaves something.
+/// Squarings of the derivative around the orbit: its power 2^64 is zero in doubles.
 const SQUARINGS: u32 = 64;
 
 /// A number that lies within a radius about its middle.
@@ -167,8 +168,9 @@ impl Flight {
     }
 }
 
-/// The flights of an orbit that attracts. Distances about its impacts are measured by the forms Q_i = 1 + D_i^T
-/// Q_(i+1) D_i, the sum of the squares of all later distances to first order, which a step shortens by 1.
+/// The flights of an orbit that attracts. Distances about its impacts are measured by the forms Q_i = 1 +
+/// D_i^T Q_(i+1) D_i, to first order the sum of the squares of this distance and all later ones, so that each
+/// step reduces it.
 fn flights(map: &ImpactMap, orbit: &PeriodicOrbit) -> Result<Vec<Flight>, Error> {
     let p = map.vibration().peak_acceleration();
     let n = orbit.states.len();
@@ -199,13 +201,13 @@ impl PeriodicOrbit {
     /// A radius (rad) within which every start beside an impact of this orbit is proven to end on it, but for
     /// the rounding of the bounds.
     ///
-    /// In norms in which each step of the linearised map is a contraction the exact one is a contraction, too, where its
-    /// derivative changes by less than the contraction leaves; the change is bounded over the whole region, and
-    /// so is the gap of every flight that begins there.
+    /// The linearised map contracts in suitable norms. The exact map then contracts wherever its derivative
+    /// differs from that on the orbit by less than the margin of this contraction. The code bounds the
+    /// difference over the whole region, and shows that no flight from there meets the platform earlier.
     ///
     /// # Errors
-    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); [`Error::NothingProven`] if the
-    /// region would be no larger than the rounding, as next to a graze; those of
+    /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); [`Error::NothingProven`] if
+    /// the region would be no larger than the rounding, as next to a graze; those of
     /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn proven_radius(&self, map: &ImpactMap) -> Result<f64, Error> {
         if self.stability() != Stability::Stable {
@@ -234,17 +236,23 @@ impl PeriodicOrbit {
         Err(Error::NothingProven { region: reach })
     }
 
-    /// The radius (rad) within which a start counts as caught by this orbit: the [proven](Self::proven_radius) one,
-    /// or a larger one that samples support.
+    /// The radius (rad) within which a start counts as caught by this orbit: the
+    /// [proven](Self::proven_radius) one, or a larger one that samples support.
     ///
-    /// For an orbit of at most eight impacts, `samples` starts on circles of 0.1, 0.05, ... rad about each
-    /// impact must stay within four radii and end nearer than they began; where that holds at 0.1 rad, wider
-    /// circles are tried, each 1.15 times the last and with four times as many starts, which must come within
-    /// 0.1 rad; 0.7 times the widest counts. For all others, and for an orbit whose strong shear traps no
-    /// circle, it is half the radius of circles of 0.05, 0.025, ... rad from which 16 starts come back eight
-    /// times nearer, however far they stray, or nearer without straying.
+    /// An orbit of at most eight impacts gets the first radius of 0.1, 0.05, ... rad that traps: `samples`
+    /// starts on a circle of this radius about each impact stay within four radii of the orbit, and end
+    /// within one. If 0.1 rad already traps, wider circles are tried, each 1.15 times the last and with four
+    /// times as many starts. A circle passes if all its starts come within 0.1 rad of the orbit; the result
+    /// is 0.7 times the radius of the last circle before the first that fails, and at least 0.1 rad.
     ///
-    /// The items of `observer` are the starts, as many as there are at most.
+    /// A longer orbit, and one with a shear so strong that no radius traps, is tested with less: 16 starts on
+    /// each of three circles about each impact, of the radius R = 0.05, 0.025, ... rad, of R/2 and of R/4.
+    /// Every start must come back to within an eighth of its first distance from that impact, however far it
+    /// strays on the way; or, if it approaches more slowly, it must be nearer than it began after 200 rounds
+    /// of the orbit, and never have been farther away than four times its first distance. The result is half
+    /// of the first R that passes.
+    ///
+    /// The items of `observer` are the starts, counted at their maximum.
     ///
     /// # Errors
     /// [`Error::NotAttracting`] unless the orbit is [stable](Self::stability); those of
@@ -295,16 +303,16 @@ impl PeriodicOrbit {
         Ok(Some(inner.max(SHARE_OF_WIDEST * widest)))
     }
 
-    /// The radius of circles from which starts come back nearer; `None` if none is above `least`.
+    /// Half the radius of the circles from which starts come back nearer; `None` if it is not above `least`.
     fn sampled_circles(&self, search: &mut Search<'_>, least: f64) -> Result<Option<f64>, Error> {
         let smallest = SMALLEST_CIRCLE.max(least / SHARE_OF_CIRCLE);
         let radius = first_halving(LARGEST_CIRCLE, smallest, |radius| {
             for part in CIRCLES {
                 let from = part * radius;
-                let nearer = |search: &mut Search<'_>, start, centre| {
-                    search.comes_nearer(self.period() as u64, (start, centre), from)
+                let returns = |search: &mut Search<'_>, start, centre| {
+                    search.returns_nearer(self.period() as u64, (start, centre), from)
                 };
-                if !search.all_on_circle(self, from, CIRCLE_SAMPLES, nearer)? {
+                if !search.all_on_circle(self, from, CIRCLE_SAMPLES, returns)? {
                     return Ok(false);
                 }
             }
@@ -313,7 +321,7 @@ impl PeriodicOrbit {
         Ok(radius.map(|radius| SHARE_OF_CIRCLE * radius))
     }
 
-    /// What a flight and its distance from this orbit count as for an observer.
+    /// The work of a flight, and of its distance from this orbit, in the units of an observer.
     fn flights_of_step(&self) -> u64 {
         1 + self.period() as u64 / 16
     }
@@ -387,7 +395,7 @@ fn widenings() -> u64 {
         .count() as u64
 }
 
-/// What the radii are found with: the map, the scale of its speeds, and the work so far.
+/// The state of the search for a radius: the map, the scale of its speeds, and the work so far.
 struct Search<'w> {
     map: &'w ImpactMap,
     scale: f64,
@@ -395,8 +403,8 @@ struct Search<'w> {
 }
 
 impl<'w> Search<'w> {
-    /// Whether all starts on the circles of this radius about the impacts of the orbit pass. A start below the
-    /// platform does not.
+    /// Whether all starts on the circles of this radius about the impacts of the orbit pass. A start below
+    /// the platform does not.
     fn all_on_circle(
         &mut self,
         orbit: &PeriodicOrbit,
@@ -420,8 +428,10 @@ impl<'w> Search<'w> {
         Ok(true)
     }
 
-    /// Whether a start comes back nearer to its impact than it began.
-    fn comes_nearer(
+    /// Whether a start comes back nearer to `centre`, the impact of the orbit that it began beside, by the
+    /// rule of [`PeriodicOrbit::trapping_radius`]. (A verdict asks less: whether an orbit approaches any of
+    /// the impacts.)
+    fn returns_nearer(
         &mut self,
         period: u64,
         (start, centre): (ImpactState, ImpactState),
@@ -475,7 +485,8 @@ mod tests {
         }
     }
 
-    /// Whatever starts within the proven radius ends on the orbit, on its edge, too; and an orbit that attracts has one.
+    /// Whatever starts within the proven radius ends on the orbit, on its edge, too; and an orbit that
+    /// attracts has one.
     #[test]
     fn starts_within_the_proven_radius_end_on_the_orbit() {
         let mut random = SplitMix64::new(6);
@@ -535,7 +546,8 @@ mod tests {
         assert!(radius(doubling - 1e-3) > 1e-5 && radius(doubling - 1e-9) > 1e-15);
     }
 
-    /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes, and period 1 next to its doubling.
+    /// The attractor of four impacts at Gamma = 0.486 that docs/errata.md describes, and period 1 next to its
+    /// doubling.
     #[test]
     fn sheared_and_slow_orbits_have_a_radius() {
         let map = map(0.486, 0.5);

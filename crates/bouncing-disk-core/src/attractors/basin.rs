@@ -21,7 +21,8 @@ pub use run::BasinRun;
 
 /// The fate of a start: one byte a cell.
 pub type Label = u8;
-/// Neither at rest nor near a known orbit after the allowed number of impacts: undecided, or on a chaotic attractor.
+/// Neither at rest nor near a known orbit after the allowed number of impacts: undecided, or on a chaotic
+/// attractor.
 pub const UNDECIDED: Label = 0;
 /// The disk came to rest on the platform: the basin of the chattering orbit.
 pub const ATTACHED: Label = 1;
@@ -90,7 +91,8 @@ impl Axis {
 
 read_checked!(Axis as UncheckedAxis { low: f64, high: f64, cells: usize } => Axis::new);
 
-/// A grid of starts: impact phase in periods (tau_imp/2 pi) and normalised impact speed |w_A Gamma/(omega A)|.
+/// A grid of starts: impact phase in periods (tau_imp/2 pi) and normalised impact speed |w_A Gamma/(omega
+/// A)|.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedGrid"))]
@@ -100,14 +102,15 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Largest number of periods, of either sign, on the phase axis: beyond it a double does not hold the half of one.
+    /// Largest number of periods, of either sign, on the phase axis: beyond it a double does not hold the
+    /// half of one.
     pub const MAX_PERIODS: f64 = 4_503_599_627_370_496.0;
 
     /// Largest normalised speed on the speed axis: no flight is as fast, and its square is far from overflow.
     pub const MAX_SPEED: f64 = 1.0e100;
 
-    /// A grid of impact phases in periods, within [`Self::MAX_PERIODS`] of zero, and normalised impact speeds in
-    /// [0, [`Self::MAX_SPEED`]].
+    /// A grid of impact phases in periods, within [`Self::MAX_PERIODS`] of zero, and normalised impact speeds
+    /// in [0, [`Self::MAX_SPEED`]].
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an axis that leaves these ranges.
@@ -160,12 +163,13 @@ pub struct KnownOrbit {
 read_checked!(KnownOrbit as UncheckedKnownOrbit { orbit: PeriodicOrbit, radius: f64 } => KnownOrbit::new);
 
 impl KnownOrbit {
-    /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it catches: see
-    /// [`PeriodicOrbit::trapping_radius`].
+    /// An orbit with the `radius` in radians (a radian counts as much as the speed P) within which it
+    /// catches: see [`PeriodicOrbit::trapping_radius`].
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`] would not
-    /// return, those it returns: without impacts or with too many, at rest, without a period of the platform.
+    /// [`Error::OutOfRange`] for a negative or non-finite radius; for an orbit that [`ImpactMap::refine`]
+    /// would not return, those it returns: without impacts or with too many, at rest, without a period of the
+    /// platform.
     pub fn new(orbit: PeriodicOrbit, radius: f64) -> Result<Self, Error> {
         within("attraction radius", radius, 0.0, f64::MAX, "[0, inf) (rad)")?;
         orbit.check()?;
@@ -250,7 +254,8 @@ impl Basins {
         basins.check().map(|()| basins)
     }
 
-    /// The basins of grids that lie on one another, from the slowest starts on: their rows one after the other.
+    /// The basins of grids that lie on one another, from the slowest starts on: their rows one after the
+    /// other.
     ///
     /// # Errors
     /// [`Error::Unfitting`] if their numbers of columns differ, or there are no basins; [`Error::TooLarge`]
@@ -311,11 +316,11 @@ impl Basins {
         self.labels.iter().filter(|&&own| own == label).count() as f64 / self.labels.len() as f64
     }
 
-    /// How many cells have this label, with the interval that a sample of as many starts leaves for the share.
-    /// For [`UNDECIDED`] these are the cells of which nothing is known.
+    /// How many cells have this label, with the interval that a sample of as many starts leaves for the
+    /// share. For [`UNDECIDED`] these are the cells without a known fate.
     ///
-    /// The cells of a grid are more even than a random sample: the error of the grid is about half the share of
-    /// the cells at a boundary at most, and mostly far less.
+    /// The cells of a grid are more even than a random sample: the error of the grid is about half the share
+    /// of the cells at a boundary at most, and mostly far less.
     #[must_use]
     pub fn share(&self, label: Label) -> Fraction {
         let count = self.labels.iter().filter(|&&own| own == label).count() as u64;
@@ -366,7 +371,8 @@ impl ImpactMap {
         Ok(UNDECIDED)
     }
 
-    /// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to chatter to rest.
+    /// The label that an impact in `state` decides: near a known orbit, or (complete policy) certain to
+    /// chatter to rest.
     pub(crate) fn settles(
         &self,
         state: ImpactState,
@@ -392,8 +398,8 @@ impl ImpactMap {
     /// stopped.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than [`MAX_CELLS`] cells or
-    /// than there is memory for; those of [`crate::Vibration::first_impact`].
+    /// [`Error::OutOfRange`] for more than 250 known orbits; [`Error::TooLarge`] for a grid of more than
+    /// [`MAX_CELLS`] cells or than there is memory for; those of [`crate::Vibration::first_impact`].
     pub fn basins(
         &self,
         grid: Grid,
@@ -410,7 +416,8 @@ impl ImpactMap {
 /// Impacts of known orbits that a state is compared with in about the time of a flight.
 const TARGETS_OF_FLIGHT: usize = 8;
 
-/// What a flight and the comparison of its impact with the known orbits count as for an observer.
+/// The work of a flight, and of the comparison of its impact with the known orbits, in the units of an
+/// observer.
 fn flights_of_label(known: &[KnownOrbit]) -> u64 {
     let impacts: usize = known.iter().map(|known| known.orbit.period()).sum();
     1 + (impacts / TARGETS_OF_FLIGHT) as u64

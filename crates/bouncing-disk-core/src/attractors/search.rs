@@ -23,7 +23,7 @@ use settings::AttractorSearch;
 /// Most attractors but for the disk at rest: as many as labels tell apart.
 const MOST_ATTRACTORS: usize = 250;
 
-/// What a disk does after it has come to rest on the platform.
+/// The motion of a disk after it has come to rest on the platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAfterRest"))]
@@ -54,7 +54,7 @@ impl AfterRest {
         }
     }
 
-    /// What it is made of has been checked when it was read; the number is checked by [`Attractors`].
+    /// Reading has already checked the parts; [`Attractors`] checks the number.
     const fn check(&self) -> Result<(), Error> {
         match *self {
             Self::LeadsTo(0) => {
@@ -101,12 +101,12 @@ impl Recurrence {
 pub enum AttractorKind {
     /// The disk comes to rest on the platform. Every map has such starts; maps differ in what follows.
     Rest(AfterRest),
-    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0 where there is
-    /// none, as next to a graze.
+    /// A [stable](crate::orbits::Stability) periodic orbit, and its [`PeriodicOrbit::trapping_radius`]; 0
+    /// where there is none, as next to a graze.
     Periodic(KnownOrbit),
-    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits are born: it
-    /// attracts from one side, or rounding decides whether it does. Starts approach it ever more slowly and
-    /// stay undecided in basins.
+    /// A periodic orbit with a multiplier that is 1 or -1 within rounding, as in the fold in which two orbits
+    /// are born: it attracts from one side, or rounding decides whether it does. Starts approach it ever more
+    /// slowly and stay undecided in basins.
     Marginal(PeriodicOrbit),
     /// Small perturbations grow for certain ([`Verdict::Chaotic`](crate::attractors::Verdict::Chaotic)).
     Chaotic {
@@ -171,8 +171,8 @@ impl AttractorKind {
     }
 }
 
-/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given applies to
-/// the exponent.
+/// `comes to rest for ever`, `periodic orbit: impacts 1, platform periods 1`, and so on; a precision given
+/// applies to the exponent.
 impl core::fmt::Display for AttractorKind {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let digits = formatter.precision().unwrap_or(4);
@@ -222,7 +222,8 @@ pub struct Attractor {
 /// The attractors of a map: the disk at rest, and all others that were found.
 ///
 /// Their numbers are those of [`Self::all`]: the disk at rest has 0; then come the periodic ones by impacts,
-/// platform periods and falling speed, the marginal ones in the same order, then all others as they were found.
+/// platform periods and falling speed, the marginal ones in the same order, then all others as they were
+/// found.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedAttractors"))]
@@ -239,8 +240,8 @@ read_checked!(Attractors as UncheckedAttractors {
 });
 
 impl Attractors {
-    /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there are
-    /// labels, and of no more starts than there were.
+    /// Checks what is read: the disk at rest first, then periodic ones, then all others, no more than there
+    /// are labels, and of no more starts than there were.
     fn check(&self) -> Result<(), Error> {
         let refuse = |what, found: usize, expected: usize| {
             Err(Error::Unfitting { what, found: found as u64, expected: expected as u64 })
@@ -309,8 +310,9 @@ impl Attractors {
         Fraction::new(starts.saturating_sub(ended), starts).unwrap_or_default()
     }
 
-    /// The label of the attractor with this number in [`Self::basins`]: [`ATTACHED`](crate::attractors::ATTACHED) of the
-    /// disk at rest, then from [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT) on; `None` if there is no such attractor.
+    /// The label of the attractor with this number in [`Self::basins`]:
+    /// [`ATTACHED`](crate::attractors::ATTACHED) of the disk at rest, then from
+    /// [`FIRST_ORBIT`](crate::attractors::FIRST_ORBIT) on; `None` if there is no such attractor.
     #[must_use]
     pub fn label(&self, number: usize) -> Option<Label> {
         (number < self.all.len()).then(|| label_of(number))
@@ -339,11 +341,11 @@ const fn label_of(number: usize) -> Label {
 impl ImpactMap {
     /// The attractors, found without any known orbit.
     ///
-    /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no attractor
-    /// can leave, so that no window can miss one. Each is followed until it rests, or is seen to come ever
-    /// nearer to a periodic orbit, which is then refined; of those that do neither, one is followed for
-    /// long, and others that return to the cells it has visited are on the same attractor.
-    /// Periodic orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
+    /// Starts are spread evenly over the trapping region ([`Self::impact_speed_bound_at`]), which no
+    /// attractor can leave, so that no window can miss one. Each is followed until it rests, or is seen to
+    /// come ever nearer to a periodic orbit, which is then refined; of those that do neither, one is followed
+    /// for long, and others that return to the cells it has visited are on the same attractor. Periodic
+    /// orbits are the same as in [`Self::periodic_orbits`], wherever they begin.
     ///
     /// Attracting orbits with one impact, by their closed form, and those that [`AttractorSearch::orbits`]
     /// finds are included in any case, however small their basins.

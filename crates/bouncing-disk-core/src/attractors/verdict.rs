@@ -1,5 +1,5 @@
-//! What an orbit of the impact map does for good: a verdict with its evidence, for one start or for many in
-//! lockstep.
+//! The long-term behaviour of an orbit of the impact map: a verdict with its evidence, for one start or for
+//! many in lockstep.
 
 mod display;
 mod proof;
@@ -21,7 +21,7 @@ use witness::Witness;
 /// which leave lanes empty, do not count.
 const TOGETHER: usize = 1 << 14;
 
-/// What an orbit does for good, and the evidence. Impacts and rests are judged by
+/// The long-term behaviour of an orbit, with the evidence. Impacts and rests are those of
 /// [`ChatterPolicy::Complete`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -30,8 +30,8 @@ const TOGETHER: usize = 1 << 14;
 pub enum Verdict {
     /// The orbit came so near to an attracting periodic orbit that it was seen to converge to it. The
     /// periodic orbit is a solution of [`ImpactMap::refine`] of the smallest period, with multipliers inside
-    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no impact of it chatters
-    /// to rest.
+    /// the unit circle by more than [their error](crate::orbits::PeriodicOrbit::multiplier_error), and no
+    /// impact of it chatters to rest.
     Periodic {
         /// Impacts of one period of the orbit.
         impacts: u64,
@@ -49,8 +49,8 @@ pub enum Verdict {
         /// the attached disk by [`ImpactMap::basin_label`], as the flight from a rest begins anew.
         rests: u64,
     },
-    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error of
-    /// the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
+    /// Small perturbations grow by more than neutral motion, the escape from a periodic orbit and the error
+    /// of the exponent can explain ([`LyapunovEstimate::grows`]), over enough impacts for dissipation to act
     /// ([`ImpactMap::transient_impacts`]). A finite number of impacts cannot distinguish an attractor from a
     /// longer transient.
     Chaotic {
@@ -158,7 +158,8 @@ pub enum UndecidedReason {
         platform_periods: u64,
         /// Its Floquet multipliers.
         multipliers: Multipliers,
-        /// How far they may be off ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
+        /// How far they may be off
+        /// ([`PeriodicOrbit::multiplier_error`](crate::orbits::PeriodicOrbit::multiplier_error)).
         multiplier_error: f64,
         /// One of its impacts.
         state: ImpactState,
@@ -231,7 +232,7 @@ fn check_rests(rests: u64) -> Result<(), Error> {
 }
 
 impl Verdict {
-    /// Checks what is read: what [`ImpactMap::verdict`] may find.
+    /// Checks a verdict that is read: whether [`ImpactMap::verdict`] could give it.
     fn check(&self) -> Result<(), Error> {
         match *self {
             Self::Periodic { impacts, platform_periods, multipliers, state, distance, rests, .. } => {
@@ -307,7 +308,7 @@ impl UndecidedReason {
 }
 
 impl ImpactMap {
-    /// What the orbit from `state` does for good.
+    /// The long-term behaviour of the orbit from `state`.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings};
@@ -328,9 +329,8 @@ impl ImpactMap {
     }
 }
 
-/// What the orbit of each of `starts` does for good, in their order; the orbits are advanced in lockstep,
-/// with the bits of
-/// [`ImpactMap::verdict`].
+/// The long-term behaviour of the orbit of each of `starts`, in their order. The orbits advance in lockstep,
+/// with the bits of [`ImpactMap::verdict`].
 ///
 /// The items of `observer` are the orbits. [`each_verdict`] keeps the verdicts of a stopped call.
 ///
@@ -338,7 +338,7 @@ impl ImpactMap {
 /// use bouncing_disk_core::attractors::{Verdict, VerdictSettings, verdicts};
 /// use bouncing_disk_core::{ImpactMap, ImpactState, Unobserved, Vibration};
 ///
-/// // From order to chaos: what a disk does against the forcing.
+/// // From order to chaos: the motion of a disk over the forcing.
 /// let start = ImpactState::from_normalised(1.2, 1.3)?;
 /// let starts = (0..20)
 ///     .map(|k| {

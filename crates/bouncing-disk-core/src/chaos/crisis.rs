@@ -16,7 +16,7 @@ mod tangency;
 use following::End;
 use tangency::{Pair, tangencies};
 
-/// Where a crisis is sought, and how many impacts are followed.
+/// The range of forcings in which to find a crisis, and the number of impacts to follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrisisSearch {
     restitution: f64,
@@ -77,43 +77,46 @@ pub struct Crisis {
     pub restitution: f64,
     /// Gamma of the tangency, or without one the middle of the bracket.
     pub forcing: f64,
-    /// The error of that: half of the bracket, or its part below the tangency, which bounds the crisis from
-    /// above up to the last change along the saddle and rounding.
+    /// The error of `forcing`. Without a tangency it is half of the bracket. With one it is the part of the
+    /// bracket below the tangency: the crisis cannot lie above, except by the last change of the forcing
+    /// along the saddle and by rounding.
     pub forcing_error: f64,
-    /// The values of Gamma between which the lives of orbits place the crisis. At the second an orbit came to
-    /// rest, which is certain; if the crisis lay below the first, 95 of 100 searches would have seen a rest
-    /// between them, provided that lives rise no more steeply than those measured.
+    /// The values of Gamma between which following orbits has placed the crisis. It certainly lies below the
+    /// second, at which an orbit came to rest. It lies above the first with a confidence of 95 %: otherwise
+    /// 95 of 100 searches would have seen an orbit come to rest at a forcing where this one saw none,
+    /// provided that mean survival times rise no more steeply towards the crisis than the measured ones.
     pub bracket: (f64, f64),
     /// An impact on the attractor next to the lower end of the bracket.
     pub attractor: ImpactState,
-    /// What the disk does after a rest just beyond the crisis.
+    /// The motion of the disk after a rest just beyond the crisis.
     pub after_rest: LifeAfterRest,
-    /// The tangency of manifolds that is the reason, or why none is known.
+    /// The tangency of manifolds that causes the crisis, or why none is known.
     pub tangency: Result<Tangency, NoTangency>,
 }
 
-/// What a disk does after a rest beyond a crisis, from which it always separates in the same state: at each
-/// of 16 forcings from the crisis to the upper end of its bracket, with a tangency over a sixteenth of that.
+/// The motion of a disk after a rest just beyond a crisis. It always leaves a rest in the same state, so one
+/// orbit decides for each forcing. The 16 forcings tried lie between the crisis and the upper end of its
+/// bracket; if a tangency locates the crisis, within the first sixteenth of that range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum LifeAfterRest {
-    /// At every one it rests again after at most `impacts`, far fewer than lives on the attractor last, and
-    /// so for ever: a boundary crisis, in which the attractor is lost. It is 0 where the platform never falls
-    /// away.
+    /// At every forcing it rests again after at most `impacts` impacts, far fewer than orbits survive on the
+    /// attractor, and so again after each rest: a boundary crisis, in which the attractor is lost. The number
+    /// is 0 if the platform never falls away from the disk.
     Short {
         /// Impacts from one rest to the next.
         impacts: u64,
     },
-    /// At every one it lives on for a hundredth of their mean life and 200 impacts at least, as orbits on the attractor
-    /// do, or does not rest again within the impacts that were followed: rest has become a part of the attractor, or
-    /// another attractor follows after it.
+    /// At every forcing it survives for long, as orbits on the attractor do: for more than 200 impacts and
+    /// more than a hundredth of their mean survival time, or for all the impacts that were followed. Rest has
+    /// become a part of the attractor, or the disk goes to another attractor after it.
     Long {
         /// Impacts that were followed without a rest, at least.
         impacts: u64,
     },
-    /// It depends on the forcing.
+    /// Some forcings are of the first kind, the others of the second.
     Varied {
-        /// Forcings of these 16 at which it rests again soon.
+        /// How many of the 16 forcings are of the first kind.
         short: u32,
     },
 }
@@ -180,8 +183,8 @@ pub enum NoTangency {
         /// Its last change.
         change: f64,
     },
-    /// The manifolds touch where the attractor lives on, or is gone, or no orbit near it is lost: inside the
-    /// attractor, or later than those of another saddle.
+    /// The manifolds touch inside the attractor, or at a later forcing than those of another saddle: the
+    /// attractor survives there, or is already gone, or no orbit near the tangency is lost.
     #[error("the manifolds touch at Gamma = {forcing} instead")]
     Elsewhere {
         /// Gamma of their tangency.
@@ -238,7 +241,7 @@ pub enum NoCrisis {
         /// Its largest Lyapunov exponent.
         exponent: f64,
     },
-    /// Lives do not shorten farther away: it is not a crisis.
+    /// Survival times do not shrink with the distance, so this is not a crisis.
     #[error(
         "lifetimes do not shorten beyond Gamma = {forcing}: {near:.3e} impacts next to it, {far:.3e} farther away"
     )]
@@ -260,15 +263,17 @@ pub enum NoCrisis {
     },
 }
 
-/// Impacts after a rest that make a life a long one: more than this share of the mean life, which one in a hundred
-/// lives falls short of by chance, and more than rounds from rest to rest have.
+/// A disk survives long after a rest if it makes more impacts than both of these: this share of the mean
+/// survival time, which one orbit in a hundred does not reach by chance, and a number above that of short
+/// cycles from rest to rest.
 const LONG: f64 = 0.01;
 const LONG_ROUND: u64 = 200;
 
-/// Forcings next to a crisis at which a disk is followed after a rest.
+/// Number of forcings next to a crisis at which a disk is followed after a rest.
 const FORCINGS_AFTER_REST: u32 = 16;
 
-/// How far beyond a tangency these lie, over the distance to the upper end of the bracket.
+/// How far beyond a tangency these forcings reach, as a share of the distance to the upper end of the
+/// bracket.
 const NEXT_TO: f64 = 1.0 / 16.0;
 
 impl CrisisSearch {
@@ -351,7 +356,7 @@ impl CrisisSearch {
             }
             Err(_) => (0.5 * (bracket.0 + bracket.1), 0.5 * (bracket.1 - bracket.0)),
         };
-        // A tangency says where "just beyond" is.
+        // Only a tangency locates the crisis well enough for forcings "just beyond" it.
         let next = if tangency.is_ok() { NEXT_TO } else { 1.0 };
         let beyond = forcing + next * (bracket.1 - forcing);
         Ok(Ok(Crisis {
@@ -379,7 +384,7 @@ impl CrisisSearch {
         Ok(pairs.collect())
     }
 
-    /// What follows after a rest at forcings from `low` to `high`.
+    /// The motion after a rest at forcings from `low` to `high`.
     fn after_rest(&self, end: &End, low: f64, high: f64) -> Result<LifeAfterRest, Error> {
         let limit = self.each() as u64;
         let (mut short, mut least, mut most) = (0, u64::MAX, 0);

@@ -3,12 +3,12 @@
 //! The summed duration of such a sequence is [`Accumulation`]; the other sums over its impacts (rotary
 //! impulses, losses) are in `impact_series.rs`, and the model's use of both in its `motion/chatter.rs`.
 //!
-//! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and the
-//! flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau = -b,
-//! db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
-//! coefficients (`expansion.rs`, with the bound on their error) satisfy
-//! T(tau, w) = h + T(tau + h, restitution * u), h the first flight and u its impact speed. The coefficients are
-//! derived in docs/numerics/chattering.md.
+//! Next to an impact at phase tau with a = 1 - P sin tau > 0 the disk is pulled back with acceleration a and
+//! the flights form a near-geometric sequence with ratio `restitution`. With b = P cos tau (so that da/dtau =
+//! -b, db/dtau = a - 1) the time to the accumulation point is a power series in the launch speed w whose
+//! coefficients (`expansion.rs`, with the bound on their error) satisfy T(tau, w) = h + T(tau + h,
+//! restitution * u), h the first flight and u its impact speed. The coefficients are derived in
+//! docs/numerics/chattering.md.
 
 use core::f64::consts::TAU;
 
@@ -20,8 +20,8 @@ use crate::numerics::elementary::{CREST, sin_cos_bounded};
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
 
-/// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing of
-/// doubles in [pi/2, pi].
+/// Largest error of the accumulation phase (rad) with which the complete policy is content: half the spacing
+/// of doubles in [pi/2, pi].
 const COMPLETION_ERROR: f64 = 1.0e-16;
 
 /// Only slower launches than this may end within a rounding of the phase without a series.
@@ -30,7 +30,8 @@ const LARGEST_NEGLIGIBLE_SPEED: f64 = 1.0e-30;
 /// Largest remaining chatter (rad) that is summed in closed form, so that visible bounces stay visible.
 const LONGEST_COMPLETION: f64 = 1.0e-2;
 
-/// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and rounding.
+/// Shares of its first value that the pull cannot leave in a chatter that is summed: 2/3 and 4/3, and
+/// rounding.
 const PULL_SHARES: (f64, f64) = (0.6, 1.4);
 
 /// Relative rounding of the bound in [`window_holds_every_impact`], with room to spare.
@@ -83,12 +84,13 @@ pub struct ChatterImpact {
 
 impl Vibration {
     /// The accumulation point of the chatter that follows a launch at `phase` with `speed` >= 0, or `None`
-    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad, for the pull 1 - P sin tau
-    /// that P and the carried pair give. Next to weightlessness one rounding of P or of the phase is another pull, and the
-    /// duration another one: that is the conditioning of the problem and not counted in the bound.
+    /// unless a bound shows that the disk chatters to rest and the closed form is exact to 1e-16 rad, for the
+    /// pull 1 - P sin tau that P and the carried pair give. Next to weightlessness one rounding of P or of
+    /// the phase is another pull, and the duration another one: that is the conditioning of the problem and
+    /// not counted in the bound.
     ///
-    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the phase has the
-    /// duration 0.
+    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
+    /// phase has the duration 0.
     ///
     /// `restitution` in [0, 1).
     #[must_use]
@@ -106,7 +108,8 @@ impl Vibration {
         self.accumulation_of_small(phase, speed, restitution, speed / reach)
     }
 
-    /// Cheap refusal of the ordinary impact: whether a launch is too fast for [`Self::accumulation`] to exist.
+    /// Cheap refusal of the ordinary impact: whether a launch is too fast for [`Self::accumulation`] to
+    /// exist.
     #[inline(always)]
     pub(crate) fn bounces_on(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         bounces_on(self.contact_force(phase), speed, restitution)
@@ -136,8 +139,9 @@ impl Vibration {
         Some(Accumulation { duration, error_bound, phase: Phase::of_angle(angle), turns })
     }
 
-    /// A chatter whose sum ends at the separation or behind it, as the pull that it was proven with is a rounding: the disk
-    /// rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to change the phase; else it bounces on.
+    /// A chatter whose sum ends at the separation or behind it, as the pull that it was proven with is a
+    /// rounding: the disk rests if its next flight, of 2 w/(1 - P sin tau) <= 2e-16 rad, is too short to
+    /// change the phase; else it bounces on.
     #[cold]
     fn rests_until_separation(&self, phase: Phase, speed: f64) -> Option<Accumulation> {
         (speed <= COMPLETION_ERROR * self.contact_force(phase)).then_some(Accumulation {
@@ -148,8 +152,8 @@ impl Vibration {
         })
     }
 
-    /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose chatter ends
-    /// before the phase has moved by a rounding.
+    /// A disk without relative speed is at rest at once, unless the platform falls away; and so is one whose
+    /// chatter ends before the phase has moved by a rounding.
     #[inline]
     fn at_rest(&self, phase: Phase, speed: f64, restitution: f64) -> Option<Accumulation> {
         let rests = speed <= 0.0
@@ -162,14 +166,15 @@ impl Vibration {
         })
     }
 
-    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may hop for ever where
-    /// the pull is a rounding and its flights are too short to change the phase
+    /// Whether a chatter against a growing pull lasts at most [`COMPLETION_ERROR`]: without this a disk may
+    /// hop for ever where the pull is a rounding and its flights are too short to change the phase
     /// (docs/numerics/chattering.md, "No time left").
     #[cold]
     fn ends_within_a_rounding(&self, phase: Phase, speed: f64, restitution: f64) -> bool {
         let (peak, angle) = (self.peak_acceleration(), phase.angle());
         let left = COMPLETION_ERROR * (1.0 - restitution);
-        // 1 - P sin tau from the distances to the phases where it vanishes, or to the crest: without cancellation.
+        // 1 - P sin tau from the distances to the phases where it vanishes, or to the crest: without
+        // cancellation.
         let sine_of_half = |angle: f64| sin_cos_bounded(0.5 * angle).0;
         let pull = if peak > 1.0 {
             2.0 * peak
@@ -199,11 +204,11 @@ impl Vibration {
     }
 
     /// The impacts of the chatter after a launch at `phase` with `speed`, for a sequence that
-    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first one's
-    /// impulse or are launched with less than the smallest normal number.
+    /// [`Self::accumulation`] accepts with a duration above 0, until they carry less than 1e-17 of the first
+    /// one's impulse or are launched with less than the smallest normal number.
     ///
-    /// They are computed one after the other as they are asked for, and there are 39/(1 - r) of them: next to r = 1 that
-    /// may take for ever. [`Self::chatter_series`] has every one of them, and their sums, at once.
+    /// The iterator computes them one by one, and there are 39/(1 - r) of them: next to r = 1 this may take
+    /// for ever. [`Self::chatter_series`] gives any of them, and their sums, at once.
     pub(crate) fn chatter_impacts(
         &self,
         phase: Phase,
@@ -211,17 +216,18 @@ impl Vibration {
         restitution: f64,
     ) -> impl Iterator<Item = ChatterImpact> + use<> {
         let vibration = *self;
-        // Rounding to the nearest multiple of the smallest number keeps a launch that is next to it where it is.
+        // Rounding to the nearest multiple of the smallest number keeps a launch that is next to it where it
+        // is.
         let last_speed = (speed * LAST_SHARE).max(f64::MIN_POSITIVE);
         let mut time = 0.0;
         let mut pair = (phase.sin(), phase.cos());
         let mut launch = speed;
-        // The proof of the window keeps the pull within a third of the first one; next to a separation a rounded pair may
-        // give another one, or none at all.
+        // The proof of the window keeps the pull within a third of the first one; next to a separation a
+        // rounded pair may give another one, or none at all.
         let first = self.contact_force(phase);
         let (least, most) = (PULL_SHARES.0 * first, PULL_SHARES.1 * first);
         core::iter::from_fn(move || {
-            // Not a number, too, comes to an end; nothing bounces where nothing pulls.
+            // NaN ends the sequence as well; without a pull no disk bounces.
             if !(launch > last_speed && first > 0.0) {
                 return None;
             }
@@ -243,10 +249,12 @@ pub(crate) fn bounces_on(pull: f64, speed: f64, restitution: f64) -> bool {
     (speed > LARGEST_NEGLIGIBLE_SPEED) & (speed > 0.5 * LONGEST_COMPLETION * (pull * (1.0 - restitution)))
 }
 
-/// Whether [`Vibration::accumulation`] is `None` for a launch with `speed` against `pull`, as far as that is cheap to say.
+/// A cheap test that is true only if [`Vibration::accumulation`] is `None` for a launch with `speed` against
+/// `pull`.
 ///
-/// Beside the refusals of [`bounces_on`] those of most chatters whose series is still too inaccurate: with x as in
-/// [`Expansion::error_bound`] that bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >= P.
+/// Beyond [`bounces_on`], it also refuses most chatters whose series is still too inaccurate: with x as in
+/// [`Expansion::error_bound`] that bound is at least [`MAJORANT`] (P/pull) x^5, because |P sin| + |P cos| >=
+/// P.
 #[inline(always)]
 pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f64) -> bool {
     let reach = pull * (1.0 - restitution);
@@ -257,7 +265,8 @@ pub(crate) fn surely_bounces_on(peak: f64, pull: f64, speed: f64, restitution: f
     bounces_on(pull, speed, restitution) | (inaccurate & (speed > LARGEST_NEGLIGIBLE_SPEED))
 }
 
-/// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of `leading`.
+/// Whether the impacts after a launch with `speed` against `pull` and its `drift` all fall within 3/2 of
+/// `leading`.
 #[inline(always)]
 fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f64, leading: f64) -> bool {
     let window = 1.5 * leading;
@@ -270,8 +279,9 @@ fn window_holds_all(peak: f64, pull: f64, drift: f64, speed: f64, restitution: f
     (least > 0.0) & (ratio < 1.0) & (2.0 * speed <= window * least * (1.0 - ratio))
 }
 
-/// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a (1 - r)) the
-/// condition 2 w <= window least (1 - ratio) has no speed in it, and the root is taken of a number less 1.
+/// [`window_holds_all`] where `1 - ratio` would cancel or the speed has lost digits: with the window 3 w/(a
+/// (1 - r)) the condition 2 w <= window least (1 - ratio) has no speed in it, and the root is taken of a
+/// number less 1.
 #[cold]
 fn window_holds_every_impact(pull: f64, change: f64, restitution: f64) -> bool {
     let least = pull - change;
@@ -317,7 +327,8 @@ mod tests {
         assert!(summed > 1_000 && 5 * seen > 2 * refused, "{seen} of {refused}, not of {summed}");
     }
 
-    /// One place for each of the three bounds: an ordinary pull, none that grows with the time, and none that grows with its square.
+    /// One place for each of the three bounds: an ordinary pull, none that grows with the time, and none that
+    /// grows with its square.
     #[test]
     fn what_ends_within_a_rounding_is_told_to_the_digit() {
         for restitution in [0.0, 0.5, 1.0 - 1e-6] {
@@ -348,8 +359,8 @@ mod tests {
         }
     }
 
-    /// The pull is a rounding there, and so was the proof that the disk chatters to rest before: it attached at or behind the
-    /// separation, and rested for a period on a platform that fell away.
+    /// The pull is a rounding there, and so was the proof that the disk chatters to rest before: it attached
+    /// at or behind the separation, and rested for a period on a platform that fell away.
     #[test]
     fn no_chatter_ends_behind_the_separation() {
         let (mut attached, mut at_once) = (0, 0);
@@ -378,7 +389,8 @@ mod tests {
         assert!(attached > 10_000 && at_once > 10, "{attached} {at_once}");
     }
 
-    /// Nothing pulls where the platform has just stopped to fall away: no flight follows, and the impacts had no end.
+    /// Nothing pulls where the platform has just stopped to fall away: no flight follows, and the impacts had
+    /// no end.
     #[test]
     fn impacts_come_to_an_end_where_nothing_pulls() {
         let vibration = Vibration::new(1.0).expect("legal");
@@ -388,7 +400,8 @@ mod tests {
         assert_eq!(vibration.chatter_impacts(phase, 1e-60, 0.5).count(), 0);
     }
 
-    /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the window.
+    /// Next to restitution 1, and for speeds that have no digits left, the proof that all impacts lie in the
+    /// window.
     fn window_holds_all_exactly(peak: f64, pull: f64, drift: f64, restitution: f64, x: f64) -> bool {
         type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
         let high = |x: f64| High::try_from(x).expect("finite").with_precision(500).value();
@@ -459,8 +472,8 @@ mod tests {
         assert!(held > 100 && refused > 500, "{held} {refused}");
     }
 
-    /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is summed is said
-    /// to bounce on, the sum comes before the separation, and the impacts end.
+    /// From the smallest number on, and next to separations, where the pull is a rounding: nothing that is
+    /// summed is said to bounce on, the sum comes before the separation, and the impacts end.
     #[test]
     fn the_slowest_chatters_come_to_an_end() {
         let mut summed = 0;
@@ -550,7 +563,8 @@ mod tests {
         assert!(*last <= 1e-17 && before.iter().all(|launch| *launch > 1e-17), "{launches:?}");
     }
 
-    /// A still platform makes the series exact at once: only what stays visible, a hundredth of a radian, decides there.
+    /// A still platform makes the series exact at once: only what stays visible, a hundredth of a radian,
+    /// decides there.
     #[test]
     fn visible_bounces_of_a_still_platform_are_not_summed() {
         let phase = Phase::new(1.0).expect("finite");

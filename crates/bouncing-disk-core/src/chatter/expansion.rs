@@ -1,5 +1,5 @@
-//! The expansion of a chatter in its launch speed: its flights, their sum to the fourth order, and the error bound
-//! of the sum. It is used in `accumulation.rs`.
+//! The expansion of a chatter in its launch speed: its flights, their sum to the fourth order, and the error
+//! bound of the sum. It is used in `accumulation.rs`.
 
 /// Largest expansion parameter of the series; its majorant needs it below 1/16.
 const LARGEST_EXPANSION_PARAMETER: f64 = 1.0 / 32.0;
@@ -10,8 +10,9 @@ pub(super) const MAJORANT: f64 = 32.0;
 /// Share of the first launch speed at which the impacts of a chatter are no longer counted.
 pub(super) const LAST_SHARE: f64 = 1.0e-17;
 
-/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at most 7,600 of
-/// them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of the one before.
+/// Largest restitution, and smallest launch speed, of a chatter whose impacts are gone through one by one: at
+/// most 7,600 of them, as the proof of [`window_holds_all`] leaves every launch less than 1 - (2/3)(1 - r) of
+/// the one before.
 pub(super) const LARGEST_COUNTED_RESTITUTION: f64 = 1.0 - 1.0 / 128.0;
 pub(super) const SMALLEST_COUNTED_SPEED: f64 = f64::MIN_POSITIVE / LAST_SHARE;
 
@@ -66,8 +67,8 @@ impl Expansion {
         2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * (third + x * fourth)))
     }
 
-    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or `None` if the
-    /// expansion parameter is too large for the majorant.
+    /// Bound on what [`Self::duration`] omits: a majorant of the fifth-order term and what follows it, or
+    /// `None` if the expansion parameter is too large for the majorant.
     pub(super) fn error_bound(&self, x: f64) -> Option<f64> {
         let beta = (self.drift / self.pull).abs();
         let gamma = ((self.pull - 1.0) / self.pull).abs();
@@ -84,7 +85,8 @@ impl Expansion {
 mod tests {
     use super::*;
 
-    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of doubles.
+    /// Arithmetic of 160 bits: what the expansion leaves is far above its rounding, and far below that of
+    /// doubles.
     type High = dashu_float::FBig<dashu_float::round::mode::HalfEven, 2>;
 
     fn high(x: f64) -> High {
@@ -107,7 +109,8 @@ mod tests {
         (versine, deficit)
     }
 
-    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the expansion.
+    /// A chatter followed flight by flight in high precision, from the gap itself: it knows nothing of the
+    /// expansion.
     struct Bounces {
         /// P sin and P cos of the phase of the last impact.
         sine: High,
@@ -154,7 +157,8 @@ mod tests {
         }
     }
 
-    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of both signs.
+    /// Pulls about 1 (where the platform is in the middle of its stroke), weak and strong ones, and drifts of
+    /// both signs.
     fn expansions() -> impl Iterator<Item = Expansion> {
         [
             (1.0, 0.75),
@@ -179,8 +183,8 @@ mod tests {
         1.0 + (drift / pull).abs() + ((pull - 1.0) / pull).abs().sqrt()
     }
 
-    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it. One unit
-    /// less in one coefficient would leave a sixteenth.
+    /// What a series to the fourth order leaves is of the fifth: half the speed leaves a thirty-second of it.
+    /// One unit less in one coefficient would leave a sixteenth.
     #[test]
     fn the_sum_is_exact_to_the_fourth_order() {
         for expansion in expansions() {
@@ -216,7 +220,8 @@ mod tests {
         }
     }
 
-    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to it.
+    /// The majorant holds up to the largest expansion parameter, and is not idle: what is left comes near to
+    /// it.
     #[test]
     fn the_error_bound_is_above_the_error_and_of_its_size() {
         let mut largest = 0.0_f64;

@@ -1,9 +1,10 @@
 //! A chatter in closed form: every impact, and every sum over impacts, as a power series in r^n.
 //!
 //! The accumulation point is the same from impact to impact, and near it the remaining time R has a
-//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at
-//! y = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The recurrence for the
-//! coefficients and the sums that do not cancel are derived in docs/numerics/chattering.md.
+//! coordinate y in which an impact is a multiplication: R is a power series in y, and the n-th impact is at y
+//! = r^n. A quantity of an impact is then a power series in r^n, too, and its sums are geometric. The
+//! recurrence for the coefficients and the sums that do not cancel are derived in
+//! docs/numerics/chattering.md.
 
 use crate::flight::platform::phase::Phase;
 use crate::flight::platform::vibration::Vibration;
@@ -11,22 +12,26 @@ use crate::numerics::elementary::{exp, exp_m1, ln, ln_1p, sin_cos_bounded};
 
 use super::expansion::{Expansion, LARGEST_COUNTED_RESTITUTION, LAST_SHARE, SMALLEST_COUNTED_SPEED};
 
-/// Order of the power series. The longest chatter is 0.01 rad: what is left out of a sine is below 1e-17 of it.
+/// Order of the power series. The longest chatter lasts 0.01 rad, so the omitted terms of a sine are below
+/// 1e-17 of it.
 const ORDER: usize = 6;
 
 /// Newton steps towards the scale of y; the first guess is off by a thirtieth.
 const SCALE_STEPS: u32 = 6;
 
-/// Steps of a bracketed Newton iteration; bisection alone needs this many down to a share of 1e-16 and 50 bits of it.
+/// Steps of a bracketed Newton iteration; bisection alone needs this many down to a share of 1e-16 and 50
+/// bits of it.
 const ROOT_STEPS: u32 = 110;
 
 /// Relative size of the last step of that iteration: the index that it gives is checked.
 const LAST_STEP: f64 = 1.0e-15;
 
-/// Impacts by which rounding may put an index off; where more than 2^53 are counted, they differ by less than rounding.
+/// Impacts by which rounding may put an index off; where more than 2^53 are counted, they differ by less than
+/// rounding.
 const INDEX_STEPS: u32 = 2;
 
-/// A power series in y = r^n, n the number of impacts since the start of a chatter, truncated at the sixth order.
+/// A power series in y = r^n, n the number of impacts since the start of a chatter, truncated at the sixth
+/// order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PowerSeries([f64; ORDER + 1]);
 
@@ -111,9 +116,9 @@ fn powers(x: f64) -> [f64; 2 * ORDER + 1] {
 
 /// A chattering sequence in closed form: see [`crate::ImpactMap::chatter_series`].
 ///
-/// Its impacts are numbered from 1; number 0 is the launch that it starts from. The flight that ends with impact n + 1
-/// and what this impact does are power series in r^n. All contain the factor 1 - r, which is left out of the
-/// coefficients so that they do not vanish near r = 1: such a series gives a quantity per 1 - r.
+/// Its impacts are numbered from 1; number 0 is the launch from which it starts. The flight that ends with
+/// impact n + 1, and the effects of this impact, are power series in r^n. All contain the factor 1 - r. The
+/// coefficients omit it, so that they do not vanish near r = 1: such a series gives a quantity per 1 - r.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ChatterSeries {
     restitution: f64,
@@ -136,8 +141,8 @@ impl Vibration {
     pub(crate) fn chatter_series(&self, phase: Phase, speed: f64, restitution: f64) -> ChatterSeries {
         let (pull, drift) = (self.contact_force(phase), self.velocity(phase));
         let duration = Expansion { pull, drift, restitution }.duration(speed);
-        // Pull and drift at the accumulation point, from those at the start: next to a separation the pull of a rounded
-        // phase would be another one.
+        // Pull and drift at the accumulation point, from those at the start: next to a separation the pull of
+        // a rounded phase would be another one.
         let (sin, cos) = sin_cos_bounded(duration);
         let sin_half = sin_cos_bounded(0.5 * duration).0;
         let last_pull = pull - (drift * sin - (1.0 - pull) * (2.0 * sin_half * sin_half));
@@ -170,15 +175,16 @@ impl Vibration {
     }
 }
 
-/// The pull a time R before the accumulation point relative to the pull there, as a power series in R over `unit`:
-/// 1 - P sin(s - R) with a = 1 - P sin s and b = P cos s is a + b sin R + (1 - a)(1 - cos R).
+/// The pull a time R before the accumulation point relative to the pull there, as a power series in R over
+/// `unit`: 1 - P sin(s - R) with a = 1 - P sin s and b = P cos s is a + b sin R + (1 - a)(1 - cos R).
 fn forces(pull: f64, drift: f64, unit: f64) -> [f64; ORDER] {
     let (odd, even) = (drift * unit / pull, (1.0 - pull) * unit / pull * unit);
     let square = unit * unit;
     [1.0, odd, even / 2.0, -odd * square / 6.0, -even * square / 24.0, odd * square * square / 120.0]
 }
 
-/// The path of a chatter in units of its duration and of the pull at the accumulation point, not yet scaled in y.
+/// The path of a chatter in units of its duration and of the pull at the accumulation point, not yet scaled
+/// in y.
 struct Shape<'a> {
     sums: &'a [f64; 2 * ORDER + 1],
     squares: [f64; 2 * ORDER + 1],
@@ -208,8 +214,8 @@ impl<'a> Shape<'a> {
         self.remaining.weighted(|k| self.sums[k])
     }
 
-    /// The sum of `forces` times the mean over a flight of R^k, weighted with the share of the flight to one end:
-    /// `near` that end, `far` from the other.
+    /// The sum of `forces` times the mean over a flight of R^k, weighted with the share of the flight to one
+    /// end: `near` that end, `far` from the other.
     fn mean(&self, far: impl Fn(usize) -> PowerSeries, near: impl Fn(usize) -> PowerSeries) -> PowerSeries {
         let (far, near): ([PowerSeries; ORDER], [PowerSeries; ORDER]) =
             (core::array::from_fn(far), core::array::from_fn(near));
@@ -234,8 +240,8 @@ impl<'a> Shape<'a> {
         self.power(k).weighted(|order| ratios[order])
     }
 
-    /// At an impact: the mean that gives the speed of the launch after it, and by how much the one that gives the speed
-    /// before it is larger, per 1 - r.
+    /// At an impact: the mean that gives the speed of the launch after it, and by how much the one that gives
+    /// the speed before it is larger, per 1 - r.
     fn means_at_impact(&self) -> (PowerSeries, PowerSeries) {
         let after =
             self.mean(|k| self.next_power(k), |k| self.power(k).weighted(|order| self.squares[order]));
@@ -315,7 +321,8 @@ impl ChatterSeries {
         series.weighted(|k| self.sums[k])
     }
 
-    /// The sum over all impacts from n + 1 on of a quantity that is given per 1 - r: undoes [`Self::per_flight`].
+    /// The sum over all impacts from n + 1 on of a quantity that is given per 1 - r: undoes
+    /// [`Self::per_flight`].
     #[must_use]
     pub fn summed(&self, series: &PowerSeries) -> PowerSeries {
         series.weighted(|k| if k > 0 { 1.0 / self.sums[k] } else { 0.0 })
@@ -359,7 +366,8 @@ impl ChatterSeries {
         (ln(last) / self.rate).ceil() as u64
     }
 
-    /// The number of impacts up to `time` (rad) after the start, or `None` if that is not before the accumulation point.
+    /// The number of impacts up to `time` (rad) after the start, or `None` if that is not before the
+    /// accumulation point.
     #[must_use]
     pub fn impacts_by(&self, time: f64) -> Option<u64> {
         if time >= self.duration {
@@ -393,8 +401,8 @@ impl ChatterSeries {
         Some(impacts)
     }
 
-    /// The first n >= `from` at which `start` less the fall of `series` from impact `from` to impact n is
-    /// negative.
+    /// The first impact n >= `from` at which `start`, less the decrease of `series` from impact `from` to
+    /// impact n, is negative.
     #[must_use]
     pub fn first_negative(&self, from: u64, start: f64, series: &PowerSeries) -> Option<u64> {
         if start < 0.0 {
@@ -417,7 +425,8 @@ impl ChatterSeries {
                     later -= 1;
                 }
             }
-            // A negative stretch between two impacts is one that no impact sees.
+            // The continuous path may be negative only between two impacts, and positive at both: then the
+            // next negative stretch decides.
             (self.share_after(later).1 <= end || is_negative(later)).then(|| from.saturating_add(later))
         })
     }

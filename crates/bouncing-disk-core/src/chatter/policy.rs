@@ -43,8 +43,8 @@ const fn out_of_range(field: &'static str, value: f64, legal: &'static str) -> R
 }
 
 impl ChatterCut {
-    /// A cut below the normalised impact speed `smallest_speed` = |w_A Gamma/(omega A)| >= 0, or after `short_flights` >= 1
-    /// consecutive flights shorter than `short_flight` >= 0 periods of the platform.
+    /// A cut below the normalised impact speed `smallest_speed` = |w_A Gamma/(omega A)| >= 0, or after
+    /// `short_flights` >= 1 consecutive flights shorter than `short_flight` >= 0 periods of the platform.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number outside its range.
@@ -79,8 +79,9 @@ impl ChatterCut {
         self.short_flights
     }
 
-    /// Whether a flight of this duration (rad), taken from two phases and a count of periods, is so near to a short one that
-    /// its rounding may decide. That rounding is far smaller, so that the flight is nearly never computed again.
+    /// Whether a flight of this duration (rad), taken from two phases and a count of periods, is so near to a
+    /// short one that its rounding may decide. That rounding is far smaller, so that the flight is nearly
+    /// never computed again.
     #[inline(always)]
     pub(crate) fn may_hang_on(&self, duration: f64) -> bool {
         let threshold = self.short_flight * TAU;
@@ -125,7 +126,8 @@ pub(crate) const PAPER_POLICY: ChatterPolicy = ChatterPolicy::Cut(PAPER_CUT);
 mod tests {
     use super::*;
 
-    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed *below* 1e-6.
+    /// The paper's cut (Sec. IV A): the twentieth consecutive flight *shorter* than 1e-4 periods, or a speed
+    /// *below* 1e-6.
     #[test]
     fn the_cut_of_the_paper_is_where_the_paper_says() {
         let (short, fast) = (1e-4 * TAU, 1e-6 * PI);

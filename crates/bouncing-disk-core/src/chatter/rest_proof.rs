@@ -1,9 +1,12 @@
-//! Rest foreseen: a closed-form proof that a disk will chatter to rest before the platform falls away from it.
+//! A closed-form proof, long before a disk rests, that it will chatter to rest before the platform falls
+//! away.
 //!
-//! The pull on a disk on the platform is a = 1 - P sin tau. It grows from pi/2 to 3 pi/2 and shrinks from there to the
-//! separation, where it is zero (P > 1) or least. G, the integral of the pull from a phase to the next separation, is the
-//! impulse that is left to stop the disk. A launch is certain to end at rest if its speed is below a share of
-//! G that the next launch again satisfies (docs/numerics/chattering.md, "The proof of rest").
+//! The pull of the platform on a disk next to it is a = 1 - P sin tau. From the crest (tau = pi/2) it grows
+//! until the lowest point (3 pi/2), then it shrinks, for P > 1 to zero at the separation, for P <= 1 to its
+//! least value at the next crest. Let G be the integral of the pull from the launch to that place: the
+//! impulse that is left to stop the disk. The proof shows for a certain share k of G: if a launch is slower
+//! than k G, so is the next one, with its own, smaller G. All later launches are then too slow to outlast the
+//! pull, and the disk comes to rest (docs/numerics/chattering.md, "The proof of rest").
 
 use core::f64::consts::{PI, TAU};
 
@@ -19,7 +22,7 @@ const SEPARATION_ROUNDING: f64 = 2.0e-16;
 /// Share by which a launch must be slower than the exact bounds: far more than their relative rounding.
 const SLACK: f64 = 1.0e-12;
 
-/// What the proof needs of a platform and a coefficient of restitution.
+/// The numbers that the proof takes from a platform and a coefficient of restitution.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RestProof {
     peak: f64,
@@ -30,7 +33,8 @@ pub(crate) struct RestProof {
     restitution: f64,
     /// 1 - r, made smaller by the slack.
     loss: f64,
-    /// Whether every disk comes to rest: each flight returns less speed than it got however the pull changes.
+    /// Whether every disk comes to rest, because a flight returns less speed than it got however the pull
+    /// changes.
     always: bool,
 }
 
@@ -54,14 +58,15 @@ impl RestProof {
         }
     }
 
-    /// Whether a launch with relative `speed` > 0 at a phase with this angle in [0, 2 pi) and pair is certain to be followed by
-    /// rest. Without branches: lanes use it, too.
+    /// Whether a launch with relative `speed` > 0 at a phase with this angle in [0, 2 pi), sine and cosine is
+    /// certain to lead to rest. The code has no branches, because lanes use it, too.
     #[inline(always)]
     pub(crate) fn is_certain(&self, angle: f64, sin: f64, cos: f64, speed: f64) -> bool {
         let (peak, loss) = (self.peak, self.loss);
         let drift = peak * cos;
         let pull = (1.0 - peak * sin) - PULL_ROUNDING * (1.0 + peak);
-        // The quadrant decides, not the sign of what is left: at the separation itself that is nothing, not a whole turn.
+        // The quadrant decides, not the sign of the remaining angle: at the separation itself the angle is
+        // zero, not a whole turn.
         let ahead = self.separation_angle - angle;
         let until_separation = if (cos >= 0.0) & (angle < PI) { ahead } else { ahead + TAU };
         let impulse = (until_separation + (self.separation_speed - drift)) - self.impulse_rounding;
@@ -84,8 +89,8 @@ impl RestProof {
 }
 
 impl Vibration {
-    /// Whether a disk that leaves the platform at `phase` with relative `speed` >= 0 is certain to chatter to rest
-    /// before the platform falls away: proven long before [`Self::accumulation`] can say where.
+    /// Whether a disk that leaves the platform at `phase` with relative `speed` >= 0 is certain to chatter to
+    /// rest before the platform falls away: proven long before [`Self::accumulation`] can say where.
     ///
     /// `restitution` in [0, 1).
     #[must_use]
@@ -144,7 +149,8 @@ mod tests {
             };
             let map = ImpactMap::new(Vibration::new(peak).expect("legal"), restitution).expect("legal");
             let phase = Phase::new(TAU * spread(k, 0.618_034)).expect("finite");
-            // From far below the impulse that is left to a share of it at which some come to rest and some do not.
+            // From far below the impulse that is left to a share of it at which some come to rest and some do
+            // not.
             let scale = 0.5 * (1.0 - restitution) * (1.0 + peak);
             let speed = scale * libm::exp10(-3.0 + 3.5 * spread(k, 0.137));
             let proven = map.vibration().chatters_to_rest(phase, speed, restitution);
@@ -195,8 +201,8 @@ mod tests {
         fastest
     }
 
-    /// Whether a disk chatters to rest under a pull 1 - t that shrinks to nothing at t = 1, launched at t = 0: the map in
-    /// closed form, w h - (1 - t) h^2/2 + h^3/6 = 0.
+    /// Whether a disk chatters to rest under a pull 1 - t that shrinks to nothing at t = 1, launched at t =
+    /// 0: the map in closed form, w h - (1 - t) h^2/2 + h^3/6 = 0.
     fn rests_under_a_linear_pull(mut speed: f64, restitution: f64) -> bool {
         let mut left = 1.0;
         while speed > 1.0e-30 {
@@ -214,7 +220,8 @@ mod tests {
         true
     }
 
-    /// Where a launch just comes to rest before the separation, against the fastest one that the proof accepts.
+    /// Where a launch just comes to rest before the separation, against the fastest one that the proof
+    /// accepts.
     #[test]
     fn the_proof_is_nearly_sharp_where_the_pull_shrinks() {
         let (forcing, restitution) = (0.5, 0.5);
@@ -236,8 +243,8 @@ mod tests {
             assert!(proven <= limit, "{angle}: {proven} {limit}");
             proven / limit
         };
-        // Farther away it bends. How much that changes the limit is not derived: measured are a hundredth or two of it, and next
-        // to the separation less than a thousandth.
+        // Farther away it bends. How much that changes the limit is not derived: measured are a hundredth or
+        // two of it, and next to the separation less than a thousandth.
         const BENT: f64 = 0.02;
         let separation = map.vibration().separation_phase().expect("separates");
         for angle in [4.8, 5.2, 5.6, 6.0, 0.1, 0.4, 0.6] {
@@ -262,7 +269,8 @@ mod tests {
         }
     }
 
-    /// The disk ends on an orbit of one impact a period: at the crest the pull is weakest, and nothing is left of its shrinking.
+    /// The disk ends on an orbit of one impact a period: at the crest the pull is weakest, and nothing is
+    /// left of its shrinking.
     #[test]
     fn nothing_is_proven_at_the_crest_by_the_turn_to_come() {
         let map = ImpactMap::new(Vibration::new(0.98788).expect("legal"), 0.92417).expect("legal");

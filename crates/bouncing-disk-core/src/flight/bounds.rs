@@ -3,14 +3,14 @@
 use crate::flight::gap::{CrestForm, SHORT_FLIGHT};
 use crate::flight::platform::vibration::CLEAR;
 
-/// T^2/6, rounded down, and T^3/24, rounded up by more than what the former may lack, for the half radian T of
-/// [`SHORT_FLIGHT`]: the shares of the drift P cos and of P in the gap over its time.
+/// T^2/6, rounded down, and T^3/24, rounded up by more than what the former may lack, for the half radian T
+/// of [`SHORT_FLIGHT`]: the shares of the drift P cos and of P in the gap over its time.
 const DRIFT_SHARE: f64 = 0.0416;
 const BEND_SHARE: f64 = 0.0053;
 
-/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is missed: over half
-/// a radian the pull is at most its value at launch, less its drift, plus the curvature of the platform
-/// (docs/numerics/lockstep.md, "Tests that are certain when they answer").
+/// Whether a launch may land within [`SHORT_FLIGHT`], given P sin and P cos at launch. None that lands is
+/// missed: over half a radian the pull is at most its value at launch, less its drift, plus the curvature of
+/// the platform (docs/numerics/lockstep.md, "Tests that are certain when they answer").
 #[inline(always)]
 pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> bool {
     let pull = 1.0 - sine;
@@ -21,7 +21,8 @@ pub(crate) fn may_return_soon(peak: f64, sine: f64, cosine: f64, speed: f64) -> 
     speed < (if late > early { late } else { early }) + BEND_SHARE * peak
 }
 
-/// The speed, negative, with which a disk comes down to the height of the crests; not a number where it stays below.
+/// The speed, negative, with which a disk comes down to the height of the crests; not a number where it stays
+/// below.
 ///
 /// `disk_speed` is that at launch, from `depth` below the crests.
 #[inline(always)]
@@ -29,11 +30,11 @@ pub(crate) fn arc_speed(disk_speed: f64, depth: f64) -> f64 {
     -(disk_speed * disk_speed - 2.0 * depth).sqrt()
 }
 
-/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them: for certain,
-/// though others may, too.
+/// Whether a launch clears inflection and crest, given as times and gaps there, without a dip between them:
+/// for certain, though others may, too.
 ///
-/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive even where the
-/// tangents at both ends meet, below which a convex function cannot lie.
+/// The gap is convex between the two. It has no dip if it falls or rises all the way, or if it is positive
+/// even where the tangents at both ends meet, below which a convex function cannot lie.
 #[inline(always)]
 pub(crate) fn clears_by_tangents(
     peak: f64,
@@ -107,8 +108,8 @@ mod tests {
         assert!(short > 10_000 && spared > 10_000, "{short} {spared}");
     }
 
-    /// Launches of all phases and speeds: none that is certain to clear the first crest touches the platform before it, unless
-    /// within half a radian; and most of those that clear it are certain.
+    /// Launches of all phases and speeds: none that is certain to clear the first crest touches the platform
+    /// before it, unless within half a radian; and most of those that clear it are certain.
     #[test]
     fn a_crest_that_is_surely_cleared_is_cleared() {
         let (mut certain, mut hit, mut doubtful) = (0, 0, 0);

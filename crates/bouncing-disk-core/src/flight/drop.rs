@@ -6,8 +6,9 @@
 //! gap(t) = gap_0 + v t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]
 //! ```
 //!
-//! whose terms are accurate relative to themselves: neither a gap far below the rounding of P nor a velocity far above the
-//! platform's cancels in it. A disk that is above the crests for longer is followed from where it comes down to them.
+//! whose terms are accurate relative to themselves: neither a gap far below the rounding of P nor a velocity
+//! far above the platform's cancels in it. A disk that is above the crests for longer is followed from where
+//! it comes down to them.
 
 use core::f64::consts::{PI, TAU};
 
@@ -26,19 +27,19 @@ const LARGEST_GAP: f64 = 1.0e17;
 /// Largest velocity accepted, in units of g/omega.
 const LARGEST_VELOCITY: f64 = 1.0e9;
 
-/// Relative size of the last Newton step of the search: what it leaves is of the order of its square.
+/// Relative size of the last Newton step of the search: the remaining error is of the order of its square.
 const LAST_STEP: f64 = 1.0e-9;
 
-/// Relative distance from the lowest point of the gap at which a dip counts as found: the gap there is higher by that
-/// number's square at most, relative to the terms it is formed from.
+/// Relative distance from the lowest point of the gap at which a dip counts as found: the gap there is higher
+/// by that number's square at most, relative to the terms it is formed from.
 const DIP_ACCURACY: f64 = 1.0e-9;
 
-/// A disk that falls at least this fast meets a platform nearer than [`BRIEFEST`] rad with that velocity, to all digits: there is
-/// no time for a pull of up to 1e8 to change it.
+/// A disk that falls at least this fast meets a platform nearer than [`BRIEFEST`] rad with that velocity, to
+/// all digits: there is no time for a pull of up to 1e8 to change it.
 const SLOWEST_BRIEF: f64 = 1.0e-200;
 
-/// Evaluations after which the search bisects the logarithm of the time, and after which it reports an error: from there on
-/// bisection needs some 75.
+/// Evaluations after which the search bisects the logarithm of the time, and after which it reports an error:
+/// from there on bisection needs some 75.
 const PATIENCE: u32 = 40;
 const MAX_EVALUATIONS: u32 = 200;
 
@@ -64,8 +65,8 @@ impl Vibration {
     /// units of g/omega^2) and moves with `relative_velocity` in [-1e9, 1e9] (disk minus platform, units of
     /// g/omega, of either sign).
     ///
-    /// The guarantee is that of [`Self::first_impact`]; here the first piece may be convex and entered falling. A short
-    /// flight has relative accuracy, however small the gap or fast the disk.
+    /// The guarantee is that of [`Self::first_impact`]; here the first piece may be convex and entered
+    /// falling. A short flight has relative accuracy, however small the gap or fast the disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a gap or a velocity outside these ranges;
@@ -95,8 +96,8 @@ impl Vibration {
         let form = DropForm::new(p, phase, gap, velocity);
         let disk_speed = velocity + p * phase.cos();
         let depth = (p - p * phase.sin()) - gap;
-        // Speed with which the disk comes down to the height of the crests, and when, as the root that does not cancel; where it
-        // does not reach that height, when it is highest.
+        // Speed with which the disk comes down to the height of the crests, and when, as the root that does
+        // not cancel; where it does not reach that height, when it is highest.
         let radicand = disk_speed * disk_speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         let free = if disk_speed > 0.0 { disk_speed + fall } else { -2.0 * depth / (fall - disk_speed) };
@@ -125,7 +126,8 @@ impl Vibration {
         if crest > time { crest } else { crest + TAU }
     }
 
-    /// The window of the first root up to the crest, piece by piece of constant curvature; `None` if the disk clears it.
+    /// The window of the first root up to the crest, piece by piece of constant curvature; `None` if the disk
+    /// clears it.
     fn bracket_of_drop(&self, form: &DropForm, crest: f64, evaluations: &mut u32) -> Option<Bracket> {
         let angle = form.phase.angle();
         let mut convex = self.falls_away_at(angle);
@@ -205,7 +207,8 @@ impl DropForm {
         }
     }
 
-    /// The root in a bracket that holds exactly one, the gap falling through it, and the relative velocity there.
+    /// The root in a bracket that holds exactly one, the gap falling through it, and the relative velocity
+    /// there.
     fn root(&self, mut bracket: Bracket, evaluations: &mut u32) -> Result<(f64, f64), Error> {
         let before = *evaluations;
         let guess = self.guess();
@@ -241,8 +244,9 @@ impl DropForm {
         }
     }
 
-    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: the slope must change from negative to positive, and
-    /// but for rounding the piece be convex. As [`GapForm::dip`], relative to the time since the start.
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None`: the slope must change from negative
+    /// to positive, and but for rounding the piece be convex. As [`GapForm::dip`], relative to the time since
+    /// the start.
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let before = *evaluations;
         // Where the curvature at the start stops the disk.

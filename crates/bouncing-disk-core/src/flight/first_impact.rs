@@ -1,23 +1,25 @@
 //! The first impact of a flight: Eq. (11), with the guarantee that no earlier one is missed.
 //!
-//! In units of 1/omega and g/omega^2 a disk that leaves the platform at phase tau with relative speed w is above
-//! it by
+//! In units of 1/omega and g/omega^2 a disk that leaves the platform at phase tau with relative speed w is
+//! above it by
 //!
 //! ```text
 //! gap(h) = w h - h^2/2 + P [h cos tau + sin tau - sin(tau + h)]
 //! ```
 //!
-//! Three facts make the first zero h > 0 certain and its cost independent of the length of the flight (proofs in
-//! docs/numerics/solver.md):
+//! Three facts make the first zero h > 0 certain and its cost independent of the length of the flight (proofs
+//! in docs/numerics/solver.md):
 //!
 //! 1. *One crest decides.* A disk below a crest of the platform (phase pi/2) is hit by that crest at the
 //!    latest. So the impact lies before the first crest after the launch that rises above the disk, or,
 //!    if the disk rises above the crests, before the first crest after it has come down to their height, a
 //!    moment known in closed form. Either window is shorter than one period.
-//! 2. *The curvature of the gap, P sin(tau + h) - 1, changes sign at two phases known in closed form.* A window
-//!    has at most three pieces of constant curvature; a concave piece that starts above zero has a root only if
-//!    it ends below, and then one; a convex piece can only be entered and left again through one minimum.
-//! 3. *gap(h)/h is regular*, so the launch itself is divided out and flights of any brevity have relative accuracy.
+//! 2. *The curvature of the gap, P sin(tau + h) - 1, changes sign at two phases known in closed form.* A
+//!    window has at most three pieces of constant curvature; a concave piece that starts above zero has a
+//!    root only if it ends below, and then one; a convex piece can only be entered and left again through one
+//!    minimum.
+//! 3. *gap(h)/h is regular*, so the launch itself is divided out and flights of any brevity have relative
+//!    accuracy.
 
 use core::f64::consts::{PI, TAU};
 
@@ -89,11 +91,11 @@ impl Vibration {
         self.impact_from_above(angle, disk_speed, depth, speed, evaluations)
     }
 
-    /// The window of the first root of a launch before the crest, where it is not plain that there is none, and
-    /// where to start the search in it.
+    /// The window of a possible first root before the crest, and a place in it to start the search; `None` if
+    /// there is certainly no root.
     ///
-    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs. The sign
-    /// of a gap is taken from the crest form where that is beyond doubt, else from the launch form.
+    /// Everything within [`SHORT_FLIGHT`] has been decided already, in the relative accuracy that it needs.
+    /// The sign of a gap is taken from the crest form where that is beyond doubt, else from the launch form.
     #[inline(never)]
     pub(crate) fn bracket_before_crest_of_launch(
         &self,
@@ -124,8 +126,8 @@ impl Vibration {
             low.gap(t) <= 0.0
         };
         if inflection > SHORT_FLIGHT && has_passed(self.separation_depth, inflection) {
-            // The parabola of the launch; where it leads out of the window, the end, from which a concave gap is
-            // approached without overshooting.
+            // The parabola of the launch; where it leads out of the window, the end, from which a concave gap
+            // is approached without overshooting.
             let parabola = 2.0 * low.speed / (1.0 - low.sine);
             let inside = parabola > SHORT_FLIGHT && parabola < inflection;
             return Some((
@@ -159,8 +161,8 @@ impl Vibration {
         self.impact_after_arc(angle, (disk_speed + fall, fall), speed, evaluations)
     }
 
-    /// The impact of a disk that comes down to the height of the crests with the speed `fall` at the time `free` after
-    /// `angle`; `speed` is only for the error.
+    /// The impact of a disk that comes down to the height of the crests with the speed `fall` at the time
+    /// `free` after `angle`; `speed` is only for the error.
     #[inline(always)]
     pub(crate) fn impact_after_arc(
         &self,
@@ -261,12 +263,13 @@ pub(crate) fn turned_by(from: Phase, h: f64) -> (Phase, u64) {
     (Phase::from_parts(wrapped, s + (c * sin_h - s * versine), c - (s * sin_h + c * versine)), turns)
 }
 
-/// Where the platform falls away from a disk at rest with less acceleration than this share of 1 + P, that acceleration is
-/// not taken from 1 - P sin tau, most of which is then rounding.
+/// Where the platform falls away from a disk at rest with less acceleration than this share of 1 + P, that
+/// acceleration is not taken from 1 - P sin tau, most of which is then rounding.
 const DOUBTFUL_PULL: f64 = 1.0e-13;
 
 impl Vibration {
-    /// [`Self::short_flight`] from rest, or of a launch that may be [brief](is_brief), where the search cannot find it.
+    /// [`Self::short_flight`] from rest, or of a launch that may be [brief](is_brief), where the search
+    /// cannot find it.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] from rest where the platform does not fall away.
@@ -282,7 +285,7 @@ impl Vibration {
             }
             self.brief_flight_from_rest(from)
         } else if !away && is_brief(speed, pull) {
-            // The smallest of doubles is as near to no duration as there is.
+            // The smallest double stands for a duration of zero.
             let h = (2.0 * speed / pull).max(f64::from_bits(1));
             let (phase, turns) = turned_by(*from, h);
             Some(Impact { periods: 0, remainder: h, turns, phase, velocity: -speed, evaluations: 0 })
@@ -295,9 +298,10 @@ impl Vibration {
         }
     }
 
-    /// The impact of a flight from rest that starts while the platform has nearly stopped to fall away: the acceleration
-    /// c0 = P sin tau - 1 with which it does is then smaller than the rounding of that difference, and is taken from the
-    /// distances to the two phases where it vanishes. `None` for all other launches.
+    /// The impact of a flight from rest that starts while the platform has nearly stopped to fall away: the
+    /// acceleration c0 = P sin tau - 1 with which it does is then smaller than the rounding of that
+    /// difference, and is taken from the distances to the two phases where it vanishes. `None` for all other
+    /// launches.
     ///
     /// Over so short a flight the acceleration is c0 + c1 h - h^2/2, c1 = P cos tau, which integrates to
     /// gap = h^2 (c0/2 + c1 h/6 - h^2/24) (docs/numerics/solver.md, "Brief flights").
@@ -322,8 +326,8 @@ impl Vibration {
         Some(Impact { periods: 0, remainder: h, turns, phase, velocity, evaluations: 0 })
     }
 
-    /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex while the
-    /// platform falls `away`, else concave; the first piece reaches to `end`.
+    /// The window of the first root within [`SHORT_FLIGHT`], piece by piece of constant curvature: convex
+    /// while the platform falls `away`, else concave; the first piece reaches to `end`.
     fn short_bracket(
         &self,
         flight: &ShortForm,
@@ -359,10 +363,12 @@ impl Vibration {
 
 #[cfg(debug_assertions)]
 impl Vibration {
-    /// Asserts that the `duration` of a flight is what the velocities at its ends say: a disk in free flight loses one unit
-    /// of speed a radian, whatever the phases are (docs/numerics/solver.md, "The clock"). Debug builds only.
+    /// Asserts that the `duration` of a flight is what the velocities at its ends say: a disk in free flight
+    /// loses one unit of speed a radian, whatever the phases are (docs/numerics/solver.md, "The clock").
+    /// Debug builds only.
     ///
-    /// An impact without velocity is a graze, whose slope is known to half of the digits only: it says nothing.
+    /// An impact without velocity is a graze, whose slope is known to half of the digits only: it says
+    /// nothing.
     pub(crate) fn assert_clock(
         &self,
         from: Phase,
@@ -386,8 +392,9 @@ impl Vibration {
     }
 }
 
-/// Bound on the rounding of both sides of the law that `Vibration::assert_clock` states, relative to what they are computed
-/// from: some forty roundoffs, of which phases, speeds and their difference take some ten. A period is 2 pi.
+/// Bound on the rounding of both sides of the law that `Vibration::assert_clock` states, relative to what
+/// they are computed from: some forty roundoffs, of which phases, speeds and their difference take some ten.
+/// A period is 2 pi.
 #[cfg(debug_assertions)]
 const CLOCK_ROUNDING: f64 = 1.0e-14;
 
@@ -398,8 +405,8 @@ pub(crate) fn landed_within_a_turn(angle: f64, root: Root) -> Impact {
     impact
 }
 
-/// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than a launch at
-/// `angle` would put it.
+/// The impact of an arc whose reference is `start`, in [-pi, 3 pi), `periods` whole periods later than a
+/// launch at `angle` would put it.
 #[inline(always)]
 pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact {
     let (wrapped, turns) = impact_phase(start + root.time);
@@ -433,7 +440,8 @@ pub(crate) fn landed(angle: f64, start: f64, periods: f64, root: Root) -> Impact
 mod tests {
     use super::*;
 
-    /// It is above the platform nowhere else on the way, so that the crest is the first impact whatever window holds it.
+    /// It is above the platform nowhere else on the way, so that the crest is the first impact whatever
+    /// window holds it.
     #[test]
     fn a_disk_that_comes_down_to_the_crest_at_the_crest_lands_there() {
         for (peak, fall) in [(0.5, 1e-9), (3.0, 0.5), (3.0, 4.0), (200.0, 40.0)] {

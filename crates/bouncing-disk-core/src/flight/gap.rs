@@ -1,5 +1,5 @@
-//! The gap between disk and platform in three forms, each without cancellation where it is used, and the search
-//! of a root that is known to be the only one in its window.
+//! The gap between disk and platform in three forms, each without cancellation where it is used, and the
+//! search of a root that is known to be the only one in its window.
 
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{
@@ -10,11 +10,11 @@ use crate::numerics::error::Error;
 /// Flights up to this long (rad) are solved through the series of gap(h)/h; longer ones through the pair.
 pub(crate) const SHORT_FLIGHT: f64 = 0.5;
 
-/// Bounds the last step (rad) times one plus its relative curvature: what the sixth-order series reversal leaves
-/// is below twice the seventh power, 4e-17 rad.
+/// Bounds the last step (rad) times one plus its relative curvature. The error of the sixth-order series
+/// reversal is then below twice the seventh power, 4e-17 rad.
 const LAST_STEP: f64 = 4.0e-3;
 
-/// Relative size of the last Newton step on gap/h: what it leaves is its square.
+/// Relative size of the last Newton step on gap/h: the remaining error is its square.
 const LAST_SHORT_STEP: f64 = 1.0e-9;
 
 /// Evaluations after which the search reports [`Error::NoConvergence`]; bisection alone needs about 60.
@@ -23,12 +23,12 @@ const MAX_EVALUATIONS: u32 = 200;
 /// Evaluations after which a search may be a graze, where the gap is flat and series do not converge.
 const PATIENCE: u32 = 8;
 
-/// A flight this brief (rad) or briefer is 2 w/(1 - P sin tau) long, to all digits: the terms of a further evaluation would
-/// underflow.
+/// A flight this brief (rad) or briefer is 2 w/(1 - P sin tau) long, to all digits: the terms of a further
+/// evaluation would underflow.
 pub(crate) const BRIEFEST: f64 = 1.0e-290;
 
-/// Evaluations after which the search of a short flight bisects the logarithm of the time: a root tens of decades below the
-/// bracket's end is not come near by halving it.
+/// Evaluations after which the search of a short flight bisects the logarithm of the time: a root tens of
+/// decades below the bracket's end is not come near by halving it.
 const PATIENCE_OF_SCALE: u32 = 64;
 
 /// Rounding error of one evaluation of the gap, relative to the sum of the sizes of its terms.
@@ -42,8 +42,9 @@ pub(crate) struct Bracket {
 }
 
 impl Bracket {
-    /// A time between both ends that halves the number of doubles between them, give or take: what bisection needs where the
-    /// root may be any number of decades below the upper end. At most 12 steps lead to within a factor of two.
+    /// A time between both ends that roughly halves the number of doubles between them. Bisection needs this
+    /// where the root may be many decades below the upper end. At most 12 steps lead to within a factor of
+    /// two.
     pub(crate) fn geometric_middle(self) -> f64 {
         let arithmetic = 0.5 * (self.lo + self.hi);
         // The bits of positive doubles are in their order.
@@ -78,8 +79,9 @@ pub(crate) struct GapTaylor {
 impl GapTaylor {
     /// Whether the gap falls and the series reversal of [`Self::last_step`] reaches the root from here.
     ///
-    /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope| are small;
-    /// terms of the third order and above are bounded by the latter. Multiplied out, because a division takes long.
+    /// With the Newton step x = gap/slope: |x| (1 + |curvature/slope|) and x^2 (|third| + |platform|)/|slope|
+    /// are small; terms of the third order and above are bounded by the latter. Multiplied out, because a
+    /// division takes long.
     #[inline(always)]
     pub(crate) fn is_near_root(&self) -> bool {
         let (gap, fall) = (self.gap.abs(), -self.slope);
@@ -90,7 +92,8 @@ impl GapTaylor {
         bent & third & (fall > 0.0)
     }
 
-    /// Whether [`Self::is_near_root`] holds for certain, which takes half the time: both of its conditions follow from
+    /// Whether [`Self::is_near_root`] holds for certain, which takes half the time: both of its conditions
+    /// follow from
     /// |x| (1 + (|curvature| + (|third| + |platform|)/6)/|slope|) being small, and the sum is at most sqrt(2) `peak`.
     #[inline(always)]
     pub(crate) fn is_surely_near_root(&self, peak: f64) -> bool {
@@ -99,21 +102,21 @@ impl GapTaylor {
         self.gap.abs() * (fall + (self.curvature.abs() + 0.24 * peak)) < (0.999 * LAST_STEP) * (fall * fall)
     }
 
-    /// What the root of the quadratic model takes the square root of.
+    /// The radicand in the root of the quadratic model.
     #[inline(always)]
     pub(crate) fn radicand(&self) -> f64 {
         self.slope * self.slope - 2.0 * self.gap * self.curvature
     }
 
-    /// The step to the root of the quadratic model, given the square `root` of its radicand, with the sign that does
-    /// not cancel.
+    /// The step to the root of the quadratic model, given the square `root` of its radicand, with the sign
+    /// that does not cancel.
     #[inline(always)]
     pub(crate) fn quadratic_step(&self, root: f64) -> f64 {
         -2.0 * self.gap / (self.slope - root)
     }
 
-    /// The quadratic step `d` improved by one Newton step on the polynomial of the sixth order, whose quadratic part
-    /// has the slope -`root` there.
+    /// The quadratic step `d` improved by one Newton step on the polynomial of the sixth order, whose
+    /// quadratic part has the slope -`root` there.
     #[inline(always)]
     pub(crate) fn corrected_step(&self, d: f64, root: f64) -> f64 {
         let correction = self.correction(d, root);
@@ -174,8 +177,8 @@ pub(crate) trait GapForm: Copy {
     /// The root in `bracket`, which must hold exactly one, the gap falling through it, from a first `guess`.
     ///
     /// Each step is the root of the quadratic model with the next two terms as a correction, kept inside the
-    /// shrinking bracket by bisection; the last one is the sixth-order series reversal, whose smallness criterion
-    /// bounds what it leaves.
+    /// shrinking bracket by bisection; the last one is the sixth-order series reversal, whose smallness
+    /// criterion bounds what it leaves.
     #[inline(always)]
     fn root(&self, mut bracket: Bracket, guess: f64, evaluations: u32) -> Result<Root, Error> {
         let mut t = guess;
@@ -218,18 +221,18 @@ pub(crate) trait GapForm: Copy {
         }
     }
 
-    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known to
-    /// its conditioning limit.
+    /// Whether the gap is nothing but rounding, or the bracket two neighbours: the impact is a graze, known
+    /// to its conditioning limit.
     #[cold]
     fn is_settled(&self, bracket: Bracket, t: f64, gap: f64) -> bool {
         gap.abs() <= self.rounding(t) || bracket.hi - bracket.lo <= 4.0 * f64::EPSILON * (1.0 + bracket.hi)
     }
 
-    /// A time in (`lo`, `hi`) where the gap is not positive, or `None` if there is none: the piece must be convex,
-    /// with a slope that changes from negative to positive.
+    /// A time in (`lo`, `hi`) where the gap is not positive, or `None` if there is none: the piece must be
+    /// convex, with a slope that changes from negative to positive.
     ///
-    /// Newton steps on the slope approach the minimum; the tangents, which a convex function never crosses, end
-    /// the search as soon as they prove that it is positive.
+    /// Newton steps on the slope approach the minimum; the tangents, which a convex function never crosses,
+    /// end the search as soon as they prove that it is positive.
     #[cold]
     fn dip(&self, mut lo: f64, mut hi: f64, evaluations: &mut u32) -> Option<f64> {
         let mut t = 0.5 * (lo + hi);
@@ -317,8 +320,8 @@ impl GapForm for CrestForm {
     }
 }
 
-/// The gap counted from the launch, w t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]: accurate relative
-/// to its own terms, for flights that stay low.
+/// The gap counted from the launch, w t - t^2/2 + P [sin tau (1 - cos t) + cos tau (t - sin t)]: accurate
+/// relative to its own terms, for flights that stay low.
 #[derive(Clone, Copy)]
 pub(crate) struct LaunchForm {
     pub(crate) angle: f64,
@@ -413,7 +416,7 @@ pub(crate) struct ShortForm {
     /// P sin tau and P cos tau at launch.
     pub(crate) sine: f64,
     pub(crate) cosine: f64,
-    /// 1 - P sin tau: what pulls the disk back at launch.
+    /// 1 - P sin tau, the pull of the platform on the disk at launch.
     pub(crate) pull: f64,
 }
 
@@ -465,8 +468,9 @@ impl ShortForm {
         2.0 * x * (1.0 + x * ((2.0 / 3.0) * beta + x * ((1.0 / 3.0) * gamma + (8.0 / 9.0) * (beta * beta))))
     }
 
-    /// The root in (0, `end`) of a flight that starts in a concave piece which reaches to `end`: gap/h has at most
-    /// one there, so the one that Newton's iteration finds is the first. `None` if it does not find one at once.
+    /// The root in (0, `end`) of a flight that starts in a concave piece which reaches to `end`: gap/h has at
+    /// most one there, so the one that Newton's iteration finds is the first. `None` if it does not find one
+    /// at once.
     #[inline(always)]
     pub(crate) fn root_in_first_piece(&self, end: f64, evaluations: &mut u32) -> Option<(f64, f64)> {
         let mut h = self.expected();
@@ -577,8 +581,9 @@ mod tests {
         assert!(!flat.is_near_root() && !flat.is_surely_near_root(1.0));
     }
 
-    /// At the largest gap of either sign that the quick test accepts, where its two estimates are nearly equalities: on a still
-    /// platform for the first condition, for the second about P = sqrt(2) and 45 degrees, where the curvature vanishes.
+    /// At the largest gap of either sign that the quick test accepts, where its two estimates are nearly
+    /// equalities: on a still platform for the first condition, for the second about P = sqrt(2) and 45
+    /// degrees, where the curvature vanishes.
     #[test]
     fn the_quick_test_is_right_up_to_its_limit() {
         let mut limits = 0;

@@ -97,7 +97,8 @@ impl Impact {
         self.periods as f64 * TAU + self.remainder
     }
 
-    /// The same, field by field: what a function has just written in parts is read whole only after a stall.
+    /// A copy field by field: a value that was just written in parts can be read as a whole only after a
+    /// stall.
     #[inline(always)]
     pub(crate) const fn in_parts(self) -> Self {
         let Self { periods, remainder, turns, phase, velocity, evaluations } = self;
@@ -105,8 +106,8 @@ impl Impact {
     }
 }
 
-/// Phase and relative speed of a disk about as fast as a platform with P = 2 at its fastest: launched so, it may dip below it
-/// between separation and crest. Where the speed is negative there is no such launch.
+/// Phase and relative speed of a disk about as fast as a platform with P = 2 at its fastest: launched so, it
+/// may dip below it between separation and crest. Where the speed is negative there is no such launch.
 #[cfg(test)]
 pub(crate) fn launch_that_may_dip(
     vibration: &crate::flight::platform::vibration::Vibration,

@@ -1,8 +1,8 @@
 //! A second, independent solver of Eq. (11), for cross-checks: slow, simple, and sharing nothing with
 //! [`Vibration::first_impact`] but the equation.
 //!
-//! It walks from the launch in steps that cannot jump over a zero of the gap (conservative advancement), until a
-//! single zero is in plain sight, and leaves that to Brent's method of the `roots` crate.
+//! It walks from the launch in steps that cannot jump over a zero of the gap (conservative advancement),
+//! until a single zero is in plain sight, and leaves that to Brent's method of the `roots` crate.
 
 use roots::{Convergency, find_root_brent};
 
@@ -98,9 +98,9 @@ fn parabola_end(gap: f64, velocity: f64, bend: f64) -> f64 {
 }
 
 impl Sample {
-    /// A step that cannot reach a zero. The curvature of the gap, P sin - 1, is never below -(1 + P), and over a
-    /// step s not below P sin - P |cos| s - P s^2/2 - 1, which is the better bound where the platform almost falls
-    /// freely.
+    /// A step that cannot reach a zero. The curvature of the gap, P sin - 1, is never below -(1 + P), and
+    /// over a step s not below P sin - P |cos| s - P s^2/2 - 1, which is the better bound where the platform
+    /// almost falls freely.
     fn safe_step(&self, peak: f64) -> f64 {
         let mut best = parabola_end(self.gap, self.velocity, 1.0 + peak);
         let mut reach = best;
@@ -122,7 +122,7 @@ impl Sample {
     }
 }
 
-/// When Brent's method is done: at an exact zero, or when the bracket is as narrow as times can be told apart.
+/// When Brent's method ends: at an exact zero, or at a bracket as narrow as doubles can resolve times.
 /// The gap itself has no tolerance: at motor scale any absolute one is wrong.
 struct ExactOrNarrow;
 
@@ -142,12 +142,12 @@ impl Convergency<f64> for ExactOrNarrow {
 
 /// The first impact after `launch`, by conservative advancement and Brent's method.
 ///
-/// For cross-checks of [`Vibration::first_impact`]: it takes tens to thousands of evaluations of the gap, and its
-/// phase has the rounding of the whole duration. The first zero is certain up to that rounding.
+/// For cross-checks of [`Vibration::first_impact`]: it takes tens to thousands of evaluations of the gap, and
+/// its phase has the rounding of the whole duration. The first zero is certain up to that rounding.
 ///
 /// # Errors
-/// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away, [`Error::FlightTooLong`]
-/// beyond [`MAX_FLIGHT_DURATION`], [`Error::NoConvergence`] if the steps run out.
+/// [`Error::NoLiftOff`] for a launch from rest where the platform does not fall away,
+/// [`Error::FlightTooLong`] beyond [`MAX_FLIGHT_DURATION`], [`Error::NoConvergence`] if the steps run out.
 pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Result<ReferenceImpact, Error> {
     let peak = vibration.peak_acceleration();
     let (phase, speed) = (launch.phase(), launch.relative_speed());
@@ -192,8 +192,8 @@ pub fn first_impact_by_advancement(vibration: &Vibration, launch: Launch) -> Res
 
 /// The one zero in [`lo`, `hi`].
 ///
-/// `find_root_brent` of `roots` 0.0.8 returns its last iterate but one when it has converged, so the narrowest
-/// bracket that it has seen counts, not its answer.
+/// `find_root_brent` of `roots` 0.0.8 returns its last iterate but one when it has converged, so the
+/// narrowest bracket that it has seen counts, not its answer.
 fn refined(gap: &mut Gap, lo: f64, hi: f64, angle: f64) -> Result<ReferenceImpact, Error> {
     let (mut above, mut below) = ((lo, f64::INFINITY), (hi, f64::NEG_INFINITY));
     let found = find_root_brent(

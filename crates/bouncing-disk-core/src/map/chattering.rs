@@ -19,8 +19,8 @@ impl ImpactMap {
     /// and the carried pair. Near weightlessness one rounding of P or of the phase changes the pull and the
     /// duration: that is the conditioning of the problem and is not part of the bound.
     ///
-    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the phase has the
-    /// duration 0.
+    /// The accumulation point lies before the next separation. A chatter that ends before it has changed the
+    /// phase has the duration 0.
     ///
     /// ```
     /// # use bouncing_disk_core::{ImpactMap, Launch, Phase, Vibration};
@@ -36,15 +36,16 @@ impl ImpactMap {
         self.vibration().accumulation(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// The chatter after a launch in closed form, for one that [`Self::accumulation`] accepts with a duration above 0 and a
-    /// restitution above 0: every impact of it, and their sums, at once.
+    /// The chatter after a launch in closed form, for one that [`Self::accumulation`] accepts with a duration
+    /// above 0 and a restitution above 0: every impact of it, and their sums, at once.
     #[must_use]
     pub fn chatter_series(&self, launch: Launch) -> ChatterSeries {
         self.vibration().chatter_series(launch.phase(), launch.relative_speed(), self.restitution())
     }
 
-    /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0, until they
-    /// carry less than 1e-17 of the first one's impulse or are launched with less than the smallest normal number.
+    /// The impacts of the chatter after a launch that [`Self::accumulation`] accepts with a duration above 0,
+    /// until they carry less than 1e-17 of the first one's impulse or are launched with less than the
+    /// smallest normal number.
     ///
     /// They are computed lazily, and there are 39/(1 - r) of them: near r = 1 that may take for ever.
     /// [`Self::chatter_series`] has every one of them, and their sums, at once.

@@ -36,7 +36,8 @@ impl core::fmt::Display for ImpactState {
 read_checked!(ImpactState as UncheckedState { phase: Phase, velocity: f64 } => ImpactState::new);
 
 impl ImpactState {
-    /// An impact at `phase` with relative axial velocity `velocity` <= 0 (disk minus platform, units of g/omega).
+    /// An impact at `phase` with relative axial velocity `velocity` <= 0 (disk minus platform, units of
+    /// g/omega).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a positive or non-finite velocity.
@@ -358,8 +359,8 @@ pub struct Attachment {
     pub accumulation: Accumulation,
     /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
     pub last_speed: f64,
-    /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to there;
-    /// `None` if the disk rests for ever (P <= 1).
+    /// The phase at which it separates, and how often the phase passes 0 (mod 2 pi) from the attachment to
+    /// there; `None` if the disk rests for ever (P <= 1).
     pub separation: Option<(Phase, u64)>,
 }
 
@@ -380,7 +381,7 @@ impl Attachment {
     }
 }
 
-/// What the disk does next.
+/// The next motion of the disk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Next {
     /// Leave the platform at this phase and speed.
@@ -433,8 +434,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         orbit
     }
 
-    /// What follows an impact at `phase` with relative `velocity`, which a launch with `speed` follows, after
-    /// a flight of `duration`.
+    /// The motion after an impact at `phase` with relative `velocity`, which ends a flight of `duration` and
+    /// launches the disk with `speed`.
     fn after(&mut self, phase: Phase, velocity: f64, speed: f64, duration: f64) -> Next {
         match self.policy {
             ChatterPolicy::Complete => {
@@ -442,7 +443,7 @@ impl<L: RestitutionLaw> Orbit<L> {
                 match constant
                     .and_then(|restitution| self.map.vibration.accumulation(phase, speed, restitution))
                 {
-                    // Where no time is left for a chatter there is none.
+                    // A chatter for which no time is left does not happen.
                     Some(at) => Next::Attach(at, if at.duration > 0.0 { speed } else { 0.0 }),
                     None => Next::Launch(phase, speed),
                 }
@@ -462,8 +463,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         }
     }
 
-    /// Bound on the time (rad) that the disk would bounce on after an impact that a cut ends; none is given
-    /// for a constant restitution, where [`ChatterPolicy::Complete`] knows better.
+    /// Bound on the time (rad) for which the disk would continue to bounce after an impact that a cut ends;
+    /// `None` for a constant restitution, for which [`ChatterPolicy::Complete`] has the exact time.
     fn error_of_cut(&self, phase: Phase, velocity: f64) -> f64 {
         match self.map.restitution.constant(Internal) {
             Some(_) => f64::INFINITY,
@@ -507,8 +508,8 @@ impl<L: RestitutionLaw> Orbit<L> {
         &self.map
     }
 
-    /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the next flight waits
-    /// for it.
+    /// [`Self::after`], of a phase in parts: a reference to the impact would keep it in memory, where the
+    /// next flight waits for it.
     #[inline(never)]
     fn settle(&mut self, angle: f64, sin: f64, cos: f64, velocity: f64, speed: f64, duration: f64) {
         self.next = self.after(Phase::from_parts(angle, sin, cos), velocity, speed, duration);

@@ -17,10 +17,10 @@ impl ImpactMap {
     /// The impact before the one in `state`: the only one that [`Self::step`] maps to it.
     ///
     /// Backwards in time the platform vibrates as it does forwards, but from the phase pi - tau, and the disk
-    /// leaves it with the speed |v|. The first impact of that flight is the last one before; the speed with
-    /// which the disk arrives there is the one with which it was launched, restitution times the impact speed
-    /// sought. So the inverse exists wherever the restitution is not 0 and the disk was in flight before the
-    /// impact, and speeds grow on the way back.
+    /// leaves it with the speed |v|. The first impact of that flight is the previous impact. The disk arrives
+    /// there with the speed of its launch, which is the restitution times the unknown impact speed. So the
+    /// inverse exists wherever the restitution is not 0 and the disk was in flight before the impact, and
+    /// speeds grow on the way back.
     ///
     /// It jumps where the flight grazes the platform on its way, as [`Self::step`] does. An impact without
     /// speed can only be the graze of a flight where the platform falls away faster than the disk; if one is

@@ -37,7 +37,7 @@ pub(crate) mod kuwabara_kono;
 /// ```
 ///
 /// The same speed must always give the same restitution; that it lies in [0, 1] is checked at every impact.
-/// Nothing is checked beyond one value: a law that grows with the speed, or that jumps, is followed as it is.
+/// There are no further checks: a law that grows with the speed, or that jumps, is followed as it is.
 pub trait RestitutionLaw: Clone + Debug {
     /// The coefficient of restitution, in [0, 1], of an impact with the relative axial speed |w_A| >= 0
     /// (units of g/omega).
@@ -46,8 +46,8 @@ pub trait RestitutionLaw: Clone + Debug {
     fn restitution(&self, impact_speed: f64) -> f64;
 
     /// The derivative of [`Self::restitution`] by the speed (units of omega/g). Below the smallest normal
-    /// number, at speed 0 above all, it may be infinite: what counts is its product with the speed, which is
-    /// taken as 0 there.
+    /// number, at speed 0 above all, it may be infinite: only its product with the speed matters, and that
+    /// counts as 0 there.
     fn derivative(&self, impact_speed: f64) -> f64;
 
     /// A bound on the sum of all speeds with which the disk leaves a platform at rest after an impact at this
@@ -55,8 +55,8 @@ pub trait RestitutionLaw: Clone + Debug {
     /// speeds from 0 to this one, or anything above it. The error of a cut follows from it
     /// ([`ImpactMap::comes_to_rest_within`](crate::ImpactMap::comes_to_rest_within)).
     ///
-    /// `None`, the default, for a law that may grow with the speed and for one of which nothing is known: its
-    /// cuts have no bound.
+    /// `None`, the default, is for a law that may grow with the speed, and for an unknown one: its cuts have
+    /// no bound.
     fn rebound_sum(&self, _impact_speed: f64) -> Option<f64> {
         None
     }

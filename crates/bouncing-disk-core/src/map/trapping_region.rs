@@ -4,7 +4,7 @@
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactMap;
 
-/// What the roundings of a bound, ten at most and all of positive numbers, may take from it.
+/// By how much its roundings, at most ten and all of positive numbers, may reduce a bound.
 const ROUNDINGS: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl ImpactMap {
@@ -54,8 +54,8 @@ impl ImpactMap {
     }
 
     /// The bound on the impact speed at this phase: sqrt(M^2 + 2 P (1 - sin tau)) + P cos tau with the
-    /// [`Self::launch_speed_bound`] M, or 0 where that is negative (a platform that falls faster than any disk
-    /// is not hit), as the disk lands at the platform's height there. Rounded upwards.
+    /// [`Self::launch_speed_bound`] M, or 0 where that is negative (a platform that falls faster than any
+    /// disk is not hit), as the disk lands at the platform's height there. Rounded upwards.
     ///
     /// The impacts within it are the trapping region: an orbit that starts there stays, every periodic
     /// orbit and every attractor lies in it, and every other orbit enters it up to an excess that dies out.

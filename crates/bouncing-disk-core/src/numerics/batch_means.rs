@@ -51,7 +51,7 @@ fn mean_of(sums: &[f64], length: u64) -> f64 {
     sums.iter().sum::<f64>() / (sums.len() as f64 * length as f64)
 }
 
-/// The sums of pairs of neighbours; the last of an odd number of them is left out.
+/// The sums of pairs of neighbours; the last of an odd number of them is omitted.
 fn joined(sums: &[f64]) -> Vec<f64> {
     sums.as_chunks::<2>().0.iter().map(|[first, second]| first + second).collect()
 }

@@ -4,8 +4,8 @@ use glam::{DMat2, DVec2};
 
 use crate::numerics::elementary::hypot;
 
-/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following unknown, and the
-/// right side.
+/// Columns of a row that is being eliminated: those of its own unknown, of the first and of the following
+/// unknown, and the right side.
 pub(crate) const OWN: usize = 0;
 pub(crate) const FIRST: usize = 2;
 pub(crate) const NEXT: usize = 4;
@@ -15,10 +15,11 @@ type Row = [f64; 7];
 
 /// Solves `blocks[i] x[i] - x[i + 1] = right[i]`, the index taken modulo the number n >= 1 of blocks, for x.
 ///
-/// The unknowns are eliminated one after the other from 1 on by rotations of the two rows of blocks that contain them, and
-/// the first one is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput. 13, 742 (1992)). Rotations
-/// do not let the rounding grow, however unstable the sequence is, where the product of the blocks would.
-/// Of a singular system the solution is not finite, or as large as the rounding makes it.
+/// Rotations of the two rows of blocks that contain an unknown eliminate one after the other, from 1 on,
+/// until only the first is left: a structured QR factorisation (S. J. Wright, SIAM J. Sci. Stat. Comput. 13,
+/// 742 (1992)). With rotations the rounding does not grow, however unstable the sequence is; with the product
+/// of the blocks it would. The solution of a singular system is not finite, or as large as the rounding makes
+/// it.
 pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2> {
     let n = blocks.len().min(right.len());
     if n == 0 {
@@ -60,9 +61,10 @@ pub(crate) fn solve_block_cyclic(blocks: &[DMat2], right: &[DVec2]) -> Vec<DVec2
     solution
 }
 
-/// Eliminates the unknown of the first two columns from the two rows that couple it with the first unknown of the sequence and
-/// the two that couple it with the following one (two columns from [`NEXT`] on): the two rows that hold it now, and the two
-/// that are left, in which what was the following unknown is the next one's own.
+/// Eliminates the unknown of the first two columns from the two rows that couple it with the first unknown of
+/// the sequence and the two that couple it with the following one (two columns from [`NEXT`] on): the two
+/// rows that hold it now, and the two that are left, in which what was the following unknown is the next
+/// one's own.
 pub(crate) fn eliminate<const WIDTH: usize>(
     last: [[f64; WIDTH]; 2],
     fresh: [[f64; WIDTH]; 2],
@@ -148,8 +150,8 @@ mod tests {
         (blocks, (0..n).map(|_| DVec2::new(number(), number())).collect())
     }
 
-    /// The equations themselves are the oracle: they share nothing with the elimination. Products of these blocks reach
-    /// from 1e-300 far beyond the largest double.
+    /// The equations themselves are the oracle: they share nothing with the elimination. Products of these
+    /// blocks reach from 1e-300 far beyond the largest double.
     #[test]
     fn the_equations_hold_for_stable_and_unstable_sequences() {
         for n in [1, 2, 3, 7, 100, 4_096] {

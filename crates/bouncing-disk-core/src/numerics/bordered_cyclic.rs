@@ -1,11 +1,12 @@
-//! The linear system of a closed sequence of equations with one parameter and one condition more, in time and
+//! The linear system of a closed sequence of equations with one more parameter and condition, in time and
 //! memory proportional to its length, for Newton's method on a branch of periodic orbits.
 
 use glam::{DMat2, DVec2};
 
 use crate::numerics::block_cyclic::{FIRST, NEXT, OWN, eliminate, rotate};
 
-/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the right side.
+/// Columns of a row that is being eliminated, behind those of the unknowns: that of the parameter, and the
+/// right side.
 const PARAMETER: usize = 6;
 const RIGHT: usize = 7;
 
@@ -35,8 +36,8 @@ impl CyclicEquations {
     /// As in [`solve_block_cyclic`](super::block_cyclic::solve_block_cyclic) the unknowns are eliminated by
     /// rotations from 1 on; the parameter is carried along like the first unknown. As the condition holds
     /// these two alone, it meets the rest at the end, in three equations: so the whole is as well conditioned
-    /// as the bordered matrix, also where the closed sequence alone is singular, in a fold. Of a singular
-    /// system the solution is not finite, or as large as the rounding makes it.
+    /// as the bordered matrix, also where the closed sequence alone is singular, in a fold. The solution of a
+    /// singular system is not finite, or as large as the rounding makes it.
     pub(crate) fn solve(&self, border: Border) -> (Vec<DVec2>, f64) {
         let n = self.own.len();
         if n == 0 {

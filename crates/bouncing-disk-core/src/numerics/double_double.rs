@@ -1,9 +1,9 @@
-//! Numbers of two doubles: about 31 decimal digits, with the same bits everywhere.
+//! Numbers stored as the sum of two doubles: about 31 decimal digits, with the same bits everywhere.
 //!
-//! Only IEEE `+ - * /` and the square root are used, and the product is split as Dekker does it, not fused: a
-//! build with fused operations, another processor or another compiler gives the same two doubles. The
-//! algorithms are those of T. J. Dekker, Numer. Math. 18, 224 (1971); their error bounds in M. Joldes, J.-M.
-//! Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
+//! The code uses only IEEE `+ - * /` and the square root, and gets the rounding error of a product by
+//! splitting its factors (Dekker), not by a fused multiply-add. So every processor and compiler gives the
+//! same two doubles. The algorithms are those of T. J. Dekker, Numer. Math. 18, 224 (1971); their error
+//! bounds are from M. Joldes, J.-M. Muller and V. Popescu, ACM Trans. Math. Softw. 44, 15 (2017).
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -11,10 +11,10 @@ use crate::numerics::real::Real;
 
 mod decimal;
 
-/// The unevaluated sum of two doubles, of which the first is the nearest double of the sum: 106 bits.
+/// The unevaluated sum of two doubles, together 106 bits; the first is the sum rounded to a double.
 ///
-/// Products and quotients are exact to 2^-100 relative where no part underflows: for magnitudes from 1e-250
-/// to 1e290. Overflow gives no finite number.
+/// Products and quotients have a relative error of at most 2^-100 while no part underflows, that is for
+/// magnitudes from 1e-250 to 1e290. A number that overflows is not finite.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::double_double::DoubleDouble;
@@ -37,7 +37,7 @@ const SPLITTER: f64 = 134_217_729.0;
 const HALF_PI: [f64; 3] =
     [core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// From here on the whole number of right angles in an angle is no longer multiplied without error: 2^26.
+/// 2^26: in larger angles the number of right angles has too many bits to be multiplied without error.
 const LARGEST_ANGLE: f64 = 67_108_864.0;
 
 /// 1/k! for k from 2 on.
@@ -173,8 +173,8 @@ impl DoubleDouble {
         }
     }
 
-    /// Sine and cosine of an angle of at most pi/4 and a little, by their series: the first term left out is
-    /// below 1e-33.
+    /// Sine and cosine of an angle of at most little more than pi/4, by their series: the first omitted term
+    /// is below 1e-33.
     fn sin_cos_of_reduced(self) -> (Self, Self) {
         let square = self * self;
         let term = |k: usize| {

@@ -1,8 +1,8 @@
 //! Elementary functions with the same bits on every machine.
 //!
-//! The sine and cosine pair of the impact solver is our own, because the project exists for it; everything
-//! else is the `libm` crate. Only IEEE addition, subtraction, multiplication, division and square root are
-//! used, in a fixed order and never fused.
+//! The sine and cosine pair of the impact solver is our own code, because it decides the speed of every
+//! computation; everything else is the `libm` crate. Only IEEE addition, subtraction, multiplication,
+//! division and square root are used, in a fixed order and never fused.
 
 #![expect(clippy::excessive_precision, reason = "constants are quoted as their sources print them")]
 
@@ -29,8 +29,8 @@ const TAU_TAIL: f64 = 6.357_301_909_411_279e-8;
 /// Largest argument of [`sin_cos_bounded`], in radians.
 const BOUND: f64 = 100.0;
 
-/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5, the
-/// `libm` crate beyond.
+/// Sine and cosine of `x` radians; absolute error below 1.3e-16 for |x| up to 20 and below 1.5e-16 up to 1e5,
+/// the `libm` crate beyond.
 #[must_use]
 #[inline]
 pub fn sin_cos(x: f64) -> (f64, f64) {
@@ -45,8 +45,8 @@ pub fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
-/// Sine and cosine for |x| up to 100 rad, without a branch (Cody and Waite reduction; its third part would add
-/// less than 2e-19).
+/// Sine and cosine for |x| up to 100 rad, without a branch (Cody and Waite reduction; its third part would
+/// add less than 2e-19).
 #[inline(always)]
 pub(crate) fn sin_cos_bounded(x: f64) -> (f64, f64) {
     let (n, quadrant) = nearest_quarter_turns(x);
@@ -72,8 +72,8 @@ fn sin_cos_reduced(r: f64, quadrant: u64) -> (f64, f64) {
     (s, c)
 }
 
-/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: what every instruction set can do
-/// for many lanes at once.
+/// [`sin_cos_bounded`], bit for bit, with integer operations in place of selections: every instruction set
+/// has these for many lanes at once.
 #[inline(always)]
 pub(crate) fn sin_cos_of_lane(x: f64) -> (f64, f64) {
     let (r, quadrant) = reduced_of_lane(x);
@@ -94,7 +94,7 @@ pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64, blends: bool) -> (f64, f
     // Quadrant q: the pair is swapped if q is odd; the signs are those of the bits 1, and 1 xor 0.
     let (odd, second) = (quadrant << 63, (quadrant << 62) & (1 << 63));
     let (s, c) = if blends {
-        // A vector selection looks at nothing but the sign.
+        // A vector selection depends on the sign alone.
         if (odd as i64) < 0 { (cosine, sine) } else { (sine, cosine) }
     } else {
         let (sine, cosine) = (sine.to_bits(), cosine.to_bits());
@@ -104,8 +104,8 @@ pub(crate) fn sin_cos_of_reduced(r: f64, quadrant: u64, blends: bool) -> (f64, f
     (f64::from_bits(s.to_bits() ^ second), f64::from_bits(c.to_bits() ^ (second ^ odd)))
 }
 
-/// Sine and cosine of `r` in [-pi/4, pi/4]: the minimax polynomials of FreeBSD's `k_sin.c` and `k_cos.c`, summed as
-/// z A + z^2 B + z^3 C to keep the chains short.
+/// Sine and cosine of `r` in [-pi/4, pi/4]: the minimax polynomials of FreeBSD's `k_sin.c` and `k_cos.c`,
+/// summed as z A + z^2 B + z^3 C to keep the chains short.
 #[inline(always)]
 fn pair_polynomials(r: f64) -> (f64, f64) {
     let z = r * r;
@@ -184,8 +184,8 @@ pub fn sine_deficit_ratio(h: f64) -> f64 {
 /// Splits a non-negative duration in radians, at most 1.6e9, into the nearest whole number of periods and the
 /// rest, in [-pi, pi].
 ///
-/// The rest is off by at most 5e-16 + 2e-24 duration (two-part reduction); what the rounding of `duration` itself has
-/// lost is lost.
+/// The remainder has an error of at most 5e-16 + 2e-24 duration (two-part reduction), beside that of the
+/// rounded `duration` itself.
 #[inline(always)]
 pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
     let periods = (duration * (1.0 / TAU) + ROUND_MAGIC) - ROUND_MAGIC;
@@ -193,8 +193,8 @@ pub(crate) fn nearest_periods(duration: f64) -> (f64, f64) {
     (periods, rest)
 }
 
-/// Reduces an angle in [-2 pi, 6 pi] to [0, 2 pi), with the whole turns taken away (negative if added), without
-/// a branch that depends on the turn.
+/// Reduces an angle in [-2 pi, 6 pi] to [0, 2 pi), with the whole turns taken away (negative if added),
+/// without a branch that depends on the turn.
 #[inline(always)]
 pub(crate) fn nearby_wrapped(angle: f64) -> (f64, f64) {
     let turns = ((angle * (1.0 / TAU) - 0.5) + ROUND_MAGIC) - ROUND_MAGIC;
@@ -221,10 +221,11 @@ pub(crate) fn nearby_wrapped_of_lane(angle: f64) -> (f64, f64) {
     (wrapped + share(TAU), turns - share(1.0))
 }
 
-/// The phase of an impact, in [0, 2 pi), and how many turns were taken away, from its unwrapped angle in [-2 pi, 6 pi].
+/// The phase of an impact, in [0, 2 pi), and how many turns were taken away, from its unwrapped angle in [-2
+/// pi, 6 pi].
 ///
-/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than half the spacing of doubles below 2 pi
-/// rounds to 2 pi itself. That is phase 0 of the next turn, and the turn counts.
+/// [`nearby_wrapped`], but for the seam: an angle that lies below zero by less than half the spacing of
+/// doubles below 2 pi rounds to 2 pi itself. That is phase 0 of the next turn, and the turn counts.
 #[inline(always)]
 pub(crate) fn impact_phase(angle: f64) -> (f64, f64) {
     let (wrapped, turns) = nearby_wrapped(angle);

@@ -1,6 +1,6 @@
 //! The errors of this crate.
 
-/// What can go wrong in the math core. Every variant carries the numbers needed to see why.
+/// An error of the core. Every variant carries the numbers needed to see why it occurred.
 ///
 /// The texts print numbers with all their digits, and very small or large ones in scientific notation; whole
 /// ones of a range, such as counts, without a fraction.
@@ -75,7 +75,8 @@ pub enum Error {
         /// The smallest region that was tried (rad).
         region: f64,
     },
-    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic orbit.
+    /// The solution that an iteration settled on has an impact without speed: a disk at rest, not a periodic
+    /// orbit.
     #[error(
         "impact {index} of the solution has no speed (phase {phase:?} rad): a disk at rest is not a periodic orbit"
     )]
@@ -96,31 +97,32 @@ pub enum Error {
         /// The largest of their speeds, in units of g/omega.
         speed: f64,
     },
-    /// A flight of an orbit that was sought by its impacts meets the platform earlier: the orbit ends at a graze.
+    /// In a search for an orbit by its impacts, a flight meets the platform earlier: the orbit ends at a
+    /// graze.
     #[error(
         "flight {index} of the orbit sought would take {sought:?} rad, but an impact comes after {found:?} rad"
     )]
     EarlierImpact {
         /// Which flight of the orbit.
         index: usize,
-        /// Its duration in the orbit that was sought, in radians.
+        /// Its duration in the wanted orbit, in radians.
         sought: f64,
         /// When the first impact comes, in radians after the launch.
         found: f64,
     },
-    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one, as at a
-    /// fold.
+    /// No branch of periodic orbits begins: the map does not have this orbit, or it is not an isolated one,
+    /// as at a fold.
     #[error("no branch begins at {parameter:?}: {what} is not an isolated orbit there")]
     NoBranch {
         /// The orbit.
         what: &'static str,
-        /// Where it was sought: the parameter of the continuation.
+        /// The parameter of the continuation at which the search took place.
         parameter: f64,
     },
     /// A number of a list is not of the kind that is needed.
     #[error("{what} number {index} of {count} is not {expected}")]
     NotOfKind {
-        /// What is in the list.
+        /// The kind of items in the list.
         what: &'static str,
         /// The number that was given, from 0.
         index: usize,
@@ -159,7 +161,7 @@ pub enum Error {
     /// A stored run is inconsistent, or does not fit the input with which it is resumed.
     #[error("{what}: {found}; legal is {expected}")]
     Unfitting {
-        /// What does not fit.
+        /// The quantity that does not fit.
         what: &'static str,
         /// The number that was found.
         found: u64,
@@ -169,7 +171,7 @@ pub enum Error {
     /// More was requested than the limit allows or, where `count` is within it, than memory can hold.
     #[error("not enough memory for {count} {what}: at most {limit}")]
     TooLarge {
-        /// What was requested.
+        /// The requested number.
         what: &'static str,
         /// The requested number.
         count: u64,
@@ -205,8 +207,8 @@ pub(crate) fn not_negative(field: &'static str, value: f64) -> Result<f64, Error
     within(field, value, 0.0, f64::MAX, "[0, inf)")
 }
 
-/// An empty vector with room for `count` <= `limit` items. The memory is asked for, so that its lack is an error; the limit is
-/// there because some systems promise memory that they do not have.
+/// An empty vector with room for `count` <= `limit` items. It reserves the memory, so that a lack of memory
+/// is an error. The limit is needed because some systems promise memory that they do not have.
 pub(crate) fn room_for<T>(what: &'static str, count: u64, limit: u64) -> Result<Vec<T>, Error> {
     let refusal = Error::TooLarge { what, count, limit };
     let mut room = Vec::new();

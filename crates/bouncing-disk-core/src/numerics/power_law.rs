@@ -134,8 +134,9 @@ const MOST_SIGMAS: f64 = 3.5;
 /// The root mean square scatter that is allowed, in units of the errors, unless it is within [`MOST_FACTOR`].
 const MOST_SCATTER: f64 = 3.0;
 
-/// The root mean square scatter (of ln y) that is allowed whatever the errors, a factor of two: what
-/// oscillates about a law, as lives beyond a crisis do, has an exponent all the same, with the larger error.
+/// The root mean square scatter (of ln y) that is allowed whatever the errors, a factor of two: numbers that
+/// oscillate about a law, as survival times beyond a crisis do, have an exponent all the same, with a larger
+/// error.
 const MOST_FACTOR: f64 = core::f64::consts::LN_2;
 
 /// A straight line through (ln x, ln y).

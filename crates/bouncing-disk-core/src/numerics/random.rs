@@ -1,6 +1,7 @@
 //! Seeded random streams.
 
-/// The splitmix64 generator (S. Vigna): a documented, reproducible stream for each seed, the same on every machine.
+/// The splitmix64 generator (S. Vigna): a documented, reproducible stream for each seed, the same on every
+/// machine.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::random::SplitMix64;

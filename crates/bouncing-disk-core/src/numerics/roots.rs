@@ -1,4 +1,5 @@
-//! Roots and minima of functions of one variable inside a bracket. (The root of Eq. 11 is in `flight/gap.rs`.)
+//! Roots and minima of functions of one variable inside a bracket. (The root of Eq. 11 is in
+//! `flight/gap.rs`.)
 
 /// The place between `low` and `high` where `is_below` changes from true to false, by `steps` halvings: the
 /// middle of the last bracket. `is_below` is not called at the ends, which count as true and false.
@@ -35,8 +36,8 @@ pub fn bisected_bracket<E>(
     halved_while(low, high, is_wide, is_below)
 }
 
-/// As [`bisected_bracket`], but halves until the bracket is no wider than `width`, or its ends are neighbouring
-/// doubles. An end that is not a number ends the search at once.
+/// As [`bisected_bracket`], but halves until the bracket is no wider than `width`, or its ends are
+/// neighbouring doubles. An end that is not a number ends the search at once.
 ///
 /// # Errors
 /// Those of `is_below`.
@@ -120,9 +121,9 @@ pub fn falling_root(
     }
 }
 
-/// The minimum of a function that has one between `low` and `high`, by the golden section: each of `steps` narrows the bracket by the
-/// factor 0.618, and its middle is returned. The values of a function determine the place of a smooth minimum
-/// to half of their digits only.
+/// The minimum of a function that has one between `low` and `high`, by the golden section: each of `steps`
+/// narrows the bracket by the factor 0.618, and its middle is returned. The values of a function determine
+/// the place of a smooth minimum to half of their digits only.
 ///
 /// # Errors
 /// Those of `function`.

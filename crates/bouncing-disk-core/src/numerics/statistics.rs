@@ -4,7 +4,8 @@
 /// its 95 % interval.
 pub const NORMAL_975: f64 = 1.959_963_984_540_054;
 
-/// Numbers up to this size, and down to its inverse, are squared and added up without a thought of overflow.
+/// The squares of numbers up to this size, and down to its inverse, can be summed without overflow or
+/// underflow.
 const ORDINARY: f64 = 1.0e120;
 
 /// The power of two by which numbers are multiplied before they or their squares are added up, so that the

@@ -1,10 +1,10 @@
 //! Deserialisation through the same checks as construction.
 
-/// Reads a type through its checks: a mirror of its fields, each of which must be there (but for an optional one) and no
-/// other, then `check` on the whole, or the constructor that is named after `=>`.
+/// Reads a type through its checks: a mirror of its fields, each of which must be there (but for an optional
+/// one) and no other, then `check` on the whole, or the constructor that is named after `=>`.
 ///
-/// `Error` is the one of the module that it stands in. Without the feature `serde` nothing reads the mirror; it is compiled
-/// all the same, so that checks and imports need no condition.
+/// `Error` is the one of the module that it stands in. Without the feature `serde` nothing reads the mirror;
+/// it is compiled all the same, so that checks and imports need no condition.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! read_checked {
@@ -74,9 +74,9 @@ macro_rules! read_checked {
 }
 pub(crate) use read_checked;
 
-/// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats that
-/// people read (RON, TOML) have no `null`: reading back is guaranteed only for JSON and binary formats such
-/// as CBOR.
+/// Reads a number that may be infinite. JSON has no such number and holds `null` in its place. Other formats
+/// that people read (RON, TOML) have no `null`: reading back is guaranteed only for JSON and binary formats
+/// such as CBOR.
 ///
 /// # Errors
 /// Those of the format.

@@ -81,9 +81,9 @@ impl<R: Real> core::fmt::Display for CascadeDoubling<R> {
 /// ```
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for the restitution or the count; [`Error::NotSettled`] if a branch is lost, and with the
-/// margin where an orbit comes so near to an earlier impact that more digits than those of doubles would decide;
-/// [`Error::EarlierImpact`] if a branch ends because its orbit meets the platform earlier.
+/// [`Error::OutOfRange`] for the restitution or the count; [`Error::NotSettled`] if a branch is lost, and
+/// with the margin where an orbit comes so near to an earlier impact that more digits than those of doubles
+/// would decide; [`Error::EarlierImpact`] if a branch ends because its orbit meets the platform earlier.
 pub fn doubling_cascade<R: Real>(
     restitution: R,
     count: usize,

@@ -19,7 +19,8 @@ const MAX_CORRECTIONS: u32 = 12;
 /// A Newton step (scaled) after which one more reaches the rounding.
 const NEARLY: f64 = 1.0e-8;
 
-/// The share of the step before up to which a step is one of quadratic convergence, and the one from which on it is rounding.
+/// The share of the step before up to which a step is one of quadratic convergence, and the one from which on
+/// it is rounding.
 const FAST: f64 = 0.1;
 const STILL: f64 = 0.9;
 
@@ -76,15 +77,15 @@ pub(crate) fn turned(angle: f64) -> f64 {
     angle - TAU * nearest_whole(angle / TAU)
 }
 
-/// What the lengths of first impact and parameter are counted in.
+/// The units in which changes of the first impact and of the parameter are measured.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Scale {
     pub(crate) speed: f64,
     pub(crate) parameter: f64,
 }
 
-/// The plane in which a point is sought: at this distance from a base, across a direction (scaled; phase,
-/// speed, parameter).
+/// The plane in which a correction looks for a point: at this distance from a base, across a direction
+/// (scaled; phase, speed, parameter).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Plane {
     pub(crate) normal: [f64; 3],
@@ -92,7 +93,7 @@ pub(crate) struct Plane {
     pub(crate) distance: f64,
 }
 
-/// A sequence of flights that closes: what is the same along a branch.
+/// A sequence of flights that closes, with the properties that are the same all along a branch.
 #[derive(Debug, Clone)]
 pub(crate) struct Closing {
     /// The map at the start of the branch: where the other parameters come from.
@@ -137,7 +138,8 @@ impl Closing {
         Self { turns: [self.turns.as_slice(), &self.turns].concat(), ..self.clone() }
     }
 
-    /// The equations of the shorter orbit whose repetition both halves of this one are nearly, and the mean of both.
+    /// The equations of the shorter orbit whose repetition both halves of this one are nearly, and the mean
+    /// of both.
     pub(crate) fn half(&self, at: &Closed) -> (Self, Closed) {
         let n = self.turns.len() / 2;
         let (first, second) = at.impacts.split_at(n);
@@ -270,7 +272,8 @@ impl Closing {
                 return None;
             }
             at = at.moved(&Closed { impacts: steps, parameter: change }, 1.0);
-            // Next to a singular point the steps shrink slowly, and a small one does not tell of a small distance.
+            // Next to a singular point the steps shrink slowly, and a small one does not tell of a small
+            // distance.
             let settled = size <= FAST * last || size > STILL * last && size <= NEARLY;
             if size <= ROUNDING || last <= NEARLY && settled {
                 return Some((at, step));
@@ -303,7 +306,8 @@ impl Closing {
             .then_some(Closed { impacts, parameter: parameter / length })
     }
 
-    /// The direction in which the orbit flips where a multiplier is -1: what returns with the opposite sign.
+    /// The direction in which the orbit flips where a multiplier is -1: the vector that returns with the
+    /// opposite sign.
     pub(crate) fn flip_direction(&self, at: &Closed) -> Option<Vec<DVec2>> {
         let mut equations = self.equations(at)?;
         equations.right.fill(DVec2::ZERO);

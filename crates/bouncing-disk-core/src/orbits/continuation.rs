@@ -14,8 +14,8 @@ mod within;
 
 use walker::Walker;
 
-/// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of a product and a
-/// quotient with pi.
+/// By how much, relative, the forcing of a map may differ from the one that it was made for: the roundings of
+/// a product and a quotient with pi.
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// The parameter, range and resolution of a continuation.
@@ -202,8 +202,8 @@ pub struct Bifurcation {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum BranchEnd {
-    /// The parameter reaches this end of its range: the last orbit lies there, to the rounding, or to 1e-9 next to a birth just
-    /// beyond.
+    /// The parameter reaches this end of its range: the last orbit lies there, to the rounding, or to 1e-9
+    /// next to a birth just beyond.
     RangeLimit(f64),
     /// The orbit ceases to exist or to be prime in the last bifurcation of the branch.
     Bifurcation,
@@ -224,8 +224,8 @@ pub struct Branch {
     pub parameter: ContinuationParameter,
     /// The map at the start of the branch: the other parameters.
     pub map: ImpactMap,
-    /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth that ends the
-    /// branch.
+    /// The orbits in the order of the arclength; the last one lies at the end, or within a step of the birth
+    /// that ends the branch.
     pub points: Vec<BranchPoint>,
     /// The bifurcations on the way, in the order of the arclength.
     pub bifurcations: Vec<Bifurcation>,
@@ -252,9 +252,9 @@ impl Branch {
         }
     }
 
-    /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`], which
-    /// must be a doubling. Its first point is the one after the doubling; `rising` of the settings has no meaning,
-    /// as it goes to either side.
+    /// The branch of twice the period that begins at number `index` of this branch's [`Self::bifurcations`],
+    /// which must be a doubling. Its first point is the one after the doubling; `rising` of the settings has
+    /// no meaning, as it goes to either side.
     ///
     /// The items of `observer` are the points that are allowed.
     ///
@@ -318,7 +318,8 @@ impl ImpactMap {
         orbit.check()?;
         within("restitution of a continuation", self.restitution(), f64::MIN_POSITIVE, 1.0, "(0, 1)")?;
         let parameter = settings.parameter.of(self);
-        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside it.
+        // The forcing of a map, P/pi, is rounded: that of a map made for an end of the range may lie beside
+        // it.
         let rounding = ROUNDED * parameter;
         if parameter < settings.low - rounding || parameter > settings.high + rounding || parameter.is_nan() {
             let legal = "[low, high] of the `Continuation`";

@@ -1,4 +1,5 @@
-//! Following an attractor of the impact map in the forcing: the state is carried over from one value to the next.
+//! Following an attractor of the impact map in the forcing: the state is carried over from one value to the
+//! next.
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::vibration::Vibration;
@@ -33,8 +34,8 @@ pub struct Following<Forcings> {
 
 /// Follows the attractor that `start` lies on (or is attracted to) through `forcings`.
 ///
-/// At each forcing the orbit from the state carried over runs for `transient` impacts. The walk ends before the
-/// forcing at which the disk comes to rest during that transient: the attractor is lost to chattering.
+/// At each forcing the orbit from the state carried over runs for `transient` impacts. The walk ends before
+/// the forcing at which the disk comes to rest during that transient: the attractor is lost to chattering.
 pub fn follow_attractor<Forcings: IntoIterator<Item = f64>>(
     restitution: f64,
     forcings: Forcings,
@@ -125,7 +126,8 @@ mod tests {
             let exact = followed.map.period_one(1).expect("exists");
             assert!((followed.state.phase().angle() - exact.phase().angle()).abs() < 1e-9);
         }
-        // Next to its birth the orbit attracts only from very near: the followed state is lost in one large step.
+        // Next to its birth the orbit attracts only from very near: the followed state is lost in one large
+        // step.
         let lost = follow_attractor(0.5, [0.335, 0.4, 0.32, 0.4], start, 500, ChatterPolicy::Complete);
         assert_eq!(lost.count(), 2);
     }

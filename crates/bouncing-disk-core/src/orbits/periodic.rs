@@ -1,13 +1,13 @@
-//! Periodic orbits of the impact map: closed form, refinement by multiple shooting, stability (Floquet multipliers).
+//! Periodic orbits of the impact map: the closed form of period 1, stability (Floquet multipliers), and the
+//! orbit on which a start settles.
 
 use core::f64::consts::{PI, TAU};
 
-use glam::{DMat2, DVec2};
+use glam::DMat2;
 
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState, OrbitEvent};
-use crate::numerics::block_cyclic::solve_block_cyclic;
 use crate::numerics::elementary::{acos, ln};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::stored::read_checked;
@@ -18,11 +18,8 @@ pub(crate) mod newton;
 pub(crate) mod pair;
 pub(crate) mod search;
 
-/// Newton steps of the multiple shooting before it gives up.
+/// Most Newton steps of [`ImpactMap::refine`].
 const MAX_NEWTON_STEPS: u32 = 50;
-
-/// A shooting residual (rad, units of g/omega, relative to the orbit's speeds) at which the orbit counts as found.
-const SHOOTING_RESIDUAL: f64 = 1.0e-12;
 
 /// The longest period searched for and refined.
 pub const MAX_PERIOD: usize = 4_096;
@@ -75,8 +72,8 @@ impl Multipliers {
         Self::of_invariants(matrix.x_axis.x + matrix.y_axis.y, matrix.determinant())
     }
 
-    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`], where the determinant is known
-    /// better than the entries (that of an orbit of n impacts is r^(2n)).
+    /// The eigenvalues of a real 2x2 matrix with this trace and determinant: [`Self::of`], where the
+    /// determinant is known better than the entries (that of an orbit of n impacts is r^(2n)).
     #[must_use]
     pub fn of_invariants(trace: f64, determinant: f64) -> Self {
         let half_trace = 0.5 * trace;
@@ -160,8 +157,8 @@ read_checked!(PeriodicOrbit as UncheckedOrbit {
 pub enum Stability {
     /// Both multipliers lie inside the unit circle by more than their uncertainty: the orbit attracts.
     Stable,
-    /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable, or
-    /// rounding decides whether it attracts and whether it exists.
+    /// A multiplier is 1 or -1 within its uncertainty, as in a fold or a doubling: the orbit is semi-stable,
+    /// or rounding decides whether it attracts and whether it exists.
     Marginal,
     /// A multiplier lies outside the unit circle by more than its uncertainty.
     Unstable,
@@ -179,7 +176,7 @@ impl core::fmt::Display for Stability {
 }
 
 impl PeriodicOrbit {
-    /// Checks what is read: what [`ImpactMap::refine`] may find.
+    /// Checks an orbit that is read: whether [`ImpactMap::refine`] could give it.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let most = MAX_PERIOD as f64;
         within("impacts of a periodic orbit", self.states.len() as f64, 1.0, most, "[1, 4096]")?;
@@ -250,8 +247,8 @@ impl PeriodicOrbit {
         Multipliers::of(self.monodromy)
     }
 
-    /// How far the multipliers may be off: as far as [`Self::trace_error`] moves the roots of m^2 - T m + D,
-    /// at a double root by its square root.
+    /// The error of the multipliers: how far [`Self::trace_error`] moves the roots of m^2 - T m + D, at a
+    /// double root by its square root.
     #[must_use]
     pub fn multiplier_error(&self) -> f64 {
         let (trace, determinant) = (self.trace(), self.monodromy.determinant());
@@ -269,17 +266,6 @@ impl PeriodicOrbit {
     pub fn flip_function(&self) -> f64 {
         1.0 + self.trace() + self.monodromy.determinant()
     }
-}
-
-/// A step of the multiple shooting: the derivatives of the map at all impacts and the distances of their successors from the
-/// next impacts, which the changes of all impacts must make up; the derivative of the map around the orbit, the turns of the
-/// phase, and the largest distance of an impact from its target.
-struct Shooting {
-    derivatives: Vec<DMat2>,
-    right: Vec<DVec2>,
-    monodromy: DMat2,
-    turns: u64,
-    worst: f64,
 }
 
 /// The smaller way round the circle from `from` to `to`, in (-pi, pi].
@@ -344,12 +330,13 @@ impl ImpactMap {
         (threshold * threshold + height * height).sqrt()
     }
 
-    /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from `state` repeats
-    /// itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if no such period
-    /// exists or the disk comes to rest (judged by [`ChatterPolicy::Complete`]).
+    /// The smallest period (in impacts, up to `longest` in [1, [`MAX_PERIOD`]]) with which an orbit from
+    /// `state` repeats itself within `tolerance` >= 0 (rad, and relative speed), twice in a row; `None` if no
+    /// such period exists or the disk comes to rest (judged by [`ChatterPolicy::Complete`]).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
+    /// [`Error::OutOfRange`] for `longest` or `tolerance`; those of
+    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
     pub fn period_of(
         &self,
         state: ImpactState,
@@ -387,110 +374,9 @@ impl ImpactMap {
         }))
     }
 
-    /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
-    /// unknown, so that long and unstable orbits converge.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if Newton's
-    /// iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`] if it converges to a
-    /// disk at rest; those of [`Vibration::first_impact`](crate::Vibration::first_impact).
-    pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
-        self.refine_ticked(guess, &mut |_| Ok(()))
-    }
-
-    /// [`Self::refine`] as a part of a longer call; the tick counts impacts.
-    pub(crate) fn refine_ticked(
-        &self,
-        guess: &[ImpactState],
-        tick: Tick<'_>,
-    ) -> Result<PeriodicOrbit, Error> {
-        let n = guess.len();
-        within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
-        let mut states = guess.to_vec();
-        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
-        let mut residual = f64::INFINITY;
-        // What a step that makes it worse is measured against: at the birth of an orbit the derivative is singular.
-        let mut found = None;
-        let not_settled =
-            |iterations, residual| Error::NotSettled { what: "multiple shooting", iterations, residual };
-        let accepted = |orbit: PeriodicOrbit| {
-            orbit.check_motion()?;
-            let residual = orbit.position_error;
-            self.exact_orbit(orbit).ok_or_else(|| not_settled(MAX_NEWTON_STEPS, residual))
-        };
-        for iterations in 1..=MAX_NEWTON_STEPS {
-            tick(n as u64)?;
-            let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
-                Ok(shooting) => shooting,
-                Err(error) => return found.map_or(Err(error), accepted),
-            };
-            let orbit = || PeriodicOrbit {
-                states: states.clone(),
-                platform_periods: turns,
-                monodromy,
-                position_error: worst,
-                trace_error: 0.0,
-            };
-            // A step after the residual has stopped shrinking only stirs the rounding.
-            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
-                return accepted(orbit());
-            }
-            if worst <= SHOOTING_RESIDUAL {
-                found = Some(orbit());
-            } else if let Some(found) = found {
-                return accepted(found);
-            }
-            residual = worst;
-            let steps = solve_block_cyclic(&derivatives, &right);
-            let moved = states.iter().zip(&steps).map(|(state, step)| {
-                let angle = state.phase().angle() + step.x;
-                let velocity = (state.velocity() + step.y).min(0.0);
-                ImpactState::new(Phase::new(angle)?, velocity)
-            });
-            states = match moved.collect::<Result<_, _>>() {
-                Ok(states) => states,
-                Err(_) => return found.map_or(Err(not_settled(iterations, residual)), accepted),
-            };
-        }
-        found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
-    }
-
-    /// The equations of one step of the multiple shooting, and how far `states` are from an orbit.
-    fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
-        let n = states.len();
-        let mut shooting = Shooting {
-            derivatives: Vec::with_capacity(n),
-            right: Vec::with_capacity(n),
-            monodromy: DMat2::IDENTITY,
-            turns: 0,
-            worst: 0.0,
-        };
-        let mut turns = 0;
-        for (i, &state) in states.iter().enumerate() {
-            let (impact, derivative) = self.step_with_derivative(state)?;
-            shooting.monodromy = derivative * shooting.monodromy;
-            turns += impact.turns as i64;
-            let target = states[(i + 1) % n];
-            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
-            let phase = phase_difference(landed, aimed);
-            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
-            if landed - aimed > PI {
-                turns += 1;
-            } else if aimed - landed > PI {
-                turns -= 1;
-            }
-            let velocity = impact.velocity - target.velocity();
-            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
-            shooting.derivatives.push(derivative);
-            shooting.right.push(DVec2::new(-phase, -velocity));
-        }
-        shooting.turns = turns.max(0) as u64;
-        Ok(shooting)
-    }
-
-    /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the period
-    /// (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by [`ChatterPolicy::Complete`]) or
-    /// shows no period.
+    /// The attracting periodic orbit that the orbit from `state` settles on: `transient` impacts, then the
+    /// period (at most `longest`), then [`Self::refine`]. `None` if it comes to rest (judged by
+    /// [`ChatterPolicy::Complete`]) or shows no period.
     ///
     /// The items of `observer` are the impacts of the transient, of the search for the period and of
     /// the refinement, counted at their maximum.

@@ -1,4 +1,5 @@
-//! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed in lockstep.
+//! Many orbits of impact maps at once: the events are those of each orbit by itself, the flights are computed
+//! in lockstep.
 
 use core::f64::consts::TAU;
 
@@ -27,8 +28,8 @@ pub struct SweepImpact {
     pub state: ImpactState,
     /// How often the phase passed 0 (mod 2 pi) during the flight.
     pub turns: u64,
-    /// The duration of the flight in radians, from the two phases: its absolute error is their rounding, where
-    /// [`Impact::remainder`] is accurate relative to itself, however short the flight.
+    /// The duration of the flight in radians, from the two phases: its absolute error is their rounding,
+    /// where [`Impact::remainder`] is accurate relative to itself, however short the flight.
     pub duration: f64,
 }
 
@@ -48,7 +49,8 @@ impl SweepImpact {
         })
     }
 
-    /// A duration that decides as the exact one does whether a cut counts the flight as short; `orbit` has not landed.
+    /// A duration that decides as the exact one does whether a cut counts the flight as short; `orbit` has
+    /// not landed.
     #[inline(always)]
     pub(super) fn decisive_duration(&self, orbit: &Orbit) -> f64 {
         if let ChatterPolicy::Cut(cut) = orbit.policy()

@@ -103,8 +103,8 @@ const NEUTRAL_POWER: f64 = 2.0;
 /// -ln(2^-52): the growth along an escape from a periodic orbit on which the start was to the last bit.
 const ESCAPE: f64 = 52.0 * core::f64::consts::LN_2;
 
-/// How many times the area of a set of states must have shrunk by e before an orbit may be taken for one that
-/// stays as it is.
+/// How many times the area of a set of states must have shrunk by e before the behaviour of an orbit counts
+/// as final.
 const DISSIPATION_TIMES: f64 = 10.0;
 
 /// The largest Lyapunov exponent of one orbit as it was measured.
@@ -174,7 +174,7 @@ impl ImpactMap {
     }
 }
 
-/// What is known of an orbit whose exponent is sought.
+/// The state of the computation of an orbit's exponent.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
     state: ImpactState,
@@ -183,9 +183,10 @@ struct Followed {
     rested: bool,
 }
 
-/// The largest Lyapunov exponent per impact of each orbit of `starts`: the mean logarithmic growth of a small perturbation
-/// over `impacts` impacts after `transient` ones. `None` where the disk comes to rest (the motion after a rest does not
-/// depend on the one before) or grazes the platform (the derivative is unbounded there).
+/// The largest Lyapunov exponent per impact of each orbit of `starts`: the mean logarithmic growth of a small
+/// perturbation over `impacts` impacts after `transient` ones. `None` where the disk comes to rest (the
+/// motion after a rest does not depend on the one before) or grazes the platform (the derivative is unbounded
+/// there).
 ///
 /// The items of `observer` are the orbits.
 ///
@@ -236,7 +237,8 @@ pub fn lyapunov_exponents(
 mod tests {
     use super::*;
 
-    /// The passage by a fold multiplies a perturbation by n^2, a shear by n, an escape from a periodic orbit by 2^52 at most.
+    /// The passage by a fold multiplies a perturbation by n^2, a shear by n, an escape from a periodic orbit
+    /// by 2^52 at most.
     #[test]
     fn neutral_growth_is_no_chaos() {
         for impacts in [100, 10_000, 1_000_000_u64] {
@@ -250,7 +252,8 @@ mod tests {
         }
     }
 
-    /// The logarithm of a growth of 1e200 or 1e-200 is a number; without bound, or without effect, it is none.
+    /// The logarithm of a growth of 1e200 or 1e-200 is a number; without bound, or without effect, it is
+    /// none.
     #[test]
     fn growth_of_any_size_has_an_exponent() {
         for size in [5.0e-324, 1.0e-310, 1.0e-200, 1.0e-140, 1.0, 1.0e139, 1.0e150, 1.0e200, 1.0e300] {

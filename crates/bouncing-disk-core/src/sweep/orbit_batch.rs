@@ -4,8 +4,8 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
-/// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit those of
-/// [`ImpactMap::step`], several times faster than one after the other.
+/// Independent orbits of the impact map, each advanced by one impact at a time; the states are bit for bit
+/// those of [`ImpactMap::step`], several times faster than one after the other.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::OrbitBatch;

@@ -62,8 +62,8 @@ impl SweepRun<usize> {
 /// call that is stopped.
 ///
 /// # Errors
-/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory for; those of
-/// [`sweep`](super::sweep).
+/// [`Error::TooLarge`] for more than [`MAX_RECORDED`] impacts of all orbits together or than there is memory
+/// for; those of [`sweep`](super::sweep).
 pub fn orbit_diagram(
     orbits: &[Orbit],
     transient: usize,

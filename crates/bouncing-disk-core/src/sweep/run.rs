@@ -98,7 +98,7 @@ impl<T> PartialResults<T> {
     pub fn extend(&mut self, results: impl IntoIterator<Item = (usize, T)>) {
         let (total, last) = (self.total, self.finished.len().saturating_sub(1));
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
-        // What comes in its order is added in the time that it takes by itself.
+        // A result that comes in its order is added without moving any other.
         if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
             // Stable, so that the first result of an item is the one that stays.
             self.finished.sort_by_key(|(index, _)| *index);
@@ -115,7 +115,7 @@ impl<T> PartialResults<T> {
     /// The results of all items.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if one is not finished: [`Self::is_done`] tells before.
+    /// [`Error::Stopped`] if one is not finished, which [`Self::is_done`] shows.
     pub fn into_results(self) -> Result<Vec<T>, Error> {
         if !self.is_done() {
             return Err(self.stopped());
@@ -190,7 +190,7 @@ impl<T> SweepRun<T> {
     /// The results of all orbits, in their order.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if one is not finished: [`Self::is_done`] tells before.
+    /// [`Error::Stopped`] if one is not finished, which [`Self::is_done`] shows.
     pub fn into_results(self) -> Result<Vec<T>, Error> {
         self.results.into_results()
     }
@@ -252,9 +252,9 @@ impl<T: Send> SweepRun<T> {
 /// visitors' results in the order of the orbits.
 ///
 /// `start` makes the value of the orbit of an index; `visit` is shown the events one by one, those of
-/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel` the
-/// orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the processor
-/// change a bit.
+/// [`Orbit::advance`], and breaks where the orbit need not be followed further. With the feature `parallel`
+/// the orbits are spread over the threads of rayon's pool. Neither their number nor the instructions of the
+/// processor change a bit.
 ///
 /// An endless orbit that its visitor never breaks off is followed for ever, or until the observer of
 /// [`sweep`] breaks.

@@ -9,14 +9,15 @@ use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
-/// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same however many of
-/// them are in use, as much as about this many single flights (docs/numerics/lockstep.md, "Sweeps").
+/// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
+/// however many of them are in use, as much as about this many single flights (docs/numerics/lockstep.md,
+/// "Sweeps").
 const FEWEST: usize = 12;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// What became of the orbit of an index.
+/// The outcome of the orbit with an index.
 type Outcome<S> = (usize, Result<S, Error>);
 
 /// Follows the orbits of the indices `open` until they are done or the observer breaks; the outcomes in the
@@ -155,8 +156,8 @@ where
 
     /// Advances orbits together while there are enough of them.
     fn in_lanes(&mut self, set: InstructionSet) -> Result<(), Error> {
-        // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates from rest has no
-        // impact that leads to it.
+        // A launch is set as an impact with its speed and a rebound without loss: an orbit that separates
+        // from rest has no impact that leads to it.
         let Some(map) = self.queue.orbits.first().map(Orbit::map) else { return Ok(()) };
         let mut scheduler = Box::new(FlightScheduler::new(set, Purpose::Launches));
         let mut batches = vec![Batch::new(*map.vibration()); self.lanes / LANES];

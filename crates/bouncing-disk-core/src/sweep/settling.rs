@@ -3,15 +3,16 @@
 /// Changes from round to round that are rounding, relative to the largest value.
 const ROUNDING: f64 = 1.0e-12;
 
-/// How much further than before a value may move on: of two motions that both settle, say spin and impact, one disturbs the other.
+/// How much further than before a value may move on: of two motions that both settle, say spin and impact,
+/// one disturbs the other.
 const LARGEST_GROWTH: f64 = 1.05;
 
 /// The fewest rounds of which it can be said that they come nearer.
 const FEWEST_ROUNDS: usize = 4;
 
-/// Whether the values, one of each impact, are still on their way to values that repeat: every `period` impacts, for some period
-/// up to `longest_period`, each has moved in the same direction as before, hardly further than before, and by
-/// more than `tolerance` in all.
+/// Whether the values, one of each impact, are still on their way to values that repeat: every `period`
+/// impacts, for some period up to `longest_period`, each has moved in the same direction as before, hardly
+/// further than before, and by more than `tolerance` in all.
 ///
 /// Near a period doubling or a fold, where a multiplier is near 1 or -1, an orbit needs many impacts to
 /// settle, and a record after a fixed number of them is a transient; so is the spin of a disk that slides in
@@ -38,7 +39,7 @@ pub fn is_settling(values: &[f64], longest_period: usize, tolerance: f64) -> boo
             goes_on && after.abs() <= LARGEST_GROWTH * before.abs() + slack
         })
     };
-    // What repeats every few impacts, or comes nearer to that, does so also every twice as many.
+    // A sequence that repeats after n impacts, or comes nearer to doing so, does so after 2n impacts as well.
     let Some(period) = (1..=longest_period.min(values.len() / FEWEST_ROUNDS)).find(comes_nearer) else {
         return false;
     };

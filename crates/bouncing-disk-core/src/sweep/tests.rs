@@ -22,7 +22,8 @@ use core::ops::ControlFlow;
 
 const POLICIES: [ChatterPolicy; 2] = [ChatterPolicy::Complete, PAPER_POLICY];
 
-/// Orbits of both policies from impacts, launches, rest and the air, at forcings from rest to chaos; many chatter.
+/// Orbits of both policies from impacts, launches, rest and the air, at forcings from rest to chaos; many
+/// chatter.
 fn orbits(count: u64) -> Vec<Orbit> {
     let orbit = |k: u64| {
         let peak = match k % 5 {

@@ -20,7 +20,8 @@ use crate::paper::PAPER_POLICY;
 use crate::seams;
 use crate::shards::{self, Kind};
 
-/// Relative accuracy of a flight of next to no duration, beside what the rounding of P and the phase does to it.
+/// Relative accuracy of a flight of next to no duration, beside what the rounding of P and the phase does to
+/// it.
 const BRIEF_ACCURACY: f64 = 1.0e-14;
 
 /// Where one unit roundoff in P or the phase changes the pull by more than this share, they decide.
@@ -44,7 +45,8 @@ pub struct Tally {
     pub failures: Vec<String>,
 }
 
-/// What the oracle judges: every so many-th of the cases that the march confirms, and of those that it leaves open.
+/// What the oracle judges: every so many-th of the cases that the march confirms, and of those that it leaves
+/// open.
 #[derive(Debug, Clone, Copy)]
 pub struct Drawn {
     pub confirmed: u64,
@@ -175,7 +177,8 @@ pub fn drops(seed: u64, count: u64, largest_peak: f64, drawn: Drawn) -> Tally {
     tally
 }
 
-/// Where the platform has fallen away to within a rounding: the oracle's own limits lost all digits to cancellation there.
+/// Where the platform has fallen away to within a rounding: the oracle's own limits lost all digits to
+/// cancellation there.
 #[test]
 fn a_pull_of_half_a_rounding_is_judged_by_what_a_rounding_does_to_it() {
     let case = Case {
@@ -289,8 +292,9 @@ fn a_landing_on_the_seam_counts_its_turn() {
     }
 }
 
-/// A disk that is let go a distance d before the platform stops to fall away comes back after 3 d: the pull is then
-/// proportional to the time. Of 15,996 such launches within four units in the last place 93 found no impact.
+/// A disk that is let go a distance d before the platform stops to fall away comes back after 3 d: the pull
+/// is then proportional to the time. Of 15,996 such launches within four units in the last place 93 found no
+/// impact.
 #[test]
 fn a_launch_from_rest_at_the_end_of_the_fall_lands_after_three_times_the_rest_of_it() {
     let mut random = SplitMix::new(108);
@@ -352,8 +356,8 @@ fn fast_and_low_drops_keep_their_digits() {
     assert!((impact.duration() / parabola - 1.0).abs() < 1.0e-3, "{impact:?}");
 }
 
-/// From a gap below the rounding of P a disk that moves down landed before it started, or was lost until the next period: it
-/// lands after gap/speed, but for the little that the platform's pull changes meanwhile.
+/// From a gap below the rounding of P a disk that moves down landed before it started, or was lost until the
+/// next period: it lands after gap/speed, but for the little that the platform's pull changes meanwhile.
 #[test]
 fn a_disk_that_moves_down_lands_at_once_and_not_before() {
     for (peak, angle, gap, speed) in [
@@ -479,7 +483,8 @@ fn basins_on_seams_have_the_labels_of_single_starts() {
             .and_then(|orbit| KnownOrbit::new(orbit, 0.01).ok())
             .into_iter()
             .collect();
-        // Centres at whole sixteenths of the period, 0 and 1 among them, and speeds at fractions of that of the orbits.
+        // Centres at whole sixteenths of the period, 0 and 1 among them, and speeds at fractions of that of
+        // the orbits.
         let phase = Axis::new(-1.0 / 32.0, 33.0 / 32.0, 17).unwrap();
         let fastest = 4.0 / (1.0 + map.restitution());
         let speed = Axis::new(0.0, fastest * (1.0 + 1.0 / 16.0), 17).unwrap();

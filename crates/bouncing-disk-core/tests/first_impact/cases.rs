@@ -1,7 +1,7 @@
 //! The stored cases: hard launches with high-precision answers, in `data/cases/first_impact.json`.
 //!
-//! The answers come from the oracle's conservative advancement alone, so no solver of the crate has a say in them.
-//! Set `UPDATE_CASES=1` to write the file anew.
+//! The answers come from the oracle's conservative advancement alone, so no solver of the crate has a say in
+//! them. Set `UPDATE_CASES=1` to write the file anew.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;
@@ -21,8 +21,8 @@ use crate::oracle::{DIP_FACTOR, two_pi};
 /// Significant digits of the stored answers.
 const DIGITS: usize = 40;
 
-/// The reference solver may be off by this many conditioning limits, on top of [`PHASE_FACTOR`]: its steps are
-/// shorter than the rounding of the gap allows next to a graze.
+/// The reference solver may be off by this many conditioning limits, on top of [`PHASE_FACTOR`]: its steps
+/// are shorter than the rounding of the gap allows next to a graze.
 const REFERENCE_FACTOR: f64 = 40.0;
 
 fn path() -> PathBuf {

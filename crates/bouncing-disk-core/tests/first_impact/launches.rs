@@ -257,7 +257,8 @@ fn convex_phase(random: &mut SplitMix, peak: f64) -> f64 {
     }
 }
 
-/// A launch whose disk passes a crest of the platform with a smallest gap of +-10^-2 ... 10^-15 of its largest.
+/// A launch whose disk passes a crest of the platform with a smallest gap of +-10^-2 ... 10^-15 of its
+/// largest.
 pub fn grazing(random: &mut SplitMix) -> Option<Case> {
     grazing_to(random, -15.5)
 }

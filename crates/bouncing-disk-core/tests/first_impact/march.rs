@@ -1,5 +1,5 @@
-//! A march in doubles that confirms an impact or hands it to the high-precision oracle: it knows the gap and how strongly it can
-//! bend, and nothing of pieces, brackets or forms.
+//! A march in doubles that confirms an impact or hands it to the high-precision oracle: it knows the gap and
+//! how strongly it can bend, and nothing of pieces, brackets or forms.
 
 use std::f64::consts::TAU;
 
@@ -49,7 +49,8 @@ impl Flight {
         }
     }
 
-    /// What the impact says of itself: phase, turns, periods, remainder and velocities must tell the same time.
+    /// What the impact says of itself: phase, turns, periods, remainder and velocities must tell the same
+    /// time.
     pub fn agrees(&self, impact: &Impact) -> Result<(), &'static str> {
         let (angle, h) = (impact.phase.angle(), impact.duration());
         if !(0.0..TAU).contains(&angle) || !(0.0..TAU).contains(&impact.remainder) {
@@ -94,8 +95,8 @@ impl Flight {
         self.is_first(h)
     }
 
-    /// The duration 2 w/(1 - P sin tau) of a launch that is back before the pull, no small difference, has changed by a
-    /// rounding: the squares of the march would underflow. `None` for other flights.
+    /// The duration 2 w/(1 - P sin tau) of a launch that is back before the pull, no small difference, has
+    /// changed by a rounding: the squares of the march would underflow. `None` for other flights.
     fn brief_parabola(&self) -> Option<f64> {
         let sine = self.peak * self.phase.sin();
         let pull = 1.0 - sine;

@@ -3,8 +3,8 @@
 //!
 //! The arithmetic is `dashu-float` at [`PRECISION`] bits. Its own sine takes more than 100 us at this
 //! precision (it computes pi anew for every argument), so sine and cosine are a table at multiples of 1/1024,
-//! by angle addition from `dashu`'s values for the first, and a Taylor series for the rest; a test compares them
-//! with `dashu`'s own.
+//! by angle addition from `dashu`'s values for the first, and a Taylor series for the rest; a test compares
+//! them with `dashu`'s own.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::OnceLock;
@@ -37,8 +37,8 @@ pub const VELOCITY_FACTOR: f64 = 8.0;
 /// gap by one unit roundoff in each of P, w and the launch phase.
 pub const DIP_FACTOR: f64 = 8.0;
 
-/// The carried sine and cosine may differ by this much from those of the angle, which has roundings of its own:
-/// some roundoffs of 2 pi.
+/// The carried sine and cosine may differ by this much from those of the angle, which has roundings of its
+/// own: some roundoffs of 2 pi.
 const PAIR_TOLERANCE: f64 = 6.0 * U * TAU;
 
 /// Steps of conservative advancement in double precision before the high-precision one takes over.
@@ -192,13 +192,13 @@ pub struct Point {
     cos: High,
 }
 
-/// The conditioning limits of an impact: what one unit roundoff u = 2^-53 in each of P, w and the launch phase
-/// (and of P in the height of the crests, if the disk passes one) does to it.
+/// The conditioning limits of an impact: what one unit roundoff u = 2^-53 in each of P, w and the launch
+/// phase (and of P in the height of the crests, if the disk passes one) does to it.
 ///
-/// The gap changes by dg = u (w h + P |h cos tau - sin(tau + h) + sin tau| \[+ P\] + tau |d gap/d tau|), the impact
-/// by 2 dg / (|v| + sqrt(v^2 + 2 dg |curvature|)), and the phase has a roundoff u 2 pi of its own. For a launch
-/// from rest at the phase of separation, u tan sigma takes the place of u tau, and is added to the phase: sigma
-/// = asin(1/P) moves by so much.
+/// The gap changes by dg = u (w h + P |h cos tau - sin(tau + h) + sin tau| \[+ P\] + tau |d gap/d tau|), the
+/// impact by 2 dg / (|v| + sqrt(v^2 + 2 dg |curvature|)), and the phase has a roundoff u 2 pi of its own. For
+/// a launch from rest at the phase of separation, u tan sigma takes the place of u tau, and is added to the
+/// phase: sigma = asin(1/P) moves by so much.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     pub gap: f64,
@@ -313,9 +313,10 @@ impl Exact {
         Point { gap, velocity, sin, cos }
     }
 
-    /// The duration of a flight that is so short that the pull at its start is that of all of it, to thirty digits: from a
-    /// `gap` and a velocity of any smallness, which the doubles of the march cannot square. `None` for other flights.
-    /// With it what one unit roundoff in P and the phase does to the pull, relative to it.
+    /// The duration of a flight that is so short that the pull at its start is that of all of it, to thirty
+    /// digits: from a `gap` and a velocity of any smallness, which the doubles of the march cannot square.
+    /// `None` for other flights. With it what one unit roundoff in P and the phase does to the pull, relative
+    /// to it.
     pub fn brief_flight(&self) -> Option<(High, f64)> {
         let pull = high(1.0) - &self.p * &self.s0;
         let (gap, speed) = (high(self.start_gap), high(self.speed));
@@ -436,7 +437,8 @@ impl Exact {
         None
     }
 
-    /// The same where the gap is still concave at `from`: the first time before `end` at which it rises again.
+    /// The same where the gap is still concave at `from`: the first time before `end` at which it rises
+    /// again.
     fn lowest_beyond(&self, from: &High, end: &High) -> Option<(High, Point)> {
         let mut before = from.clone();
         loop {
@@ -457,8 +459,8 @@ impl Exact {
         }
     }
 
-    /// Where the search for a root starts: not at the launch from rest, where the gap has a double or triple zero
-    /// but is convex until pi - sigma.
+    /// Where the search for a root starts: not at the launch from rest, where the gap has a double or triple
+    /// zero but is convex until pi - sigma.
     fn search_start(&self) -> Result<High, String> {
         if self.speed > 0.0 || self.start_gap > 0.0 {
             return Ok(high(0.0));
@@ -472,7 +474,8 @@ impl Exact {
         }
     }
 
-    /// The times at which the disk rises above the crests and comes down to their height, and its speed there.
+    /// The times at which the disk rises above the crests and comes down to their height, and its speed
+    /// there.
     fn above_crests(&self) -> Option<(High, High, High)> {
         let depth = &self.p * (high(1.0) - &self.s0) - high(self.start_gap);
         let radicand = &self.disk_speed * &self.disk_speed - high(2.0) * &depth;
@@ -483,7 +486,8 @@ impl Exact {
         let fall = radicand.sqrt();
         let until = &self.disk_speed + &fall;
         if starts_above {
-            // Where this is lost in the rounding of both speeds, the disk is above the crests for no time worth a leap.
+            // Where this is lost in the rounding of both speeds, the disk is above the crests for no time
+            // worth a leap.
             return (low(&until) > 1.0e-30 * low(&fall)).then(|| (high(0.0), until, fall));
         }
         Some((high(2.0) * depth / &until, until, fall))
@@ -523,8 +527,8 @@ impl Exact {
     }
 
     /// The smallest gap of any dip (or of an inflection with next to no slope) before `end`, over its own
-    /// perturbation by a roundoff of the data; infinity if there is none. Below some, the first impact is a matter
-    /// of rounding.
+    /// perturbation by a roundoff of the data; infinity if there is none. Below some, the first impact is a
+    /// matter of rounding.
     pub fn smallest_dip_before(&self, end: &High) -> f64 {
         if self.peak <= 1.0 {
             return f64::INFINITY;
@@ -686,7 +690,8 @@ impl Exact {
         self.advance_from_launch(&start, &target, true, verdict)
     }
 
-    /// From `from` to `end` (a root if `to_root`), the gap in doubles written so that it has relative accuracy.
+    /// From `from` to `end` (a root if `to_root`), the gap in doubles written so that it has relative
+    /// accuracy.
     fn advance_from_launch(
         &self,
         from: &High,

@@ -23,15 +23,16 @@ fn speeds() -> impl Strategy<Value = f64> {
 /// Roundings of a gap relative to the sizes of its terms, or of a time.
 const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 
-/// Relative rounding of a bound that is computed from the difference of two speeds, a thousandth of them or more.
+/// Relative rounding of a bound that is computed from the difference of two speeds, a thousandth of them or
+/// more.
 const ROUNDED_BOUND: f64 = 1.0e-9;
 
 /// Whether a launch from a platform at rest returns after twice its speed, with its speed.
 fn flies_a_parabola(angle: f64, speed: f64) -> bool {
     let impact = impact(0.0, angle, speed);
-    // A flight of more than half a radian is the difference of two phases. Their sum, below 4 pi, is rounded by at most
-    // half an ulp of [8, 16), 4 epsilon; the wrapped phase, its distance from the launch, and that with a turn more, all below 2 pi, by 2
-    // epsilon each.
+    // A flight of more than half a radian is the difference of two phases. Their sum, below 4 pi, is rounded
+    // by at most half an ulp of [8, 16), 4 epsilon; the wrapped phase, its distance from the launch, and that
+    // with a turn more, all below 2 pi, by 2 epsilon each.
     let phases = if 2.0 * speed > 0.5 { 10.0 * f64::EPSILON } else { 0.0 };
     (impact.duration() - 2.0 * speed).abs() <= ROUNDINGS * speed + phases
         && (impact.velocity + speed).abs() <= ROUNDINGS * speed
@@ -95,9 +96,9 @@ proptest! {
     ) {
         let (faster, slower) = (impact(peak, angle, speed * more), impact(peak, angle, speed));
         let (late, early) = (faster.duration(), slower.duration());
-        // The gap grows with the launch speed at every instant: at the impact of the slower disk the faster one is this
-        // high, less the rounding of both gaps. Its speed there is that impact's or less, and it gains 1 + P at most.
-        // Flights of less than half a radian are accurate relative to their own length.
+        // The gap grows with the launch speed at every instant: at the impact of the slower disk the faster
+        // one is this high, less the rounding of both gaps. Its speed there is that impact's or less, and it
+        // gains 1 + P at most. Flights of less than half a radian are accurate relative to their own length.
         let scale = if early < 0.5 { early } else { 1.0 + early };
         let above = speed * (more - 1.0) * early - ROUNDINGS * (1.0 + peak) * scale * scale;
         let rounding = ROUNDINGS * scale;

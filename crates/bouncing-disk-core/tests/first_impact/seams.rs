@@ -1,7 +1,9 @@
-//! Launches, drops and parameters that land *on* the seams of the problem: phases where the angle wraps or a piece ends, numbers
-//! that a threshold is made of, exact binary fractions, and the neighbours of all of them in units of the last place.
+//! Launches, drops and parameters that land *on* the seams of the problem: phases where the angle wraps or a
+//! piece ends, numbers that a threshold is made of, exact binary fractions, and the neighbours of all of them
+//! in units of the last place.
 //!
-//! Random numbers never meet such a place: 87 million random launches did not find what the first thousand of these did.
+//! Random numbers never meet such a place: 87 million random launches did not find what the first thousand of
+//! these did.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -53,7 +55,8 @@ fn separation(peak: f64) -> f64 {
     if peak > 1.0 { libm::asin(1.0 / peak) } else { FRAC_PI_2 }
 }
 
-/// The forcing at which the orbits with one impact every `k` periods are born, and that of the first doubling (k = 1).
+/// The forcing at which the orbits with one impact every `k` periods are born, and that of the first doubling
+/// (k = 1).
 pub fn threshold_forcing(random: &mut SplitMix, restitution: f64) -> f64 {
     let r = restitution;
     let k = (1 + random.next() % 4) as f64;
@@ -126,14 +129,16 @@ fn extreme_speed(random: &mut SplitMix, longest: f64) -> f64 {
     }
 }
 
-/// A launch speed with which the disk lands a time `h` later, whatever comes in between; not positive where there is none.
+/// A launch speed with which the disk lands a time `h` later, whatever comes in between; not positive where
+/// there is none.
 fn speed_to_land_after(peak: f64, angle: f64, h: f64) -> f64 {
     let (s, c) = libm::sincos(angle);
     let (s1, _) = libm::sincos(angle + h);
     0.5 * h - peak * (c + (s - s1) / h)
 }
 
-/// A launch whose flight is no longer than some `longest` rad or, for the fastest platforms, some of their climbs.
+/// A launch whose flight is no longer than some `longest` rad or, for the fastest platforms, some of their
+/// climbs.
 pub fn launch(random: &mut SplitMix, largest_peak: f64, longest: f64) -> Case {
     let peak = peak(random, largest_peak);
     let angle = angle(random, peak);

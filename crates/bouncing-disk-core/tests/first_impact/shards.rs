@@ -1,5 +1,5 @@
-//! A campaign of many cases in shards: each is written to a file of its own when it is done, so that a campaign can be broken off
-//! and taken up again.
+//! A campaign of many cases in shards: each is written to a file of its own when it is done, so that a
+//! campaign can be broken off and taken up again.
 
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};

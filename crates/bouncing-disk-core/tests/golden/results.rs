@@ -1,10 +1,11 @@
 //! Digests of results, recorded before the work on speed: a faster solver may not change a bit of them.
 //!
-//! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a change needs a
-//! reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests again only together with it.
+//! A digest that differs means that the arithmetic of a flight, or a decision in it, is another one. Such a
+//! change needs a reason of its own (docs/numerics/solver.md, "Same bits everywhere"); record the digests
+//! again only together with it.
 //!
-//! The explorer compares them in WebAssembly and on other processors (crates/bouncing-disk-web/src/digests.rs), which
-//! have no test runner.
+//! The explorer compares them in WebAssembly and on other processors
+//! (crates/bouncing-disk-web/src/digests.rs), which have no test runner.
 
 use std::f64::consts::TAU;
 
@@ -78,8 +79,8 @@ fn rest(k: u64) -> Start {
     (peak, separation + (retention - separation) * first(k), 0.0)
 }
 
-/// A flight that touches the platform as it falls away, or passes it closely: traced back from the touch, with the
-/// speed off by up to 1e-3 and down to rounding.
+/// A flight that touches the platform as it falls away, or passes it closely: traced back from the touch,
+/// with the speed off by up to 1e-3 and down to rounding.
 fn grazing(k: u64) -> Start {
     let peak = 1.2 + 8.0 * third(k);
     let separation = elementary::asin(1.0 / peak);
@@ -132,8 +133,8 @@ fn prepared(regime: Regime) -> Vec<(ImpactMap, ImpactState)> {
         .collect()
 }
 
-/// Digests of the flights of these launches (durations) and of the impacts that end them. A launch without impact leaves
-/// its state as it is, as in an [`OrbitBatch`].
+/// Digests of the flights of these launches (durations) and of the impacts that end them. A launch without
+/// impact leaves its state as it is, as in an [`OrbitBatch`].
 fn one_by_one(launches: &[(ImpactMap, ImpactState)]) -> [u64; 2] {
     let (mut flights, mut impacts) = (Digest::new(), Digest::new());
     for &(map, state) in launches {

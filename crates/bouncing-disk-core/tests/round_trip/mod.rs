@@ -6,8 +6,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
-/// Writes and reads a value; then reads it with a key too many or one too few in each object, and with each of the
-/// `illegal` values at its place (a JSON pointer), where the error must contain the text.
+/// Writes and reads a value; then reads it with a key too many or one too few in each object, and with each
+/// of the `illegal` values at its place (a JSON pointer), where the error must contain the text.
 pub(crate) fn check<T: Serialize + DeserializeOwned + PartialEq + Debug>(
     value: &T,
     illegal: &[(&str, Value, &str)],

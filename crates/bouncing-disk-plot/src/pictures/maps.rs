@@ -1,4 +1,5 @@
-//! Maps of equal cells, and the key of their colours: basins of attraction, regimes, a quantity over two parameters.
+//! Maps of equal cells, and the key of their colours: basins of attraction, regimes, a quantity over two
+//! parameters.
 
 use super::impact_plane::{IMPACT_PHASE, IMPACT_SPEED, crosses};
 use super::torque_speed::Quantity;
@@ -12,7 +13,8 @@ use crate::panel::Panel;
 use crate::raster::Raster;
 use crate::ticks::Ticks;
 
-/// A key: below each other, in their order, squares of these colours of a palette with their words at the right.
+/// A key: below each other, in their order, squares of these colours of a palette with their words at the
+/// right.
 pub fn key<L: Into<Label>>(
     area: Rect,
     palette: &[Colour],
@@ -39,8 +41,8 @@ pub struct Basins<'a> {
     pub phases: [f64; 2],
     /// See [`phases`](Self::phases).
     pub speeds: [f64; 2],
-    /// Of as many cells along each axis the labels, row by row from the lowest speed: 0 is undecided, 1 rest, 2
-    /// the first orbit.
+    /// Of as many cells along each axis the labels, row by row from the lowest speed: 0 is undecided, 1 rest,
+    /// 2 the first orbit.
     pub labels: &'a [u8],
     /// The words of the labels.
     pub legend: &'a [(u8, String)],
@@ -100,7 +102,7 @@ fn short(words: &str) -> &str {
     words.split(" and ").next().unwrap_or(words)
 }
 
-/// What a disk may do for good: short words and colours, by the numbers of the cells of [`Regimes`].
+/// The long-term motions of a disk: short words and colours, by the numbers of the cells of [`Regimes`].
 pub const REGIMES: [(&str, Colour); 10] = [
     ("at rest", Colour::PALE_GREY),
     ("cycle with rest", Colour::WHITE),
@@ -114,7 +116,7 @@ pub const REGIMES: [(&str, Colour); 10] = [
     ("no such start", Colour::GREY),
 ];
 
-/// What a disk does for good, over forcing and restitution; a strip where the restitution is one.
+/// The long-term motion of a disk, over forcing and restitution; a strip for a single restitution.
 #[derive(Debug)]
 pub struct Regimes<'a> {
     /// The outer ends of the cells.
@@ -159,8 +161,8 @@ impl Regimes<'_> {
 /// Colours of a map, between the least and the largest value.
 const LEVELS: usize = 24;
 
-/// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours; a cell
-/// that is not finite is grey.
+/// A quantity over two parameters that have equal distances, row by row, as a map with a bar of its colours;
+/// a cell that is not finite is grey.
 pub fn heat_map(columns: &Quantity<'_>, rows: &Quantity<'_>, cells: &Quantity<'_>) -> Figure {
     let (x, x_label) = columns.shown();
     let (y, y_label) = rows.shown();

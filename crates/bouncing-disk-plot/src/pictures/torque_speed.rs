@@ -20,7 +20,7 @@ pub struct Quantity<'a> {
     pub name: &'a str,
     /// Its unit, `1` where it has none.
     pub unit: &'a str,
-    /// The values; what is not finite is a gap.
+    /// The values; one that is not finite is a gap.
     pub values: &'a [f64],
 }
 
@@ -78,8 +78,8 @@ pub fn swept_curve(along: &Quantity<'_>, quantity: &Quantity<'_>, half_widths: &
     Figure::new(SINGLE_COLUMN, 202.0).panel(panel)
 }
 
-/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has a steady
-/// speed.
+/// The behaviour of a motor under a load (N m): values with the half widths of their intervals, where it has
+/// a steady speed.
 #[derive(Clone, Copy, Debug)]
 pub struct LoadPoint {
     /// The load torque (N m).
@@ -124,7 +124,7 @@ pub fn torque_speed(largest_torque: f64, found: &[LoadPoint]) -> Figure {
     let spread: Vec<Point> = spread.map(|(load, [from, to])| (load, from, to)).collect();
     let (first, last) = Axis::ends_around(loads.iter().copied());
     let x = || Axis::spanned(first, last);
-    // Beyond the loads that were asked for there is nothing to see.
+    // Beyond the requested loads there is nothing to see.
     let limit = Some(torque * largest_torque).filter(|limit| (first..=last).contains(limit));
     let ends = speeds.iter().flat_map(|point| [point.1 - point.2, point.1 + point.2]);
     let ends = ends.chain(spread.iter().flat_map(|(_, from, to)| [*from, *to]));

@@ -35,7 +35,7 @@ from bouncing_disk._orbits import *
 from bouncing_disk._system import *
 from bouncing_disk._toss import *
 
-# Sweeps, and what they raise, are imported when one is asked for: what they need takes longer than all else here.
+# Sweeps and their errors are imported on first use: their imports take longer than all else here.
 if TYPE_CHECKING:
     from bouncing_disk._sweep import *
 

@@ -58,7 +58,7 @@ class Parameters:
     if not TYPE_CHECKING:
 
         def __getattr__(self, name: str) -> Any:
-            # The numbers are made when the first one is asked for: calls take what the library holds.
+            # The numbers are made on first use; calls of the library do not need them.
             if name == "_native" or "_given" in self.__dict__:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             self.__dict__.update(self._native.numbers())

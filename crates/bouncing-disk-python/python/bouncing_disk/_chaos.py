@@ -207,19 +207,19 @@ def lyapunov_spectra(
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Verdicts(Result):
-    """What many orbits do for good, and the evidence; numbers missing from a verdict are 0 or NaN.
+    """The long-term motion of many orbits, and the evidence; numbers missing from a verdict are 0 or NaN.
 
     Attributes:
         axial_forcing, restitution: the parameters of each orbit, shape (n,).
         kind: the verdict: a place in :attr:`KINDS`, shape (n,).
-        reason: why there is none: a place in :attr:`REASONS`, shape (n,).
-        period: impacts of one period of a periodic orbit or of one round of a chattering one, shape (n,).
+        reason: why an orbit is undecided: a place in :attr:`REASONS`, shape (n,).
+        period: impacts of one period of a periodic orbit or of one cycle of a chattering one, shape (n,).
         platform_periods: periods of the platform that this takes, shape (n,).
         after: impacts after which the verdict was known, shape (n,).
         rests: how often the disk came to rest on the way, shape (n,).
         exponent, standard_error: the largest Lyapunov exponent per impact and its standard error, where it
             was measured, shape (n,).
-        rounding_error: how far rounding may have carried the impacts of a chattering round (rad and g/omega),
+        rounding_error: how far rounding may have carried the impacts of a chattering cycle (rad and g/omega),
             shape (n,).
         multipliers: Floquet multipliers of a periodic orbit, also of a neutral or repelling one on
             which the orbit stays, shape (n, 2).
@@ -269,7 +269,7 @@ def verdicts(
     tolerance: Float = 1e-07,
     progress: Progress = None,
 ) -> Verdicts:
-    """What the orbit of each start does for good: periodic, chaotic, chattering, at rest or undecided, with the
+    """The long-term motion from each start: periodic, chaotic, chattering, at rest or undecided, with the
     evidence.
 
     Args:
@@ -385,7 +385,7 @@ class CrisisLives(Result):
         relative_error: its standard error relative to it; infinity where no orbit ended, shape (n,).
         ended, orbits: orbits that came to rest, and all of them, shape (n,).
         exponent, exponent_error: the mean life varies as ``beyond**exponent``; NaN without a power law.
-        no_power_law: why there is none.
+        no_power_law: the reason if there is no power law.
     """
 
     beyond: FloatArray
@@ -479,7 +479,7 @@ def crisis(
             narrower.
 
     Raises:
-        ComputationError: There is none, with the reason as its kind: ``"not-born"``, ``"not-followed"``,
+        ComputationError: There is no crisis, with the reason as its kind: ``"not-born"``, ``"not-followed"``,
             ``"none-rests"``, ``"rests-before"``, ``"not-chaotic"``, ``"lives-do-not-shrink"`` or
             ``"other-reason"``.
 

@@ -69,7 +69,7 @@ class InvalidError(BouncingDiskError, ValueError):
     """Arguments that do not fit together, or a text that cannot be read.
 
     Attributes:
-        kind: what is wrong, such as ``"not-given"``, ``"both-given"``, ``"text"``, or
+        kind: the kind of fault, such as ``"not-given"``, ``"both-given"``, ``"text"``, or
             ``"out-of-range-together"`` for what follows from several arguments, each of them legal by itself.
         details: its names and numbers: for a text its ``line`` and ``column``, for what follows from
             several arguments the ``quantity``, its ``value`` and ``range``, and the ``arguments``.

@@ -105,7 +105,7 @@ class RiseEstimate:
         constant: time constant of an exponential, rise time of a ramp (s).
         stall_acceleration: the first by the second (rad/s^2).
         start_speed: speed at the start time of the fit (rad/s); None for a start from rest.
-        residual: root mean square of what is left (rad/s).
+        residual: root mean square of the residuals (rad/s).
     """
 
     steady_speed: IntervalEstimate

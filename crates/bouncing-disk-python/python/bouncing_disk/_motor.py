@@ -48,8 +48,8 @@ class MotorReport(Result):
         peak_acceleration: the stator's largest acceleration in units of the preload acceleration.
         regime: ``"no-lift-off"``, ``"periodic"``, ``"low-period-chattering"``, ``"long-chattering"``,
             ``"chaotic"`` or ``"undecided"``.
-        regime_impacts: impacts of a round, or those examined.
-        regime_platform_periods: periods of the stator in a round, or between two rests on average; NaN where
+        regime_impacts: impacts of a cycle, or those examined.
+        regime_platform_periods: periods of the stator in a cycle, or between two rests on average; NaN where
             nothing repeats.
         regime_rests: rests that were seen in long chattering.
         lyapunov_exponent: growth per impact of a chaotic motion, else NaN.
@@ -240,7 +240,7 @@ class OperatingPoints(Result):
         efficiency, efficiency_error: mechanical power over the power put in.
         perturbation_power: power that the perturbations of the relaunches put in (W).
         energy_residual: relative residual of the energy balance.
-        averaged_time, start_up: averaged time, of all members together, and time left out, of each (s).
+        averaged_time, start_up: averaged time, of all members together, and omitted time, of each (s).
         acceleration: acceleration (rad/s^2) to which a motor tends if its load overpowers it, else NaN.
         impacts: impacts of all members.
         status: a place in :attr:`STATUSES`.
@@ -493,13 +493,13 @@ class LowPeriodTraps(Result):
     Attributes:
         preload_acceleration: preload as an acceleration (m/s^2), shape (n,).
         axial_forcing: axial forcing parameter Gamma, which with the restitution alone decides, shape (n,).
-        is_trap: whether the perturbed motor repeats the short round, shape (n,).
-        impacts, platform_periods, long_flights: those of the unperturbed round from one separation to the
-            next, if it has at most eight long flights; 0 without such a round, shape (n,).
+        is_trap: whether the perturbed motor repeats the short cycle, shape (n,).
+        impacts, platform_periods, long_flights: those of the unperturbed cycle from one separation to the
+            next, if it has at most eight long flights; 0 without such a cycle, shape (n,).
         relaunches, returns: perturbed relaunches that were tried, and how many of them led through such a
-            round, shape (n,).
+            cycle, shape (n,).
         mean_platform_periods: mean number of the stator's periods from one perturbed relaunch to the next;
-            NaN without a round, shape (n,).
+            NaN without a cycle, shape (n,).
     """
 
     preload_acceleration: FloatArray
@@ -516,7 +516,7 @@ class LowPeriodTraps(Result):
 def low_period_traps(
     motor: Motor, *, preload_accelerations: ArrayLike, progress: Progress = None
 ) -> LowPeriodTraps:
-    """Which preloads trap a motor in a short round of flights and rest, with a speed of its own.
+    """Which preloads trap a motor in a short cycle of flights and rest, with a speed of its own.
 
     It is judged from the vertical motion, which alone decides.
 
@@ -547,8 +547,8 @@ class NearestTrap(Result):
             the others are kept.
         forcing_from_to: the range of Gamma of the trap, as far as it was scanned.
         forcing_step: step of the scan in Gamma: traps that are narrower may have been missed.
-        impacts, platform_periods, long_flights: those of the round in the middle of the trap.
-        return_share: the share of perturbed relaunches there that return to the round, in [0, 1].
+        impacts, platform_periods, long_flights: those of the cycle in the middle of the trap.
+        return_share: the share of perturbed relaunches there that return to the cycle, in [0, 1].
     """
 
     relative_distance: float
@@ -596,7 +596,7 @@ class LocalSensitivities(Result):
             (n,).
         method: ``"shared-motion"``, by a difference of rotors on the same vertical motions, or
             ``"regression"``, by a line through motors with different ones.
-        traps: motors left out of a regression because they are in a low-period trap, shape (n,).
+        traps: motors omitted from a regression because they are in a low-period trap, shape (n,).
         quantity: ``"steady-speed"`` or ``"stall-torque"``.
     """
 
@@ -628,7 +628,7 @@ def local_sensitivities(
         parameters: which ones, of ``friction``, ``peak_angular_speed``, ``phase_lag``, ``contact_radius``,
             ``gyration_radius``, ``load_torque``, ``amplitude``, ``preload``, ``restitution`` and
             ``drive_frequency``; by default the first six, which share one vertical motion.
-        quantity: what is asked for.
+        quantity: the quantity whose sensitivity is computed.
         half_range: half the range, in the logarithm of a parameter of the vertical motion, over which motors
             are drawn, in (0, 2].
         points: motors that are drawn over it, in [5, 10000].
@@ -684,7 +684,7 @@ def sobol_indices(
     Args:
         ranges: the range of each parameter (SI), over which it is spread evenly; names as of
             :func:`local_sensitivities`.
-        quantity: what is asked for.
+        quantity: the quantity whose sensitivity is computed.
         rows: rows of the sample, in [8, 1000000]; with d parameters each takes d + 2 motors.
         sampling_seed: seed of the sample.
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.

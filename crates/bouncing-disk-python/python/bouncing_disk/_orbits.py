@@ -340,7 +340,7 @@ def continued(
 
     Args:
         orbit: an orbit of this map.
-        parameter: what is varied.
+        parameter: the parameter to vary.
         parameter_range: its lowest and highest value.
         rising: whether it goes towards higher values at first.
         first_step, largest_step: arclength of the first and of the largest step, in [1e-9, 1].

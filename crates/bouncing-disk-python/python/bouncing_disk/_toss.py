@@ -158,7 +158,7 @@ class EventTable(Result):
     error_bound: FloatArray
 
     def names(self) -> list[str]:
-        """What happened, in words: those of :attr:`KINDS`."""
+        """The kind of each event, in the words of :attr:`KINDS`."""
         return [self.KINDS[kind] for kind in self.kind]
 
 
@@ -263,21 +263,23 @@ class RotaryResponse(Result):
     """The fate of the spin of a disk on a periodic orbit of n impacts.
 
     Attributes:
-        outcome: ``"steady"``: from every spin the disk comes to the one below; ``"kept"``: the load is as
-            large as friction, and every spin repeats itself for which all impacts slide in its direction;
-            ``"runaway"``: the load exceeds friction, and no spin repeats itself.
-        multiplier: that of the spin around the orbit: 0 if steady, 1 if kept, NaN for a runaway.
-        angular_speed: A steady disk's angular speed just before each impact (rad/s); empty otherwise, as are
-            those below, shape (n,).
-        slip: that speed less the platform's (rad/s), shape (n,).
-        sliding: the slip that an impact leaves: 1 where the disk still turns faster, -1 where slower, 0 where
-            the slip ends, shape (n,).
-        stick_margin: the largest margin (rad/s) by which friction ends a slip: a smaller disturbance of the
-            spin is forgotten within one period of the orbit. NaN unless steady, as is the next.
-        mean_angular_speed: mean angular speed (rad/s).
-        limit: the limit of the spins that are kept (rad/s): those below it for a positive load, above it for
-            a negative one; NaN if every spin is kept, or none.
-        change: final change of a runaway disk's angular speed in one period of the orbit (rad/s), else NaN.
+        outcome: ``"steady"``: from any spin the disk comes to the steady one of ``angular_speed``;
+            ``"kept"``: the load exactly balances the most that friction can give, and a disk that slides
+            through every impact in the direction of the load keeps its spin; ``"runaway"``: the load exceeds
+            friction, and no spin repeats itself.
+        multiplier: the rotary multiplier of the orbit: 0 if steady, 1 if kept, NaN for a runaway.
+        angular_speed: the steady angular speed just before each impact (rad/s), shape (n,). This array and
+            the next two are empty unless the outcome is ``"steady"``.
+        slip: the angular speed less that of the platform just before each impact (rad/s), shape (n,).
+        sliding: the direction of the slip after each impact, shape (n,): 1 where the disk turns faster than
+            the platform, -1 where it turns more slowly, 0 where the impact ends the slip.
+        stick_margin: the largest margin (rad/s) with which friction ends the slip in an impact: a smaller
+            disturbance of the spin is forgotten within one period of the orbit. NaN unless steady.
+        mean_angular_speed: the mean steady angular speed (rad/s), NaN unless steady.
+        limit: where the kept spins end, as a spin before the first impact (rad/s): under a positive load all
+            slower spins are kept, under a negative one all faster ones. NaN if every spin is kept, or none.
+        change: the change of a runaway disk's angular speed in one period of the orbit once every impact
+            slides (rad/s), else NaN.
     """
 
     outcome: str

@@ -16,13 +16,14 @@ use crate::statistics::student_quantile;
 /// The fewest points of the sliding part.
 const LEAST_POINTS: usize = 8;
 
-/// The fewest independent points of the sliding part: the line takes two, and one is left to tell the error.
+/// The fewest independent points of the sliding part: the line takes two, and one is left for the error.
 const LEAST_INDEPENDENT: f64 = 3.0;
 
 /// Curves of more points are averaged in groups before they are fitted.
 const MOST_POINTS: usize = 4_096;
 
-/// The part that is fitted ends where the line has this share of its first speed left: what comes then may be sticking.
+/// The fitted part ends where the line has fallen to this share of its first speed: after that the disk may
+/// stick.
 const SPEED_LEFT: f64 = 0.05;
 
 /// The deceleration may differ by this share between the first and the last half of the sliding part.
@@ -31,7 +32,8 @@ const LARGEST_CHANGE: f64 = 0.2;
 /// Residuals below this share of the largest speed are rounding.
 const EXACT: f64 = 1.0e-9;
 
-/// A line is given points from its fit of the sliding part, again and again until they are the same, at most so often.
+/// A fitted line selects the points of the sliding part for the next line, until the selection stays the
+/// same, at most so often.
 const ROUNDS: usize = 50;
 
 /// The rotor whose braking was measured.
@@ -50,8 +52,8 @@ pub struct BrakingRotor {
 
 impl BrakingRotor {
     /// The coefficient of friction mu = -m a_g^2 alpha_brake/(a_e N) of a disk that brakes with this angular
-    /// acceleration alpha_brake (rad/s^2), Eq. (17): not positive for a disk with a positive angular speed, since it
-    /// slows down. The caption of Fig. 9 writes the same letter for its absolute value.
+    /// acceleration alpha_brake (rad/s^2), Eq. (17): not positive for a disk with a positive angular speed,
+    /// since it slows down. The caption of Fig. 9 writes the same letter for its absolute value.
     ///
     /// It is Eq. (12) of a sliding disk, solved for mu.
     ///
@@ -98,7 +100,8 @@ pub struct BrakingFit {
     pub sliding_until: f64,
     /// Points of the sliding part.
     pub points: usize,
-    /// Integrated correlation time of the residuals (s); the mean time between two points where they are independent.
+    /// Integrated correlation time of the residuals (s); the mean time between two points where they are
+    /// independent.
     pub correlation_time: f64,
     /// Root mean square of the residuals of the sliding part (rad/s).
     pub residual: f64,
@@ -108,16 +111,16 @@ impl BrakingFit {
     /// Fits times (s, rising) and speeds (rad/s) of a disk that slides on a platform at rest from the first
     /// point on, and may stop at the end. A disk that turns backwards has negative speeds.
     ///
-    /// The standstill is left out. The curve is cut where a straight line before and zero speed after the cut
-    /// leave the smallest squares; the fit uses the part before it in which the line keeps more than 5 % of
-    /// its first speed. The error allows for residuals that are correlated and vary in size along the curve.
-    /// Curves of more than 4096 points are first averaged in groups of points.
+    /// The fit omits the standstill. It cuts the curve where a straight line before and zero speed after the
+    /// cut leave the smallest squares, and uses the part before the cut in which the line keeps more than 5 %
+    /// of its first speed. The error allows for residuals that are correlated and vary in size along the
+    /// curve. Curves of more than 4096 points are first averaged in groups of points.
     ///
     /// # Errors
-    /// [`FitError::Refused`] where the speed does not fall, the sliding part has fewer than eight points, its deceleration
-    /// changes by more than a fifth, or its residuals are correlated for too long; [`Error::OutOfRange`]
-    /// names the illegal number of the curve or the rotor; an error of the core for more than [`MAX_SPEEDS`]
-    /// points.
+    /// [`FitError::Refused`] where the speed does not fall, the sliding part has fewer than eight points, its
+    /// deceleration changes by more than a fifth, or its residuals are correlated for too long;
+    /// [`Error::OutOfRange`] names the illegal number of the curve or the rotor; an error of the core for
+    /// more than [`MAX_SPEEDS`] points.
     pub fn new(times: &[f64], speeds: &[f64], rotor: &BrakingRotor) -> Result<Self, FitError> {
         rotor.friction(0.0)?;
         within_limit("speeds of a curve", times.len(), MAX_SPEEDS)?;
@@ -129,7 +132,7 @@ impl BrakingFit {
         let (time_scale, speed_scale) = (summing_scale(times), summing_scale(speeds));
         let (times, speeds) =
             (group_means(times, group, time_scale), group_means(speeds, group, speed_scale));
-        // Whichever way it turns.
+        // For both directions of rotation.
         let turn = speeds.iter().sum::<f64>();
         let sign = if turn < 0.0 { -1.0 } else { 1.0 };
         let speeds: Vec<f64> = speeds.iter().map(|speed| sign * speed).collect();
@@ -204,7 +207,7 @@ impl Line {
     }
 }
 
-/// What residuals say of the noise.
+/// The noise of a measured curve, from the residuals of a fit.
 struct Scatter {
     /// Root mean square of the residuals.
     residual: f64,
@@ -213,12 +216,14 @@ struct Scatter {
     correlated_points: f64,
     /// Independent parts less fitted parameters.
     degrees: f64,
-    /// What a fit takes of residuals that are correlated, beyond what it takes of those that are not.
+    /// The share of the residuals that the fit absorbs because they are correlated, beyond that of
+    /// uncorrelated ones.
     taken: f64,
 }
 
 impl Scatter {
-    /// Of a fit with so many parameters to speeds up to the `largest`; `None` where hardly any part is independent.
+    /// Of a fit with so many parameters to speeds up to the `largest`; `None` where hardly any part is
+    /// independent.
     fn of(residuals: &[f64], parameters: usize, largest: f64) -> Option<Self> {
         let points = residuals.len() as f64;
         let square = residuals.iter().map(|residual| residual * residual).sum::<f64>() / points;
@@ -237,8 +242,8 @@ impl Scatter {
         })
     }
 
-    /// The standard error of a line's slope: the larger one of that of noise of one size, and of that which is as large at
-    /// each point as its residual, made good for what the line has taken of it.
+    /// The standard error of a line's slope, the larger of two: for noise of constant size, and for noise
+    /// that is at each point as large as its residual, corrected for the part that the line absorbs.
     fn error_of(&self, line: &Line, times: &[f64], residuals: &[f64]) -> f64 {
         let squares = times.iter().zip(residuals).map(|(own, residual)| {
             let from_middle = own - line.time;
@@ -251,8 +256,9 @@ impl Scatter {
     }
 }
 
-/// The slopes of the first and the last half, where they differ by more than a fifth of the whole one's and than by chance. A
-/// bend looks like a long correlation: the residuals of the halves have less of it.
+/// The slopes of the first and the last half, if they differ by more than a fifth of the slope of the whole,
+/// and by more than chance. A bend looks like a long correlation: the residuals of the halves have less of
+/// it.
 fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64, f64)> {
     let half = times.len() / 2;
     let ((first_times, last_times), (first_speeds, last_speeds)) =
@@ -273,10 +279,10 @@ fn bent(times: &[f64], speeds: &[f64], line: &Line, largest: f64) -> Option<(f64
     (!by_chance).then_some((first.slope, last.slope))
 }
 
-/// The number of points before the standstill, less those in which the line is almost there.
+/// The number of points before the standstill, less those at which the line is almost at rest.
 fn sliding_points(times: &[f64], speeds: &[f64]) -> usize {
     let mut points = points_before_standstill(times, speeds);
-    // The line of fewer points is another one, so that the part is looked for again.
+    // A line through fewer points is another line, so the selection of the part repeats.
     for _ in 0..ROUNDS {
         if points < LEAST_POINTS {
             break;

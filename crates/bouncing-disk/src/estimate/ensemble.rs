@@ -1,7 +1,7 @@
 //! The ultrasonic motor: ensembles of speed transients, and their fits (Sec. V).
 //!
-//! After every rest the disk leaves the platform in exactly the same vertical state, so the orbit of an ideal motor
-//! falls onto a cycle chosen by the rounding of the program. A speed, a torque or a time constant is
+//! After every rest the disk leaves the platform in exactly the same vertical state, so the orbit of an ideal
+//! motor falls onto a cycle chosen by the rounding of the program. A speed, a torque or a time constant is
 //! therefore the mean over an ensemble whose relaunches are perturbed by a seeded, small relative velocity
 //! and whose members start at different phases; a single transient is a picture of one member.
 
@@ -70,12 +70,13 @@ pub struct TransientEnsemble {
 }
 
 impl TransientEnsemble {
-    /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted up
-    /// from `settings.seed` ([`TransientMember::of_ensemble`]). The result is the same for any number of threads.
+    /// Computes `members` >= 1 transients with starting phases spread evenly over the cycle and seeds counted
+    /// up from `settings.seed` ([`TransientMember::of_ensemble`]). The result is the same for any number of
+    /// threads.
     ///
-    /// The items of `observer` are the members, counted once when their transients are computed, and once more
-    /// when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for each
-    /// interval.
+    /// The items of `observer` are the members, counted once when their transients are computed, and once
+    /// more when they are fitted. The fit of one curve is not interrupted: it takes some 10 microseconds for
+    /// each interval.
     ///
     /// # Errors
     /// Those of [`TransientMember::of_ensemble`] and [`transient`](crate::motor::transient()).
@@ -102,7 +103,7 @@ impl TransientEnsemble {
     ) -> Result<Self, Error> {
         let members = results.len();
         let watch = Watch::begin(observer, 0, members as u64)?;
-        // What one thread counts: fits of short curves are many between two calls of the observer.
+        // Each thread counts its own work: between two calls of the observer it may fit many short curves.
         let fitted = |work: &mut WorkCount<'_>, curve: Result<SpeedCurve, Error>| {
             let curve = curve?;
             let fit = ExponentialFit::counted(&curve.times, &curve.speeds, work)?;
@@ -180,12 +181,13 @@ mod tests {
         assert!((spread.mean - 5.0).abs() < 1e-15);
         assert!((spread.deviation - (32.0_f64 / 7.0).sqrt()).abs() < 1e-15);
         assert!((spread.standard_error - (4.0_f64 / 7.0).sqrt()).abs() < 1e-15);
-        // Of one value nothing is known but itself.
+        // A single value has no known spread.
         let one = Spread { mean: -3.0, deviation: 0.0, standard_error: 0.0 };
         assert_eq!(Spread::of(&[-3.0]), Ok(one));
     }
 
-    /// What the documentation says: neither the cycle of the rounding nor a visible kick.
+    /// As documented: a perturbation large enough to break the cycle that rounding selects, and too small to
+    /// see.
     #[test]
     fn relaunches_are_perturbed_by_a_thousandth_unless_told_otherwise() {
         assert!((TransientSettings::default().relaunch_perturbation - 1e-3).abs() < 1e-18);
@@ -244,8 +246,8 @@ mod tests {
         }
     }
 
-    /// At its lowest point the stator turns with the speed of the resting rotor, up to rounding. Friction cannot hold
-    /// the rotor there, and must not seem to.
+    /// At its lowest point the stator turns with the speed of the resting rotor, up to rounding. Friction
+    /// cannot hold the rotor there, and must not seem to.
     #[test]
     fn rotor_starts_as_the_engine_at_the_lowest_point() {
         let system = motor(1e-8, 0.0);
@@ -268,9 +270,9 @@ mod tests {
         }
     }
 
-    /// Sizes from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a relaunch are then the
-    /// same every time, the more of them the smaller the perturbation
-    /// (docs/numerics/chattering.md, "Motors remember the rounding").
+    /// Sizes from 1e-5 to 1e-1 agree within 3 %. Smaller ones do not: the first impacts after a relaunch are
+    /// then the same every time, the more of them the smaller the perturbation (docs/numerics/chattering.md,
+    /// "Motors remember the rounding").
     #[test]
     fn steady_speed_does_not_depend_on_the_size_of_the_perturbation() {
         let system = motor(1e-8, 0.0);

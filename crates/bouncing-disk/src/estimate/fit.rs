@@ -14,7 +14,8 @@ use crate::motor::rotor::transient::{SpeedCurve, check_curve};
 /// Steps of the golden-section search: the interval shrinks by 0.618 each.
 const GOLDEN_STEPS: u32 = 80;
 
-/// Trial time constants that bracket the best one: at least so many, and no two further apart than by this ratio's logarithm.
+/// Trial time constants that bracket the best one: at least so many, and no two further apart than by this
+/// ratio's logarithm.
 const TRIALS: u32 = 60;
 const WIDEST_STEP: f64 = 1.0;
 
@@ -23,8 +24,8 @@ const POINTS_OF_FLIGHT: usize = 2;
 
 /// The fit of alpha_ss (1 - exp(-t/t_c)) to a speed curve (Fig. 10, Fig. 11).
 ///
-/// It fits any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) has intervals, and
-/// refuses curves that determine no time constant.
+/// It fits any curve and states no error. A [`TransientFit`](crate::estimate::TransientFit) has intervals,
+/// and refuses curves that determine no time constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -46,8 +47,8 @@ impl ExponentialFit {
     /// A fit to a million points takes seconds. The one item of `observer` is the fit.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise or
-    /// numbers that are not finite; for a result that a double cannot hold.
+    /// [`Error::OutOfRange`] for fewer than three points, lists of different lengths, times that do not rise
+    /// or numbers that are not finite; for a result that a double cannot hold.
     pub fn new(times: &[f64], speeds: &[f64], observer: &dyn Observer) -> Result<Self, Error> {
         observed(observer, |work| Self::counted(times, speeds, work))
     }
@@ -141,7 +142,7 @@ fn exponential(x: f64) -> f64 {
     -exp_m1(-x)
 }
 
-/// What is known of a rise where it begins.
+/// The known state of a motor where its rise begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Start {
     /// Speed zero at time zero.
@@ -150,7 +151,8 @@ pub(crate) enum Start {
     AnySpeed,
 }
 
-/// The least-squares fit of steady - rise (1 - shape(time/constant)); `rise` is `steady` for a start from rest.
+/// The least-squares fit of steady - rise (1 - shape(time/constant)); `rise` is `steady` for a start from
+/// rest.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Saturation {
     pub(crate) steady: f64,
@@ -288,7 +290,8 @@ mod tests {
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     }
 
-    /// Neither parameter can be changed a little without the sum of squares growing, and the residual is its mean's root.
+    /// Neither parameter can be changed a little without the sum of squares growing, and the residual is its
+    /// mean's root.
     #[test]
     fn a_fit_is_where_the_squares_are_least() {
         for (saturation, scatter) in [(0.3, 0.2), (2.0, 0.7), (6.0, 0.05)] {
@@ -322,7 +325,8 @@ mod tests {
         }
     }
 
-    /// A curve that has not begun to saturate, and one that has done so before its first point, end where the search does.
+    /// A curve that has not begun to saturate, and one that has done so before its first point, end where the
+    /// search does.
     #[test]
     fn time_constants_lie_between_a_tenth_of_the_first_and_a_hundred_times_the_last_time() {
         let times = [0.0, 0.5, 1.0, 2.0, 4.0];
@@ -338,7 +342,8 @@ mod tests {
         assert!(still.steady_speed.abs() <= 0.0 && still.residual.abs() <= 0.0, "{still:?}");
     }
 
-    /// A fit to many points is asked about every trial and may be stopped at each; that changes nothing of it.
+    /// A fit to many points is asked about every trial and may be stopped at each; that changes nothing of
+    /// it.
     #[test]
     fn a_long_fit_can_be_stopped() {
         use std::ops::ControlFlow;
@@ -418,7 +423,8 @@ mod tests {
         times.iter().map(|&time| truth.speed(time)).collect()
     }
 
-    /// Squares of speeds and a hundredfold of times overflowed, a tenth of times vanished: the fit was `Ok` and not a number.
+    /// Squares of speeds and a hundredfold of times overflowed, a tenth of times vanished: the fit was `Ok`
+    /// and not a number.
     #[test]
     fn curves_of_any_size_are_fitted() {
         let ordinary: Vec<f64> = (1..=200).map(|i| f64::from(i) * 0.02).collect();

@@ -109,8 +109,8 @@ impl MeasuredSpeeds {
 }
 
 impl Motor {
-    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed against
-    /// omega Phi, and the time from the first row to half of it against the shortest rise
+    /// Whether measured run-ups are a factor 100 faster or slower than the drive allows: the fastest speed
+    /// against omega Phi, and the time from the first row to half of it against the shortest rise
     /// ([`System::rise_time`](crate::System::rise_time)).
     #[must_use]
     pub fn warnings_on(&self, speeds: &MeasuredSpeeds) -> Vec<MotorWarning> {

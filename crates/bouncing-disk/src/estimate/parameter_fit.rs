@@ -1,9 +1,9 @@
-//! Parameters of a motor from its transients at one preload or several, with intervals, and what these leave
-//! undetermined.
+//! Parameters of a motor, with intervals, fitted to its transients at one preload or several; and the
+//! combinations of parameters that these transients do not determine.
 //!
-//! A transient of a chaotic motor is compared by its means over windows of time, weighted by the scatter of
-//! such means; docs/numerics/motors.md, "Parameters from transients", derives how, and what can be
-//! determined.
+//! Because the motor is chaotic, the fit compares means of the speed over windows of time, weighted by their
+//! scatter; docs/numerics/motors.md, "Parameters from transients", derives the weights, and which parameters
+//! transients can determine.
 
 mod bootstrap;
 mod determined;
@@ -37,16 +37,16 @@ use crate::motor::data_sheet::Motor;
 use crate::statistics::percentile;
 use crate::statistics::small_sample_widening;
 
-/// Most preloads: enough for any experiment, and no input makes a computation endless by their number.
+/// Most transients of one fit: more than any experiment has, and a bound on the work.
 const MOST_TRANSIENTS: usize = 1_000;
 
-/// The normal quantile that one of 10,000 exceeds.
+/// The quantile of the normal distribution that one draw in 10,000 exceeds.
 const RARE: f64 = 3.719_016_485_455_709;
 
-/// A clock that is off by more than so many of its standard errors is one.
+/// The offset of a clock, in its standard errors, beyond which the fit is refused.
 const SIGNIFICANT: f64 = 3.0;
 
-/// How near the end of a range a parameter is taken to lie at it, as a share of half the range.
+/// A parameter within this share of half its range from an end counts as lying at the end.
 const AT_END: f64 = 1.0e-6;
 
 /// Parameters of a motor fitted to its transients.
@@ -86,33 +86,35 @@ const AT_END: f64 = 1.0e-6;
 pub struct ParameterFit {
     /// The fitted parameters, in the order of their ranges: at least one, and none twice.
     pub parameters: Vec<ParameterEstimate>,
-    /// Directions that the transients do not determine, the least uncertain first; each names all fitted
-    /// parameters, in their order. Along them the motor stays where the search found them undetermined: at
-    /// its start, unless that is so only at its end.
+    /// The combinations of parameters that the transients do not determine, as directions in the space of all
+    /// fitted parameters, the least uncertain first. The search does not move the motor along such a
+    /// direction: its place there is that of the data sheet, or, for a direction that lost its determination
+    /// during the search, the place reached by then.
     pub undetermined: Vec<UndeterminedDirection>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
-    /// Remaining sum of the weighted squares, not negative.
+    /// The remaining weighted sum of squares, not negative.
     pub misfit: f64,
-    /// Its expectation: the number of means less that of the directions that are determined.
+    /// The expected misfit: the number of means minus the number of determined directions.
     pub degrees_of_freedom: usize,
-    /// How often all motors have been computed, at least once.
+    /// How often the search has computed all motors, at least once.
     pub evaluations: usize,
 }
 
 impl ParameterFit {
-    /// Fits the parameters that have a range to the transients, which may be at different preloads. All
-    /// else, including the load, is that of the data sheet; its preload is not used.
+    /// Fits the parameters that have a range to the transients, which may be at different preloads. Every
+    /// other value, including the load, is taken from the data sheet, except the preload, which each
+    /// transient has.
     ///
     /// The items of `observer` are the evaluations that the search may spend.
     ///
     /// # Errors
     /// [`FitError::Refused`] with the reason why the fit would be meaningless: too few points, a motor that
     /// stays at rest, times that do not count from the switch-on, a parameter at the end of its range, a
-    /// search that found no end, a model that does not describe the transients. [`Error::NeverLeaves`] for a
-    /// motor whose rotor never leaves the stator at the preload of a transient; [`Error::OutOfRange`] for
-    /// illegal settings, no transient, no range, two ranges of one parameter, and a range that is illegal or
-    /// does not contain the data sheet's value.
+    /// search that does not converge, a model that does not describe the transients. [`Error::NeverLeaves`]
+    /// for a motor whose rotor never leaves the stator at the preload of a transient; [`Error::OutOfRange`]
+    /// for illegal settings, no transient, no range, two ranges of one parameter, and a range that is illegal
+    /// or does not contain the data sheet's value.
     pub fn new(
         nominal: &Motor,
         transients: &[MeasuredTransient],
@@ -192,7 +194,7 @@ impl ParameterFit {
     }
 }
 
-/// The model of legal input.
+/// The model, if the input is legal.
 fn checked<'a>(
     nominal: &Motor,
     transients: &'a [MeasuredTransient],
@@ -220,13 +222,14 @@ fn checked<'a>(
     Ok(Model { nominal: *nominal, transients, ranges, settings, windows })
 }
 
-/// Refuses transients whose times do not count from the switch-on. To first order a clock that is off leaves of the means a
-/// part in proportion to the acceleration, of which the fitted parameters have taken what they can.
+/// Refuses transients whose times do not count from the switch-on. To first order an offset of the clock
+/// changes the means in proportion to the acceleration; of this change only the part that the fitted
+/// parameters cannot imitate shows in the residual.
 fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Result<(), FitError> {
     let Linearised { places, local, weights, directions } = state;
     let step = |windows: &Windows| windows.duration / INTERVALS as f64;
     let all = || model.windows.iter().zip(model.transients);
-    // Variances of errors are not looked at here.
+    // This step needs no variances of the errors.
     let windows =
         all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
     let moved =
@@ -251,7 +254,7 @@ fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Res
     Ok(())
 }
 
-/// What the intervals are multiplied by because of a misfit that was allowed.
+/// The factor by which a large but accepted misfit widens the intervals.
 fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, FitError> {
     if degrees == 0 {
         return Ok(1.0);
@@ -268,8 +271,8 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, F
     Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
 }
 
-/// What the intervals are multiplied by because so few members were computed: their scatter is known no
-/// better, the weights have an error, and scatter and weights come from the same members.
+/// The factor by which a small number of computed members widens the intervals: their scatter is uncertain,
+/// so are the weights, and scatter and weights come from the same members.
 fn sample_widening(model: &Model<'_>) -> f64 {
     let windows = model.windows.iter().map(Windows::count).max().unwrap_or(1) as f64;
     let members = model.settings.members as f64;
@@ -278,7 +281,7 @@ fn sample_widening(model: &Model<'_>) -> f64 {
     small_sample_widening(model.settings.members) * (weights * shared).sqrt()
 }
 
-/// A direction in the coordinates of the parameters.
+/// An undetermined direction as changes of the named parameters, the largest change scaled to 1.
 fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
     let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
     let changes: Vec<f64> = changes.collect();

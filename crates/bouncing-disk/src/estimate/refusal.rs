@@ -69,7 +69,7 @@ pub enum FitRefusal {
         /// The time at which the fitted exponential is at rest (s).
         zero_time: f64,
     },
-    /// The fitted time constant lies where the search for it ends: the curve does not determine it.
+    /// The fitted time constant lies at an end of its search range: the curve does not determine it.
     #[error(
         "the time constant {time_constant:?} s lies at the limit of its search, {shortest:?} to {longest:?} s: the \
          speed is a straight line or constant, so take another duration"

@@ -33,11 +33,12 @@ use crate::statistics::group_means;
 /// The fewest members whose scatter is resampled: with fewer, Student's quantile makes any interval useless.
 pub const LEAST_MEMBERS: usize = 5;
 
-/// The fewest points up to the time constant: intervals of a fourth of it lose 0.3 % of the rise by their averaging.
+/// The fewest points up to the time constant: intervals of a fourth of it lose 0.3 % of the rise by their
+/// averaging.
 const LEAST_POINTS_OF_RISE: usize = 4;
 
-/// The fewest flights within the time constant: the speed of a rotor that flies is constant, which looks like one that has
-/// settled.
+/// The fewest flights within the time constant: the speed of a rotor that flies is constant, which looks like
+/// one that has settled.
 const LEAST_FLIGHTS: f64 = 2.0;
 
 /// Curves of more points are averaged in groups before they are fitted.
@@ -49,7 +50,8 @@ const MOST_GROUPS: usize = 512;
 /// A rise below this share of the steady speed is rounding.
 const NO_RISE: f64 = 1.0e-9;
 
-/// A start that lies beyond its interval by this share of the distance of its end is not from rest: three standard errors.
+/// A start that lies beyond its interval by this share of the distance of its end is not from rest: three
+/// standard errors.
 const DENIED: f64 = 1.5;
 
 /// The mean over runs may miss its fit by twice its standard error before the intervals grow with it.
@@ -58,23 +60,24 @@ const LARGEST_MISFIT: f64 = 2.0;
 /// How near an end of the search a time constant is taken to lie at it.
 const AT_LIMIT: f64 = 0.01;
 
-/// What a fit with intervals requires of a curve, and how it is resampled.
+/// The requirements of a fit with intervals on a curve, and the resampling of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct FitSettings {
-    /// Number of resampled curves, in [200, 100000]. Default 1000: the ends of an interval then scatter by 5 % of its
-    /// half width.
+    /// Number of resampled curves, in [200, 100000]. Default 1000: the ends of an interval then scatter by 5
+    /// % of its half width.
     pub resamples: usize,
     /// Seed of the resampling. Default 1.
     pub seed: u64,
-    /// The fewest time constants t_c that a curve must last, in [1, 1000]. Default 3: 5 % of the rise may be missing.
+    /// The fewest time constants t_c that a curve must last, in [1, 1000]. Default 3: 5 % of the rise may be
+    /// missing.
     pub least_duration: f64,
-    /// The largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1]. Default 0.1. Noise of
-    /// a measurement counts, too: raise it where the noise is known to be larger.
+    /// The largest root mean square of the residuals, as a share of the steady speed alpha_ss, in (0, 1].
+    /// Default 0.1. Noise of a measurement counts, too: raise it where the noise is known to be larger.
     pub largest_residual: f64,
-    /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest. Default false:
-    /// time zero, a dead time and the speed at the start are found from the record, and the intervals are
-    /// wider. A record that contradicts this is refused.
+    /// Whether the times of a measurement count from the instant at which the motor begins to rise from rest.
+    /// Default false: time zero, a dead time and the speed at the start are found from the record, and the
+    /// intervals are wider. A record that contradicts this is refused.
     pub from_rest: bool,
 }
 
@@ -109,8 +112,8 @@ pub struct RiseEstimate {
     /// depends on the duration if the rise has another form: it is the best constant for a curve of this
     /// length.
     pub constant: IntervalEstimate,
-    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not the load that
-    /// stops the motor. It depends on the duration, as do both of its parts.
+    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2): an estimate from the run-up without a load, not
+    /// the load that stops the motor. It depends on the duration, as do both of its parts.
     pub stall_acceleration: IntervalEstimate,
     /// Speed (rad/s) at the start time of the fit; `None` where the motor starts from rest at time zero.
     pub start_speed: Option<IntervalEstimate>,
@@ -118,12 +121,13 @@ pub struct RiseEstimate {
     pub residual: f64,
 }
 
-/// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured curve.
+/// A fit of a speed transient with 95 % intervals: of the mean over an ensemble's members, or of one measured
+/// curve.
 ///
-/// A computed motor starts from rest at time zero. For a measured one neither is known
-/// ([`FitSettings::from_rest`]): alpha_ss - b exp(-t/t_c) is fitted from its own start on. A later start and a higher
-/// speed there are one number of an exponential, b, so that the fit tells at which time the curve would have
-/// been at rest ([`Self::zero_time`]), not which of the two applies.
+/// A computed motor starts from rest at time zero. For a measured motor the fit assumes neither (unless
+/// [`FitSettings::from_rest`] is set): it takes alpha_ss - b exp(-t/t_c) from the start of the rise on. A
+/// later start and a higher speed at the start change the same number b. So the fit can state when the curve
+/// would have been at rest ([`Self::zero_time`]), but not which of the two applies.
 ///
 /// ```
 /// # use bouncing_disk::core::Unobserved;
@@ -149,12 +153,13 @@ pub struct RiseEstimate {
 pub struct TransientFit {
     /// The fit of alpha_ss (1 - exp(-t/t_c)), or of alpha_ss - b exp(-t/t_c).
     pub exponential: RiseEstimate,
-    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` where the curve does not determine t_r.
+    /// The fit of alpha_ss min(t/t_r, 1), or of alpha_ss - b max(1 - t/t_r, 0); `None` where the curve does
+    /// not determine t_r.
     pub ramp: Option<RiseEstimate>,
     /// The form that leaves the smaller residual.
     pub form: RiseForm,
-    /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed: they lie before
-    /// the switch-on or in a dead time.
+    /// Time (s) of the first row that was fitted; 0 for a start from rest. The rows before it have one speed:
+    /// they lie before the switch-on or in a dead time.
     pub start_time: f64,
     /// Last time of the curve (s), where the fit ends.
     pub duration: f64,
@@ -177,8 +182,8 @@ impl TransientFit {
         self.exponential.constant
     }
 
-    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2) of the exponential: an estimate, not the load that stops
-    /// the motor.
+    /// The paper's stall acceleration alpha_ss/t_c (rad/s^2) of the exponential: an estimate, not the load
+    /// that stops the motor.
     #[must_use]
     pub const fn stall_acceleration(&self) -> IntervalEstimate {
         self.exponential.stall_acceleration
@@ -192,8 +197,8 @@ impl TransientFit {
         start + (steady - start) * exponential((time - self.start_time) / self.exponential.constant.value)
     }
 
-    /// The time (s) at which the fitted exponential is at rest: the switch-on and its dead time, if the motor rises from
-    /// rest. Minus infinity if it starts at or above its steady speed.
+    /// The time (s) at which the fitted exponential is at rest: the switch-on and its dead time, if the motor
+    /// rises from rest. Minus infinity if it starts at or above its steady speed.
     #[must_use]
     pub fn zero_time(&self) -> f64 {
         let start = self.exponential.start_speed.map_or(0.0, |start| start.value);
@@ -202,17 +207,17 @@ impl TransientFit {
         self.start_time + self.exponential.constant.value * behind
     }
 
-    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with intervals by
-    /// resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
+    /// Fits the mean curve of the members of a computed ensemble, which start from rest at time zero, with
+    /// intervals by resampling the members: at least [`LEAST_MEMBERS`] curves with the same times.
     ///
     /// Curves of more than 4096 points are first averaged in groups of points; more than 512 members are
     /// resampled in groups of neighbours.
     ///
     /// # Errors
     /// [`FitError::Refused`] with the reason why the fit would be meaningless;
-    /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted, or
-    /// times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or more than
-    /// [`MAX_SPEEDS`] speeds of all together.
+    /// [`Error::OutOfRange`](crate::Error::OutOfRange) names illegal settings, curves that cannot be fitted,
+    /// or times that differ between members; an error of the core for more than [`MAX_MEMBERS`] members or
+    /// more than [`MAX_SPEEDS`] speeds of all together.
     pub fn new(members: &[SpeedCurve], settings: &FitSettings) -> Result<Self, FitError> {
         settings.check()?;
         let times = members.first().map_or(&[] as &[f64], |curve| &curve.times);
@@ -297,7 +302,8 @@ fn better_form(exponential: &RiseEstimate, ramp: Option<&RiseEstimate>) -> RiseF
 /// The runs that are fitted, and their mean; speeds are multiplied by `scale`.
 struct Rows {
     runs: Vec<Run>,
-    /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if the runs do.
+    /// The mean over the runs: of as many neighbouring rows as there are runs, which have the same time if
+    /// the runs do.
     times: Vec<f64>,
     speeds: Vec<f64>,
     have_same_times: bool,
@@ -382,7 +388,8 @@ impl Rows {
         }
     }
 
-    /// How much larger than its standard error the residual of the mean curve is, if it is much larger: another form.
+    /// How much larger than its standard error the residual of the mean curve is, if it is much larger:
+    /// another form.
     fn misfit(&self, of: impl Fn(f64) -> f64, from: f64, parameters: usize) -> f64 {
         let (mut residual, mut expected, mut points) = (0.0, 0.0, 0.0);
         let runs = self.runs.len();
@@ -423,7 +430,7 @@ impl Rows {
             return refused(FitRefusal::TooShort { duration, time_constant, least: 1.0 });
         }
         let curve = Saturation::of(&part.times, part.speeds, ramp, start, work)?;
-        // A ramp that goes on to the end of the curve, or is over before its second point, is no ramp.
+        // A ramp that lasts to the end of the curve, or ends before its second point, does not count.
         let is_ramp =
             curve.constant < duration && curve.constant > part.times[1] && curve.rise / curve.steady > 0.0;
         let ramp = if is_ramp { part.rise(ramp, &curve, settings, work)?.ok() } else { None };
@@ -562,7 +569,8 @@ impl Part<'_> {
         let log = ln(constant);
         let (low, high) = resamples.about(log, &|own| own.log_constant + ln(from_rest(own)));
         let time_constant = IntervalEstimate::about(constant, exp(low), exp(high))?;
-        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in it.
+        // The quotient by the constant of the fit, so that times of any size neither overflow nor vanish in
+        // it.
         let quotient = |own: &Rise| own.steady * exp(log - own.log_constant) / from_rest(own);
         let (low, high) = resamples.about(steady, &quotient);
         let [value, low, high] = [steady, low, high].map(|speed| speed / scale / constant);

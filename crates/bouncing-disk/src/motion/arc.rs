@@ -1,4 +1,5 @@
-//! The integrals over a segment of contact, in forms that lose nothing in short segments and at large accelerations.
+//! The integrals over a segment of contact, in forms that lose nothing in short segments and at large
+//! accelerations.
 
 use std::iter::Sum;
 
@@ -10,9 +11,9 @@ use crate::motion::phase_time::PhaseSpan;
 /// Below this (rad) t - sin t is summed as a series.
 const SHORT: f64 = 0.5;
 
-/// A stretch of the platform's motion of duration t from a phase tau_0. Every integral is over tau in
-/// [tau_0, tau_0 + t], with N = 1 - P sin tau the normal force; all come from the start and the duration alone, so that
-/// what cancels between them cancels to rounding.
+/// A stretch of the platform's motion of duration t from a phase tau_0. Every integral is over tau in [tau_0,
+/// tau_0 + t], with N = 1 - P sin tau the normal force; all come from the start and the duration alone, so
+/// that what cancels between them cancels to rounding.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Arc {
     peak: f64,
@@ -39,7 +40,8 @@ impl Arc {
         let duration = span.radians();
         let versine = 2.0 * sine_half * sine_half;
         let sin = 2.0 * sine_half * cosine_half;
-        // From the pair at the start, not from a rounded middle phase: next to a whole turn that would be less exact.
+        // From the pair at the start, not from a rounded middle phase: next to a whole turn that would be
+        // less exact.
         let sine_change = from.cos() * sin - from.sin() * versine;
         let double_sine = 2.0 * sin * (1.0 - versine);
         Self {

@@ -115,7 +115,7 @@ impl Chatter {
     }
 }
 
-/// What the energy of an impact is computed from.
+/// The numbers from which the energy of an impact is computed.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ImpactEnergy {
     /// Axial impulse per mass.

@@ -30,7 +30,7 @@ pub(crate) struct Contact {
     pub(crate) separation: Option<PhaseTime>,
 }
 
-/// What ends a segment of contact.
+/// The end of a segment of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum ContactEvent {
     /// The platform falls away.
@@ -43,12 +43,12 @@ pub(crate) enum ContactEvent {
     SlipReversal(SlipDirection),
 }
 
-/// What the next event is due to.
+/// The cause of the next event.
 #[derive(Debug, Clone, Copy)]
 enum Due {
     Separation,
     SlipStart(SlipDirection),
-    /// `began_here`: the slip was none at the start of the segment.
+    /// `began_here`: the slip was zero at the start of the segment.
     SlipEnd {
         direction: SlipDirection,
         began_here: bool,
@@ -63,8 +63,8 @@ pub(crate) struct ContactStep {
     /// Duration of the segment.
     pub(crate) span: PhaseSpan,
     pub(crate) event: ContactEvent,
-    /// What the closed forms say of the segment. Where a slip ends, rounding leaves a little between this
-    /// speed and [`Self::speed`].
+    /// The change over the segment by the closed forms. Where a slip ends, its speed differs from
+    /// [`Self::speed`] by rounding.
     pub(crate) change: RotaryChange,
     /// Angular speed at the event: that of the platform where friction ends a slip.
     pub(crate) speed: f64,
@@ -162,14 +162,14 @@ impl Contact {
             Due::Separation => (ContactEvent::Separation, change.speed),
             Due::SlipStart(direction) => (ContactEvent::StickToSlip(direction), change.speed),
             Due::SlipEnd { direction, began_here } => {
-                // A slip that begins and ends at the same instant is one of rounding: let nothing slip again
-                // here.
+                // A slip that begins and ends at the same instant comes from rounding: the disk must not slip
+                // again here.
                 let idle = began_here && span == PhaseSpan::ZERO;
                 let spent = if idle { Spent::Both } else { Spent::One(direction) };
                 let event = friction
                     .onset(time.phase, spent)
                     .map_or(ContactEvent::SlipToStick, ContactEvent::SlipReversal);
-                // What no friction acts on only passes by the platform's speed.
+                // Without friction the disk only passes through the platform's speed.
                 let grips = system.friction() > 0.0;
                 (event, if grips { system.platform_angular_speed(time.phase) } else { change.speed })
             }

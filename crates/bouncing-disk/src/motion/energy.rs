@@ -3,7 +3,8 @@
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// Below this size the terms of a balance have lost digits to underflow: what they leave is relative to this instead.
+/// Below this size the terms of a balance have lost digits to underflow: their residual is then relative to
+/// this size.
 const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 
 /// The energy balance of an interval, per unit mass.
@@ -12,8 +13,8 @@ const LEAST_MAGNITUDE: f64 = f64::MIN_POSITIVE / f64::EPSILON;
 /// the others: the whole motion is tested by [`Self::axial_closure`] and [`Self::rotary_closure`] vanishing
 /// to rounding.
 ///
-/// Axial entries are in units of (g/omega)^2, in which the kinetic energy is v^2/2 and the potential energy is
-/// the height; rotary entries in units of (g a_e/(a_g omega))^2, in which the kinetic energy is q^2/2.
+/// Axial entries are in units of (g/omega)^2, in which the kinetic energy is v^2/2 and the potential energy
+/// is the height; rotary entries in units of (g a_e/(a_g omega))^2, in which the kinetic energy is q^2/2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -77,7 +78,8 @@ impl EnergyLedger {
         self.axial_magnitude += 0.5 * (before * before + after * after) + height[0].abs() + height[1].abs();
     }
 
-    /// Counts in that a platform velocity of up to `peak`, recomputed at the end of a chatter, rounds the velocity.
+    /// Counts in that a platform velocity of up to `peak`, recomputed at the end of a chatter, rounds the
+    /// velocity.
     pub(crate) fn record_rounding(&mut self, peak: f64, velocity: f64) {
         self.axial_magnitude += peak * velocity.abs();
     }
@@ -95,7 +97,8 @@ impl EnergyLedger {
         self.axial_magnitude += work.abs() + loss.abs();
     }
 
-    /// Records work of the platform and a loss, rotary; `magnitude` is the size of the terms they were formed from.
+    /// Records work of the platform and a loss, rotary; `magnitude` is the size of the terms they were formed
+    /// from.
     pub(crate) fn record_friction(&mut self, work: f64, loss: f64, magnitude: f64) {
         self.friction_work += work;
         self.friction_loss += loss;

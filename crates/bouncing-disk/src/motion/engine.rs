@@ -1,9 +1,9 @@
-//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations of
-//! motion, Eq. (2), from event to event in closed form.
+//! The event engine: flight, impact, attachment, sticking, sliding, separation. It integrates the equations
+//! of motion, Eq. (2), from event to event in closed form.
 //!
-//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the parabola of a
-//! flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between sticking and sliding while
-//! the disk is on the platform (`contact_motion.rs`).
+//! The vertical half of Eq. (2) comes entirely from the core's [`Orbit`] (its `flight/gap.rs` has the
+//! parabola of a flight); the engine adds the rotary half (`rotary_change.rs`) and the changes between
+//! sticking and sliding while the disk is on the platform (`contact_motion.rs`).
 
 pub(crate) mod sample;
 
@@ -189,15 +189,16 @@ impl<L: RestitutionLaw> Engine<L> {
         &self.state
     }
 
-    /// Disk and platform `span` after the last event, on the assumption that the next event does not come before.
+    /// Disk and platform `span` after the last event, on the assumption that the next event does not come
+    /// before.
     #[must_use]
     pub fn state_after(&self, span: PhaseSpan) -> Snapshot {
         self.segment(None).state_after(&self.system, span)
     }
 
-    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next event does
-    /// not come before: that of an unfinished or endless segment. Added to the ledgers of the events before,
-    /// it gives the balance up to any instant.
+    /// The energy balance from the last event, or the start, to `span` later, on the assumption that the next
+    /// event does not come before: that of an unfinished or endless segment. Added to the ledgers of the
+    /// events before, it gives the balance up to any instant.
     ///
     /// ```
     /// use bouncing_disk::core::{ChatterPolicy, Phase};
@@ -217,8 +218,8 @@ impl<L: RestitutionLaw> Engine<L> {
         self.segment(None).ledger_after(&self.system, span)
     }
 
-    /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact that
-    /// does not end in an attachment, or at a start by launch.
+    /// Whether the next event is the impact of a flight that starts now: just after a separation or an impact
+    /// that does not end in an attachment, or at a start by launch.
     #[must_use]
     pub fn launches(&self) -> bool {
         self.stage == Stage::Flight && self.orbit.as_ref().is_some_and(|orbit| orbit.launch().is_some())
@@ -239,8 +240,9 @@ impl<L: RestitutionLaw> Engine<L> {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` which left the disk in `state`, with the attachment that ends the
-    /// chatter: for those who compute the vertical motion elsewhere. The angle is counted from that of `state`.
+    /// Comes to rest after an impact at `now` which left the disk in `state`, with the attachment that ends
+    /// the chatter: for those who compute the vertical motion elsewhere. The angle is counted from that of
+    /// `state`.
     pub(crate) fn rest_after(&mut self, now: PhaseTime, state: DiskState, rest: &Attachment) -> EventRecord {
         self.now = now;
         self.state = state;
@@ -398,7 +400,7 @@ impl<L: RestitutionLaw> Engine<L> {
             ledger.record_normal(-speed * platform_velocity, 0.5 * speed * speed);
         }
         if chatter.capped {
-            // The sequence goes on for ever: what it does after the last impact counted is to follow the platform.
+            // The sequence is infinite: after the last counted impact the disk follows the platform.
             let slip = angular_speed - platform_speed;
             angular_speed = platform_speed;
             rotary -= slip;
@@ -497,8 +499,8 @@ impl<L: RestitutionLaw> Engine<L> {
         ledger.record_rotary_change(change.speed, platform_speed);
     }
 
-    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for ever, or by a slip
-    /// whose own end is further off than its phase can be resolved.
+    /// The next event with the segment that it ends; without one, the segment that lasts until `end`: for
+    /// ever, or by a slip whose own end is further off than its phase can be resolved.
     pub(crate) fn advance_towards(
         &mut self,
         end: &PhaseTime,

@@ -23,7 +23,8 @@ pub enum Event {
         /// Whether friction ended the slip within the impact; otherwise the disk slid throughout.
         capped: bool,
     },
-    /// The disk comes to rest on the platform at the end of a chattering sequence, whose impulses the record sums.
+    /// The disk comes to rest on the platform at the end of a chattering sequence, whose impulses the record
+    /// sums.
     Attachment {
         /// Impacts summed.
         impacts: u64,

@@ -31,7 +31,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// Relative accuracy to which the end of a slip is located.
 const ROOT_ACCURACY: f64 = 2.0 * f64::EPSILON;
 
-/// A slip speed this small, relative to what it is computed from, may have the wrong sign: far above its rounding.
+/// A slip speed this small, relative to what it is computed from, may have the wrong sign: far above its
+/// rounding.
 const DOUBTFUL_SPEED: f64 = 1.0e-12;
 
 /// Where in the period a slip speed grows.
@@ -57,8 +58,9 @@ struct Slip {
     growth: Growth,
 }
 
-/// Which windows of growth a disk at the platform's speed has just been through, so that it cannot slip there again
-/// before the next period. Without this, rounding could make a slip end and begin again at the same instant for ever.
+/// Which windows of growth a disk at the platform's speed has just been through, so that it cannot slip there
+/// again before the next period. Without this, rounding could make a slip end and begin again at the same
+/// instant for ever.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Spent {
     /// Neither.
@@ -84,10 +86,10 @@ impl Spent {
 pub(crate) struct Friction {
     forward: Slip,
     backward: Slip,
-    /// Neither twist nor load: nothing pulls at the disk and friction holds it up to the separation, where rounding
-    /// would else let it slip an instant before.
+    /// Neither twist nor load: nothing pulls at the disk and friction holds it up to the separation, where
+    /// rounding would else let it slip an instant before.
     unloaded: bool,
-    /// No friction and yet a relative acceleration: nothing ever holds.
+    /// Without friction, but with a relative acceleration, the disk is never held.
     slippery: bool,
 }
 
@@ -126,8 +128,8 @@ impl Friction {
         }
     }
 
-    /// Time in (0, 2 pi] for which a disk that friction holds at `phase` goes on sticking, and the direction in which
-    /// it then slips; `None` if it sticks for ever.
+    /// Time in (0, 2 pi] for which a disk that friction holds at `phase` goes on sticking, and the direction
+    /// in which it then slips; `None` if it sticks for ever.
     pub(crate) fn stick_end(&self, phase: Phase) -> Option<(f64, SlipDirection)> {
         if self.unloaded {
             return None;
@@ -139,9 +141,9 @@ impl Friction {
         }
     }
 
-    /// Time until the slip in `direction` that has `speed` >= 0 at `phase` ends: the first return of the slip speed
-    /// to zero. `speed` zero means that the slip begins at `phase`, where [`Self::onset`] or [`Self::stick_end`] said
-    /// so. `None` if it does not end within `limit` radians, or never.
+    /// Time until the slip in `direction` that has `speed` >= 0 at `phase` ends: the first return of the slip
+    /// speed to zero. `speed` zero means that the slip begins at `phase`, where [`Self::onset`] or
+    /// [`Self::stick_end`] said so. `None` if it does not end within `limit` radians, or never.
     ///
     /// # Errors
     /// [`Error::SlipTooLong`] without a limit, if the end is further off than its phase can be resolved.
@@ -171,8 +173,8 @@ impl Slip {
         let cosine = system.friction() * system.peak_acceleration() + sign * twist_cosine;
         let sine = sign * twist_sine;
         let amplitude = hypot(cosine, sine);
-        // amplitude sin(angle) > decay over an interval about the crest; a tangency counts as holding, or, for the
-        // opposite sign, as growing throughout.
+        // amplitude sin(angle) > decay over an interval about the crest; a tangency counts as holding, or,
+        // for the opposite sign, as growing throughout.
         let growth = if decay >= amplitude {
             Growth::Never
         } else if decay <= -amplitude {
@@ -348,17 +350,18 @@ impl SlipPath {
 
     /// The root in [`low`, `high`], over which the speed falls from positive to negative.
     fn falling_root(&self, low: f64, high: f64) -> f64 {
-        // What `at` gives at zero.
+        // At zero the values are known, without calling `at`.
         let start = if low.abs() <= 0.0 { (self.speed, self.rate) } else { self.at(low) };
         falling_root(low, high, start, ROOT_ACCURACY, |time| self.at(time))
     }
 }
 
-/// Largest number of contact events (slips that begin, end or reverse) in one segment of contact of at most one period.
+/// Largest number of contact events (slips that begin, end or reverse) in one segment of contact of at most
+/// one period.
 ///
-/// A slip that begins at the platform's speed begins inside its direction's window and ends after it, and a segment
-/// that short meets each of the two windows at most twice (once cut in two by its ends): four slips, each with a
-/// beginning and an end, and the end of a slip that the segment began with.
+/// A slip that begins at the platform's speed begins inside its direction's window and ends after it, and a
+/// segment that short meets each of the two windows at most twice (once cut in two by its ends): four slips,
+/// each with a beginning and an end, and the end of a slip that the segment began with.
 pub const MAX_CONTACT_EVENTS: usize = 9;
 
 #[cfg(test)]
@@ -395,8 +398,9 @@ mod tests {
         assert!((time - PI / 6.0).abs() < 4e-15 && direction == SlipDirection::Backward);
     }
 
-    /// With P = 2 both windows begin at the separation if the twist turns there (theta = -pi/6): the one instant at which
-    /// they can, as the two forces that move the disk add up to -2 mu N. Where rounding leaves them equal, the disk slips forward.
+    /// With P = 2 both windows begin at the separation if the twist turns there (theta = -pi/6): the one
+    /// instant at which they can, as the two forces that move the disk add up to -2 mu N. Where rounding
+    /// leaves them equal, the disk slips forward.
     #[test]
     fn a_tie_of_both_directions_goes_forward() {
         let mut ties = 0;

@@ -24,7 +24,7 @@ pub(crate) fn stopping_impulse(slip: f64) -> f64 {
     -slip
 }
 
-/// What friction does in an impact.
+/// The effect of friction in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FrictionImpact {
     /// Angular impulse.

@@ -9,8 +9,9 @@ use bouncing_disk_core::Phase;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum InitialCondition {
-    /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the platform's.
-    /// Where the platform falls away at once (P sin tau >= 1, tau before its end), the disk starts in flight.
+    /// The disk lies on the platform. An angular speed within rounding of the platform's counts as the
+    /// platform's. Where the platform falls away at once (P sin tau >= 1, tau before its end), the disk
+    /// starts in flight.
     Contact {
         /// Phase of the platform.
         phase: Phase,
@@ -22,7 +23,8 @@ pub enum InitialCondition {
     Launch {
         /// Phase of the platform.
         phase: Phase,
-        /// Axial velocity relative to the platform, not negative; zero is legal only where the platform falls away.
+        /// Axial velocity relative to the platform, not negative; zero is legal only where the platform falls
+        /// away.
         relative_speed: f64,
         /// Angular speed of the disk.
         angular_speed: f64,

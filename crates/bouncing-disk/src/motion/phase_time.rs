@@ -89,7 +89,7 @@ impl PhaseSpan {
     /// 1.16e20 rad.
     #[must_use]
     pub fn from_radians(radians: f64) -> Self {
-        // As a double 2^64: what rounds to it is too long, too.
+        // As a double this is 2^64 periods: a time that rounds to it is too long as well.
         const TOO_LONG: f64 = TAU * u64::MAX as f64;
         if radians.is_nan() || radians <= 0.0 {
             return Self::ZERO;

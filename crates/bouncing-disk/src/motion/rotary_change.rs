@@ -1,5 +1,6 @@
-//! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the energy balance of
-//! both; sliding contact, Eq. (12). The vertical half is the core's (`flight/gap.rs` there).
+//! The rotary half of Eq. (2), integrated in closed form over a flight or a segment of contact, and the
+//! energy balance of both; sliding contact, Eq. (12). The vertical half is the core's (`flight/gap.rs`
+//! there).
 
 use bouncing_disk_core::Phase;
 
@@ -75,7 +76,8 @@ pub(crate) fn record_flight_load(
     ledger.record_load(work, work.abs());
 }
 
-/// Energy balance of a segment of contact from `state` at `from` to `to`, where the disk has turned by `turn`.
+/// Energy balance of a segment of contact from `state` at `from` to `to`, where the disk has turned by
+/// `turn`.
 pub(crate) fn contact_ledger(
     system: &DimensionlessSystem,
     friction: &Friction,
@@ -98,7 +100,8 @@ pub(crate) fn contact_ledger(
     match state.mode {
         Mode::Sliding(direction) => {
             let mu = system.friction();
-            // Where friction all but holds the load, the angle is a small difference of what each of them would give alone.
+            // Where friction all but holds the load, the angle is a small difference of what each of them
+            // would give alone.
             let t = arc.duration;
             let angle_size =
                 t * (state.angular_speed.abs() + 0.5 * load.abs() * t) + mu * arc.force_twice().size;
@@ -126,7 +129,8 @@ pub(crate) fn contact_ledger(
         }
         Mode::Sticking | Mode::Flight => {
             ledger.record_load(load * change.angle, (load * change.angle).abs());
-            // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's speed.
+            // The friction torque is l + d(platform angular speed)/d tau: integrated times the platform's
+            // speed.
             let angle_change = cosine * arc.sine_change + sine * arc.cosine_change;
             let (before, after) = (start.angular_speed, end.angular_speed);
             let work = load * angle_change + 0.5 * (after - before) * (after + before);

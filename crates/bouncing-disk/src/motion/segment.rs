@@ -239,7 +239,8 @@ mod tests {
         }
     }
 
-    /// A rotor that brakes on a platform at rest: the contact never ends, and friction takes all that is lost.
+    /// A rotor that brakes on a platform at rest: the contact never ends, and friction takes all that is
+    /// lost.
     #[test]
     fn a_contact_without_end_loses_what_its_disk_loses() {
         let still = DimensionlessParameters {

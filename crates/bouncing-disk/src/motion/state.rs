@@ -71,8 +71,8 @@ pub struct DiskState {
     /// Axial velocity, in units of g/omega.
     pub axial_velocity: f64,
     /// Angle turned, in units of g a_e/(a_g omega)^2. It is not wrapped, and it starts at the platform's own
-    /// angle: marks on disk and platform lie together at the start. The engine sums it in two doubles, so that
-    /// its error does not grow with the number of events.
+    /// angle: marks on disk and platform lie together at the start. The engine sums it in two doubles, so
+    /// that its error does not grow with the number of events.
     pub angle: f64,
     /// Angular speed, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,

@@ -219,8 +219,9 @@ mod tests {
         assert!(trajectory.ledger().relative_closure() < 1e-14);
     }
 
-    /// Loads, frictions and twists with which nothing, or nothing more, happens; the speeds follow from Eq. (4): with the load
-    /// l and the friction k (rad/s^2) a disk slides at l -+ k, and one that no friction acts on knows its load only.
+    /// Loads, frictions and twists with which nothing, or nothing more, happens; the speeds follow from Eq.
+    /// (4): with the load l and the friction k (rad/s^2) a disk slides at l -+ k, and one that no friction
+    /// acts on knows its load only.
     #[test]
     fn motions_without_events_are_followed_to_their_end() {
         let of = |amplitude: f64, twist_amplitude: f64, friction: f64, load: f64, speed: f64, end: f64| {

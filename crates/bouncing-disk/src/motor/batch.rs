@@ -1,4 +1,5 @@
-//! Many rotors at once: the transients of an ensemble in lockstep, and all rotors that share one vertical motion.
+//! Many rotors at once: the transients of an ensemble in lockstep, and all rotors that share one vertical
+//! motion.
 
 pub(crate) mod members;
 pub(crate) mod rotor_rows;

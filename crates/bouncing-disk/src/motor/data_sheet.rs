@@ -1,9 +1,9 @@
 //! A motor as its data sheet describes it: frequency in Hz, preload in N, a load in N m. It builds a
 //! [`System`].
 //!
-//! Warnings point out unusual values (`warning.rs`), and a report tells what the motor does (`report.rs`);
-//! data sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the table of the
-//! fields.
+//! Warnings point out unusual values (`warning.rs`), and a report describes the behaviour of the motor
+//! (`report.rs`); data sheets are read and written as JSON and TOML (`file.rs`). `motor_field.rs` has the
+//! table of the fields.
 
 #[cfg(any(feature = "json", feature = "toml"))]
 pub(crate) mod file;

@@ -72,7 +72,7 @@ pub struct NormalImpulses {
 impl NormalImpulses {
     /// The impulses of at least `impacts` impacts from one separation to a later one; none if the platform
     /// never falls away. Each separation gets a relative speed drawn evenly below `perturbation` (in units of
-    /// g/omega, in [0, 1e100]); the last, incomplete cycle is left out unless it is the only one.
+    /// g/omega, in [0, 1e100]); the last, incomplete cycle is omitted unless it is the only one.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the perturbation; an error of the core for more than [`MAX_EXAMINED`]
@@ -84,7 +84,7 @@ impl NormalImpulses {
         let Some(phase) = map.vibration().separation_phase() else { return Ok(impulses) };
         let mut orbit = map.orbit_from_launch(Launch::new(phase, 0.0)?, ChatterPolicy::Complete);
         let mut separations = 0_u32;
-        // What follows a separation is kept only when the next one comes.
+        // The impulses after a separation are kept only once the next separation comes.
         let mut complete = (0, 0, 0.0);
         let mut flown = 0.0;
         let most = 4 * impacts + LONGEST_CYCLE;
@@ -255,7 +255,7 @@ struct ContactPart {
     middle: f64,
     /// Duration (rad).
     duration: f64,
-    /// What the platform gains of axial velocity in it.
+    /// The change of the platform's axial velocity in it.
     gain: f64,
 }
 

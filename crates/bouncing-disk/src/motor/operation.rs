@@ -1,8 +1,9 @@
-//! A motor in steady operation: mean speed, powers, losses and efficiency under a load, each with its standard error.
+//! A motor in steady operation: mean speed, powers, losses and efficiency under a load, each with its
+//! standard error.
 //!
 //! All numbers come from the same perturbed runs: an ensemble of vertical motions, each of which carries
 //! every requested rotor (see [`crate::motor::batch::shared_orbit`]). The spread over the members decides how
-//! long they run, what is left out as the start-up, and when a number is known well enough. See
+//! long they run, which part counts as start-up, and when a number is known well enough. See
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;

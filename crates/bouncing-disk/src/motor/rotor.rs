@@ -18,7 +18,7 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_contact, change_in_flight};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// What ended the last step of a [`Rotor`].
+/// The end of the last step of a [`Rotor`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum RotorStep {
     /// An impact.
@@ -52,7 +52,7 @@ impl Bounce {
         change_in_flight(self.load, speed, self.duration)
     }
 
-    /// What friction does in the impact, at a `slip` (disk minus platform).
+    /// The effect of friction in the impact, at a `slip` (disk minus platform).
     #[inline(always)]
     pub(crate) fn friction_impact(self, slip: f64) -> FrictionImpact {
         friction_impact(self.friction, axial_impulse(self.restitution, self.velocity), slip)
@@ -123,15 +123,15 @@ impl Rotor {
         self.orbit.as_ref().and_then(Orbit::launch)
     }
 
-    /// Goes on with an orbit that follows an impact at `phase`, computed elsewhere, after which the angular
-    /// speed is `speed`.
+    /// Continues with an orbit that was computed elsewhere and follows an impact at `phase`, after which the
+    /// angular speed is `speed`.
     pub(crate) fn go_on_after(&mut self, phase: Phase, orbit: Orbit, periods: u64, speed: f64) {
         self.orbit = Some(orbit);
         self.now = PhaseTime { periods, phase };
         self.speed = speed;
     }
 
-    /// Goes on with a launch that was computed elsewhere, at angular speed `speed`.
+    /// Continues with a launch that was computed elsewhere, at angular speed `speed`.
     pub(crate) fn go_on_with(
         &mut self,
         launch: Launch,
@@ -146,8 +146,8 @@ impl Rotor {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` that left it with angular `speed`: what its share of a vertical
-    /// motion that is computed elsewhere asks of it. Its contact ends with a [`RotorStep::Separation`].
+    /// Comes to rest after an impact at `now` that left it with angular `speed`, on a vertical motion that is
+    /// computed elsewhere. Its contact ends with a [`RotorStep::Separation`].
     #[cfg(feature = "fit")]
     pub(crate) fn rest_after(&mut self, now: PhaseTime, speed: f64, rest: &Attachment) {
         self.now = now;

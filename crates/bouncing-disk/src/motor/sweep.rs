@@ -22,9 +22,9 @@ use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
-/// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered row by
-/// row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of the
-/// cell. A value of a parameter clears its alternative: a sweep over `preload_force` of a motor with a
+/// A sweep has a cell for each value of its axis, or each pair of values of its two; the cells are numbered
+/// row by row, the first axis being that of the rows. Each cell is the motor's data sheet with the values of
+/// the cell. A value of a parameter clears its alternative: a sweep over `preload_force` of a motor with a
 /// `preload_acceleration` has the force alone ([`Self::replaced`] lists these).
 ///
 /// Cells of one vertical motion (they differ only in load, friction, phase lag, twist, radii or mass) are
@@ -73,11 +73,12 @@ impl MotorSweep {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for another number of axes, a value that is not finite and illegal settings;
-    /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter, or of
-    /// two that exclude each other; an error of the core
+    /// [`Error::EmptyAxis`]; [`Error::RepeatedAxis`] and [`Error::BothGiven`] for two axes of one parameter,
+    /// or of two that exclude each other; an error of the core
     /// ([`TooLarge`](bouncing_disk_core::Error::TooLarge)) for more than
     /// [`MAX_SWEEP_CELLS`](crate::motor::MAX_SWEEP_CELLS) cells; those of
-    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not legal.
+    /// [`MotorParameters::build`](crate::motor::MotorParameters::build) for the first cell whose motor is not
+    /// legal.
     pub fn new(motor: Motor, axes: Vec<SweepAxis>, settings: OperatingSettings) -> Result<Self, Error> {
         settings.check()?;
         check_axes(&axes)?;
@@ -111,8 +112,8 @@ impl MotorSweep {
         cells(&self.axes)
     }
 
-    /// The cells that are computed together, by their indices: each cell is in one group. The groups are in the order of
-    /// their first cells.
+    /// The cells that are computed together, by their indices: each cell is in one group. The groups are in
+    /// the order of their first cells.
     #[must_use]
     pub fn groups(&self) -> &[Vec<usize>] {
         &self.groups

@@ -1,4 +1,5 @@
-//! The system in units that never degenerate: time 1/omega, length g/omega^2, angular speed g a_e/(a_g^2 omega).
+//! The system in units that never degenerate: time 1/omega, length g/omega^2, angular speed g a_e/(a_g^2
+//! omega).
 //!
 //! The unit of angular speed is the change by a friction coefficient of 1 in one radian of phase. It contains
 //! neither the friction coefficient, so that a frictionless disk is legal, nor any amplitude, so that a
@@ -55,8 +56,8 @@ impl DimensionlessParameters {
 
 /// The four numbers of the paper's Sec. IV, not yet checked.
 ///
-/// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular speeds
-/// then come in units of mu g a_e/(a_g^2 omega).
+/// A friction coefficient other than zero only scales the rotary motion, so it is set to 1 here: angular
+/// speeds then come in units of mu g a_e/(a_g^2 omega).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ForcingParameters {
@@ -92,8 +93,9 @@ impl ForcingParameters {
 
 /// The dimensionless system, with which the engine computes.
 ///
-/// The equations of motion (Eq. 2) read, with N the normal force in units of the disk's weight under preload and
-/// f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1, d(angular speed)/d tau = f - l.
+/// The equations of motion (Eq. 2) read, with N the normal force in units of the disk's weight under preload
+/// and f the friction torque in units of m g a_e: d(axial velocity)/d tau = N - 1,
+/// d(angular speed)/d tau = f - l.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "DimensionlessParameters", into = "DimensionlessParameters"))]

@@ -32,8 +32,8 @@ impl DiskParameters {
     /// mass is not needed elsewhere.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] names the torque if it is not finite, the mass if it is not positive, and the moment of
-    /// inertia m a_g^2 if no double holds it.
+    /// [`Error::OutOfRange`] names the torque if it is not finite, the mass if it is not positive, and the
+    /// moment of inertia m a_g^2 if no double holds it.
     pub fn with_load_torque(mut self, torque: f64, mass: f64) -> Result<Self, Error> {
         finite("torque", torque)?;
         positive("mass", mass)?;

@@ -39,7 +39,8 @@ impl PlatformParameters {
     }
 }
 
-/// The platform's motion (Eq. 1): height s = A sin tau, angle beta = Phi sin(tau + theta), with tau = omega t.
+/// The platform's motion (Eq. 1): height s = A sin tau, angle beta = Phi sin(tau + theta), with tau = omega
+/// t.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "PlatformParameters", into = "PlatformParameters"))]

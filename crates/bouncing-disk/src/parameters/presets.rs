@@ -17,7 +17,8 @@ const HAND: Stroke = Stroke {
     phase_lag: 0.0,
 };
 
-/// The dough of Table I. The table has no restitution: a single toss does not depend on it, and 0.5 is that of Sec. IV.
+/// The dough of Table I. The table has no restitution: a single toss does not depend on it, and 0.5 is that
+/// of Sec. IV.
 const DOUGH: DiskParameters = DiskParameters {
     contact_radius: 0.135,
     gyration_radius: 0.11,
@@ -56,7 +57,8 @@ impl Stroke {
 }
 
 impl System {
-    /// The pizza toss of Table I: a linear hand motion (theta = 0) with a stroke of 0.25 m at 15 rad/s, and its dough.
+    /// The pizza toss of Table I: a linear hand motion (theta = 0) with a stroke of 0.25 m at 15 rad/s, and
+    /// its dough.
     ///
     /// ```
     /// use bouncing_disk::System;
@@ -73,8 +75,8 @@ impl System {
             .expect("the values of Table I are legal, which a test shows")
     }
 
-    /// The motor of Table III, its "70" read as the drive frequency in kHz: a stator with A = 10 nm that turns with up to
-    /// 30 rad/s in phase with its rise, and a rotor under its own weight.
+    /// The motor of Table III, its "70" read as the drive frequency in kHz: a stator with A = 10 nm that
+    /// turns with up to 30 rad/s in phase with its rise, and a rotor under its own weight.
     ///
     /// ```
     /// use bouncing_disk::System;

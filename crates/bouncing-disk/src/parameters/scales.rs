@@ -47,8 +47,8 @@ impl Scales {
         }
     }
 
-    /// Checks that no unit is negative, zero, denormal or infinite: numbers in SI would lose their digits in it, and times would stand
-    /// still.
+    /// Checks that no unit is negative, zero, denormal or infinite: numbers in SI would lose their digits in
+    /// it, and times would stand still.
     pub(crate) fn check(&self) -> Result<(), Error> {
         let units = [
             ("unit of time (s)", self.time),

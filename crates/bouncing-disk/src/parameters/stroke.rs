@@ -19,7 +19,8 @@ pub struct Stroke {
     /// Amplitude angle phi_L (rad) in [0, pi/2]: 0 is a purely vertical motion, pi/2 a purely rotary one.
     pub amplitude_angle: f64,
     /// Effective contact radius a_e (m), positive, on which the stroke is measured: that of the disk
-    /// ([`DiskParameters::contact_radius`](crate::DiskParameters::contact_radius)). Nothing checks that the two agree.
+    /// ([`DiskParameters::contact_radius`](crate::DiskParameters::contact_radius)). Nothing checks that the
+    /// two agree.
     pub contact_radius: f64,
     /// Angular frequency omega (rad/s), positive.
     pub angular_frequency: f64,
@@ -43,7 +44,8 @@ pub struct LaunchSpeeds {
 
 impl Stroke {
     /// The linear motion (phase lag 0) whose largest speeds are the launch speeds, if the disk does not slip
-    /// (Eq. 14): omega^2 = (v/c)^2 + (a_e w/c)^2 and phi_L = arctan(a_e w/v) for axial and angular speeds v and w.
+    /// (Eq. 14): omega^2 = (v/c)^2 + (a_e w/c)^2 and phi_L = arctan(a_e w/v) for axial and angular speeds v
+    /// and w.
     ///
     /// The disk leaves after the maximum of the platform's speed, slower by the factor cos tau_sep in both
     /// components; Eq. (14) leaves this out. This does not affect phi_L, but makes omega too small.
@@ -89,8 +91,9 @@ impl Platform {
 }
 
 impl System {
-    /// Length and direction of the stroke, measured at the disk's contact radius: c = (A^2 + (a_e Phi)^2)^(1/2) and
-    /// phi_L = arctan(a_e Phi/A) (Eq. 13), 0 where nothing moves. [`Platform::from_stroke`] goes back.
+    /// Length and direction of the stroke, measured at the disk's contact radius: c = (A^2 + (a_e
+    /// Phi)^2)^(1/2) and phi_L = arctan(a_e Phi/A) (Eq. 13), 0 where nothing moves. [`Platform::from_stroke`]
+    /// goes back.
     #[must_use]
     pub fn stroke(&self) -> Stroke {
         let (platform, contact_radius) = (self.platform(), self.disk().contact_radius());

@@ -25,8 +25,9 @@ impl System {
     /// The system of these two.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] if a dimensionless parameter of the combination is outside its range, for example a
-    /// peak acceleration above 1e8 g, or if a unit of [`Self::scales`] is too small or too large for a double.
+    /// [`Error::OutOfRange`] if a dimensionless parameter of the combination is outside its range, for
+    /// example a peak acceleration above 1e8 g, or if a unit of [`Self::scales`] is too small or too large
+    /// for a double.
     pub fn new(platform: Platform, disk: Disk) -> Result<Self, Error> {
         let preload = disk.preload_acceleration();
         // a_g^2/(a_e g): from angular accelerations to multiples of the friction's unit.
@@ -87,7 +88,8 @@ impl System {
         self.dimensionless.axial_forcing()
     }
 
-    /// Angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu) (Sec. IV); `None` without friction.
+    /// Angular forcing parameter Gamma_T = a_g^2 Phi omega^2/(a_e pi g mu) (Sec. IV); `None` without
+    /// friction.
     #[must_use]
     pub fn angular_forcing(&self) -> Option<f64> {
         self.dimensionless.angular_forcing()
@@ -295,8 +297,8 @@ mod tests {
         let refused =
             |error: serde_json::Error, key: &str| assert!(error.to_string().contains(key), "{error}");
         let text = serde_json::to_string(&system()).unwrap();
-        // With its quotes, so that no longer key is hit that contains it: what is left out has to be the load alone, which has
-        // a default and was taken for none.
+        // With its quotes, so that no longer key is hit that contains it: what is left out has to be the load
+        // alone, which has a default and was taken for none.
         let quoted = |key: &str| format!("\"{key}\"");
         for (key, misspelt) in
             [("load_acceleration", "load_aceleration"), ("phase_lag", "phase_leg"), ("disk", "disc")]

@@ -6,8 +6,8 @@ use std::path::PathBuf;
 
 use crate::error::Error;
 
-/// What can go wrong with a stored file. Every variant names the file; texts of files are shown escaped as
-/// in Rust, so that they cannot disturb a terminal.
+/// An error of a stored file. Every variant names the file; texts of files are escaped as in Rust, so that
+/// they cannot disturb a terminal.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StorageError {

@@ -19,7 +19,7 @@ use crate::store::provenance::{Format, Provenance};
 /// `provenance` names format, version and program.
 pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, oldest: 1 };
 
-/// The file of a long computation of many items: finished results are appended, nothing is ever changed.
+/// The file of a long computation of many items. Finished results are appended; existing lines never change.
 ///
 /// The file is text. The first line is the key: the [`Provenance`] of the computation and the number of its
 /// items. Each further line is the result of one item. Every line is an object of JSON with a digest of the
@@ -36,7 +36,7 @@ pub const JOURNAL: Format = Format { name: "bouncing-disk journal", version: 1, 
 ///
 /// # let path = std::env::temp_dir().join(format!("journal-example-{}", std::process::id()));
 /// # let _ = std::fs::remove_file(&path);
-/// // What is computed: nothing that the results depend on may be missing.
+/// // The key of the computation: it must contain everything on which the results depend.
 /// let roots = Provenance::new(JOURNAL).with("quantity", "square roots")?.with("first", &2.0)?;
 /// let square_root = |index: usize| (2.0 + index as f64).sqrt();
 /// {
@@ -80,8 +80,8 @@ pub struct Journal<T> {
 
 /// A file that is locked as long as it is open.
 ///
-/// The lock is given back and not left to the end of the file: a process that is just being started holds a copy of
-/// every open file for a moment, and the lock would live as long.
+/// The lock is released explicitly, and not by closing the file: a process that is just being started holds a
+/// copy of every open file for a moment, and would keep the lock for as long.
 #[derive(Debug)]
 struct Locked(File);
 
@@ -110,7 +110,7 @@ struct Line<T> {
     result: T,
 }
 
-/// What a journal holds.
+/// The contents of a journal.
 struct Contents<T> {
     /// Bytes of the whole lines.
     length: u64,
@@ -170,7 +170,7 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
     ) -> Result<PartialResults<T>, StorageError> {
         let path = path.as_ref();
         let failed = |source| StorageError::Io { action: "open", path: path.to_owned(), source };
-        // A pipe would be waited for.
+        // Opening a pipe would wait for a writer.
         check_regular(&std::fs::metadata(path).map_err(failed)?, path)?;
         let file = File::open(path).map_err(failed)?;
         Ok(partial(items, read(&file, path, &header(key, items, path)?, items)?.results))
@@ -235,7 +235,8 @@ impl<T: Serialize + DeserializeOwned> Journal<T> {
                 Ok(())
             }
             Err(source) => {
-                // Half a line is cut off now, or else before the next one is written or the journal is opened again.
+                // Half a line is cut off now, or else before the next one is written or the journal is opened
+                // again.
                 self.torn = file.set_len(self.length).is_err();
                 Err(StorageError::Io { action: "write", path: self.path.clone(), source })
             }
@@ -291,7 +292,7 @@ fn header(key: &Provenance, items: usize, path: &Path) -> Result<Vec<u8>, Storag
 /// Most bytes of the first line.
 const LONGEST_KEY: u64 = 1 << 26;
 
-/// What precedes the digest of a line, and what follows it.
+/// The text before the digest of a line, and the text after it.
 const BEFORE_DIGEST: &[u8] = b"{\"digest\":\"";
 const AFTER_DIGEST: &[u8] = b"\",";
 
@@ -372,7 +373,7 @@ fn check_header(found: &[u8], expected: &[u8], path: &Path) -> Result<(), Storag
         return Err(StorageError::Damaged { path: path.to_owned(), line: 1 });
     }
     let parts = |key: &Value| json!({ "items": key["items"], "provenance": key["provenance"] });
-    // The version first: what else differs between two versions does not help to find the right program.
+    // The version comes first: other differences between two versions do not help to find the right program.
     let version = |key: &Value| json!({ "provenance": { "version": key["provenance"]["version"] } });
     let differ =
         |of: &dyn Fn(&Value) -> Value| first_difference(&of(&stored), &of(&wanted), &mut String::new());

@@ -74,7 +74,7 @@ fn first_not_finite(tree: &Tree) -> Option<f64> {
     }
 }
 
-/// What a provenance of every format version has; what is of another form there is nothing that is known.
+/// The part of a provenance that every format version has. Nothing is known about a file without it.
 struct Stamp {
     program: String,
     version: String,
@@ -248,7 +248,7 @@ mod tests {
             (Some("bouncing-disk"), Some(3))
         );
         assert_eq!(stored["version"], env!("CARGO_PKG_VERSION"));
-        // What does not apply is there, as nothing.
+        // Entries that do not apply are present as null.
         let plain = json!(Provenance::new(FORMAT));
         assert!(
             plain["seed"].is_null()

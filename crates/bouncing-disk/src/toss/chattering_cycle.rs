@@ -14,7 +14,7 @@ pub(crate) const LOCKED_WITHIN: f64 = 0.05;
 /// See [`LOCKED_WITHIN`].
 pub(crate) const LOCKED_FLIGHTS: usize = 8;
 
-/// Impacts in which an unperturbed cycle is sought: one of up to half of them is found.
+/// Impacts in which to look for an unperturbed cycle; a cycle of up to half of them is found.
 pub const EXAMINED_IMPACTS: usize = 2_048;
 
 /// One round of a disk that comes to rest on the platform again and again: from one separation to the next.

@@ -1,7 +1,8 @@
-//! The next-collision map (Sec. IV): from (tau_imp, w_A, w_T) at one impact to the same three numbers at the next.
+//! The next-collision map (Sec. IV): from (tau_imp, w_A, w_T) at one impact to the same three numbers at the
+//! next.
 //!
-//! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary entry
-//! is 0 for an impact in which the slip ends and 1 for one that slides throughout.
+//! Its first two do not depend on the third: the derivative of the map is block triangular, and its rotary
+//! entry is 0 for an impact in which the slip ends and 1 for one that slides throughout.
 
 use bouncing_disk_core::{ChatterPolicy, ImpactState, Phase};
 

@@ -19,7 +19,7 @@ use crate::toss::collisions::{Collision, CollisionEvent, Collisions};
 /// Most impacts that [`multi_toss`] examines.
 pub const MAX_EXAMINED: usize = 10_000_000;
 
-/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// How long a motion is followed, and when it counts as periodic.
@@ -32,8 +32,8 @@ pub struct MultiTossSettings {
     pub transient_impacts: usize,
     /// Impacts that are then examined, from 2 to [`MAX_EXAMINED`]. Default 1024.
     pub examined_impacts: usize,
-    /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts examined are
-    /// compared. Default 128.
+    /// The longest period (in impacts) that is recognised, up to [`MAX_PERIOD`]; at most half of the impacts
+    /// examined are compared. Default 128.
     pub longest_period: usize,
     /// Phases (rad) and speeds (relative to 1 + the speed, for the rotary ones to 1 + Q) that differ by no
     /// more count as the same. Default 1e-9.
@@ -67,8 +67,8 @@ impl MultiTossSettings {
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum OrbitClass {
-    /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement of
-    /// the vertical orbit, which attracts ([`Stability::Stable`]).
+    /// The collisions repeat: the last two rounds agree within the tolerance, and so does a Newton refinement
+    /// of the vertical orbit, which attracts ([`Stability::Stable`]).
     Periodic {
         /// Impacts in one round.
         period: usize,
@@ -79,9 +79,9 @@ pub enum OrbitClass {
         /// The third one: 0 if the slip ends in an impact of the round, 1 if every impact slides.
         rotary: f64,
     },
-    /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each time,
-    /// so the vertical motion is periodic from the first separation on: eventually periodic, as long as the
-    /// arithmetic is. (A long cycle depends on its rounding.)
+    /// The disk comes to rest on the platform again and again. It leaves it in the same vertical state each
+    /// time, so the vertical motion is periodic from the first separation on: eventually periodic, as long as
+    /// the arithmetic is. (A long cycle depends on its rounding.)
     Chattering(ChatteringCycle),
     /// Small vertical perturbations grow for certain ([`LyapunovEstimate::grows`]), over enough impacts for
     /// dissipation to act ([`ImpactMap::transient_impacts`]).
@@ -294,7 +294,8 @@ fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
     (span > 0.0).then(|| (to.1 - from.1) / span)
 }
 
-/// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is unbounded.
+/// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is
+/// unbounded.
 fn growth_rate(
     map: &ImpactMap,
     collisions: &[Collision],

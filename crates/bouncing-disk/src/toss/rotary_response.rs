@@ -1,5 +1,5 @@
-//! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: the steady spin, and its
-//! multiplier (docs/numerics/dynamics.md, "The spin on a periodic orbit").
+//! How a disk turns on a periodic orbit of the vertical motion, stable or unstable: its steady spin and the
+//! rotary multiplier (docs/numerics/dynamics.md, "The spin on a periodic orbit").
 
 use std::f64::consts::TAU;
 
@@ -11,8 +11,8 @@ use crate::motion::impact::{available_impulse, axial_impulse};
 use crate::motion::state::SlipDirection;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// How far (rad, or relative to 1 + the speed) the impact after one of the orbit may be from the next one: an
-/// orbit of this map closes far better, one of another map hardly ever as well.
+/// How far from the next impact of a given orbit the map may take the one before it (rad, or relative to 1 +
+/// the speed). An orbit of this map closes far better; one of another map hardly ever closes so well.
 const CLOSES: f64 = 1.0e-6;
 
 /// The fate of the spin of a disk on a periodic orbit.
@@ -20,26 +20,27 @@ const CLOSES: f64 = 1.0e-6;
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum RotaryOutcome {
-    /// From every spin the disk comes to this one, in finitely many impacts: the rotary multiplier is 0.
+    /// From any spin the disk comes to this steady one in finitely many impacts: the rotary multiplier is 0.
     Steady(RotaryResponse),
-    /// The load is as large as friction: every spin repeats itself for which all impacts slide in the
-    /// direction of the load, and the rotary multiplier is 1.
+    /// The load exactly balances all that friction can give in a period of the orbit. A disk that slides
+    /// through every impact in the direction in which the load drives it keeps its spin: such spins form a
+    /// continuum, and the rotary multiplier is 1.
     Kept {
-        /// The limit of these spins, before the first impact of the orbit, in units of g a_e/(a_g^2
-        /// omega): those below it for a positive load, above it for a negative one; `None` without friction
-        /// and load, where every spin is kept.
+        /// Where the continuum ends: the angular speed before the first impact of the orbit, in units of g
+        /// a_e/(a_g^2 omega). Under a positive load all slower spins are kept, under a negative one all
+        /// faster ones. `None` without friction and load: every spin is kept.
         limit: Option<f64>,
     },
     /// The load exceeds friction: no spin repeats itself.
     Runaway {
-        /// The final change of the angular speed in one period of the orbit, when every impact slides,
-        /// in units of g a_e/(a_g^2 omega).
+        /// The change of the angular speed in one period of the orbit once every impact slides, in units of
+        /// g a_e/(a_g^2 omega).
         change: f64,
     },
 }
 
 impl RotaryOutcome {
-    /// The multiplier of the spin around the orbit, 0 or 1; `None` where no spin repeats itself.
+    /// The rotary multiplier of the orbit, 0 or 1; `None` where no spin repeats itself.
     #[must_use]
     pub const fn multiplier(&self) -> Option<f64> {
         match self {
@@ -67,18 +68,19 @@ pub struct RotaryResponse {
     pub angular_speeds: Vec<f64>,
     /// Disk minus platform just before each impact, the paper's w_T, in the same units.
     pub slips: Vec<f64>,
-    /// The slip that an impact leaves; `None` where it ends within it. At least one is `None`.
+    /// The direction of the slip after each impact; `None` where the impact ends the slip, as at least one
+    /// does.
     pub sliding: Vec<Option<SlipDirection>>,
-    /// The largest margin by which friction ends a slip, in the same units: available minus needed. A
-    /// smaller disturbance of the spin is forgotten within one period of the orbit. Zero where stick gives
-    /// way to slip.
+    /// The largest margin with which an impact ends the slip: the available angular impulse minus the needed
+    /// one, in the same units. A smaller disturbance of the spin is forgotten within one period of the orbit.
+    /// The margin is zero at a parameter where sticking gives way to sliding.
     pub stick_margin: f64,
     /// The mean angular speed, in the same units.
     pub mean_angular_speed: f64,
 }
 
 impl RotaryResponse {
-    /// How many impacts end the slip.
+    /// The number of impacts that end the slip.
     #[must_use]
     pub fn sticking_impacts(&self) -> usize {
         self.sliding.iter().filter(|slides| slides.is_none()).count()
@@ -91,13 +93,13 @@ impl RotaryResponse {
 pub struct RotaryRound {
     /// The angular speed before the first impact of the next period, in units of g a_e/(a_g^2 omega).
     pub angular_speed: f64,
-    /// Impacts that end the slip. The derivative of the speed by that one period before is 1 without any,
-    /// and otherwise 0.
+    /// The number of impacts that end the slip. If there are none, the derivative of the angular speed by
+    /// that one period before is 1, otherwise 0.
     pub sticking_impacts: usize,
 }
 
-/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed there,
-/// Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
+/// The rotary speed of a period-1 orbit with impacts at `impact_phase`, Eq. 16: the platform's own speed
+/// there, Q cos(tau_imp + theta), in units of g a_e/(a_g^2 omega).
 ///
 /// It is largest, Q, for a phase lag theta = -tau_imp.
 #[must_use]
@@ -114,7 +116,7 @@ pub fn period_one_rotary_speed(system: &DimensionlessSystem, impact_phase: Phase
 ///
 /// let system = ForcingParameters { axial_forcing: 0.45, angular_forcing: 1.0, phase_lag: 0.3, restitution: 0.5 }.build()?;
 /// let pair = system.map().period_one_pair(1).expect("born at 1/3");
-/// // The saddle, which no motion settles on, turns by Eq. (16), too.
+/// // On the saddle, which no motion approaches by itself, the disk also turns as Eq. (16) says.
 /// let saddle = pair.saddle.orbit(system.map())?.expect("admissible");
 /// let outcome = rotary_response(&system, &saddle)?;
 /// let spin = outcome.steady().expect("no load");
@@ -151,23 +153,23 @@ pub fn rotary_round(
     Ok(RotaryRound { angular_speed: speed, sticking_impacts })
 }
 
-/// The rotary half of the next-collision map around one orbit: what does not depend on the spin.
+/// The rotary part of the next-collision map around one orbit: all that does not depend on the spin.
 #[derive(Debug, Clone)]
 struct SpinMap {
     /// The flight after each impact (rad).
     durations: Vec<f64>,
-    /// What friction can give in each impact.
+    /// The largest angular impulse of friction in each impact.
     available: Vec<f64>,
     /// The platform's angular speed at each impact.
     platform_speeds: Vec<f64>,
     friction: f64,
     load: f64,
-    /// Impacts by falling `available`: those that may stick first.
+    /// The impacts by falling `available`: the ones most likely to end the slip come first.
     order: Vec<usize>,
 }
 
 impl SpinMap {
-    /// The map for an orbit, which has to be one.
+    /// The map for an orbit, after a check that it is one of this system.
     fn of(system: &DimensionlessSystem, orbit: &PeriodicOrbit) -> Result<Self, Error> {
         let states = &orbit.states;
         check(!states.is_empty(), "impacts of a periodic orbit", 0.0, "at least 1")?;
@@ -199,25 +201,27 @@ impl SpinMap {
         self.durations.len()
     }
 
-    /// What the load takes away in the flight after an impact.
+    /// The angular speed that the load takes away in the flight after an impact.
     fn lost(&self, index: usize) -> f64 {
         self.load * self.durations[index]
     }
 
-    /// The angular speed after an impact with this one before, and the slip that is left.
+    /// The angular speed after an impact that the disk meets with this `speed`, and the direction of the slip
+    /// that is left.
     fn impact(&self, index: usize, speed: f64) -> (f64, Option<SlipDirection>) {
         let slip = speed - self.platform_speeds[index];
         let available = self.available[index];
         if slip.abs() <= available {
             return (self.platform_speeds[index], None);
         }
-        // A slip beyond the available impulse is not zero.
+        // Here the slip exceeds the available impulse, so it is not zero.
         let direction = if slip > 0.0 { SlipDirection::Forward } else { SlipDirection::Backward };
         (speed - direction.sign() * available, Some(direction))
     }
 
-    /// By how much what stops the slip in the impact `stuck` exceeds what friction gives, if the disk turns
-    /// with the platform after it and goes around once: not positive for the steady spin.
+    /// Let the disk turn with the platform after the impact `stuck`, and go around the orbit once. By how
+    /// much does the impulse needed to end the slip at this impact exceed the available one? For the steady
+    /// spin it does not: the result is zero or negative.
     fn excess(&self, stuck: usize) -> f64 {
         let mut speed = self.platform_speeds[stuck];
         let mut index = stuck;
@@ -231,8 +235,8 @@ impl SpinMap {
         }
     }
 
-    /// An impact that ends the slip in the steady spin, for a load below friction. There is one; if rounding
-    /// says of all that they do not, the one that nearly does.
+    /// An impact that ends the slip in the steady spin, for a load below friction. At least one does; if
+    /// rounding denies it for all of them, this is the one that comes closest.
     fn sticking(&self) -> usize {
         let mut best = (f64::INFINITY, self.order[0]);
         for index in self.order.iter().copied() {
@@ -294,7 +298,7 @@ impl SpinMap {
         RotaryOutcome::Steady(self.steady())
     }
 
-    /// The end of the spins before the first impact for which all impacts slide against the load.
+    /// The limit of [`RotaryOutcome::Kept`].
     fn kept_limit(&self) -> f64 {
         let sign = self.load.signum();
         let (mut gained, mut limit) = (0.0, f64::INFINITY);

@@ -20,8 +20,8 @@ use crate::parameters::system::System;
 /// Phase at which a toss starts: the lowest point of the hand.
 pub const TOSS_START: f64 = 1.5 * PI;
 
-/// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then turns at
-/// omega Phi sin theta as the toss starts.
+/// How the dough turns at the start of a toss. The two differ if the phase lag is not zero: the hand then
+/// turns at omega Phi sin theta as the toss starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -66,8 +66,8 @@ pub struct TossPerformance {
 /// The disk's restitution does not matter, as nothing has fallen back yet.
 ///
 /// # Errors
-/// [`Error::NeverLeaves`] if the hand never falls away from the dough (phi_L > acos(g/(c omega^2)) for a motion given
-/// by its stroke).
+/// [`Error::NeverLeaves`] if the hand never falls away from the dough (phi_L > acos(g/(c omega^2)) for a
+/// motion given by its stroke).
 pub fn single_toss(system: &System, initial: InitialSpin) -> Result<TossPerformance, Error> {
     let mut ledger = EnergyLedger::default();
     for record in toss_engine(system, initial)? {
@@ -174,8 +174,8 @@ mod tests {
         assert!((toss.launch_speed - 3.1).abs() < 0.1, "{toss:?}");
     }
 
-    /// What the hand has put in is in the dough, turning and moving upwards, in its height, and lost in friction: a dough
-    /// that starts with the hand keeps the spin that this has given to it.
+    /// The work of the hand is in the rotation, the upward motion and the height of the dough, and in the
+    /// friction loss; a dough that starts with the hand keeps the spin from the hand.
     #[test]
     fn the_efficiency_is_the_share_of_the_rotation_in_what_the_hand_has_given() {
         for (lag, friction) in [(0.7, 0.6), (-1.2, 0.6), (0.4, 0.1), (0.3, 50.0), (0.0, 0.6)] {
@@ -212,7 +212,8 @@ mod tests {
         let (last, before) = events.split_last().unwrap();
         assert!(matches!(last, Event::Impact { .. }) && before.last() == Some(&Event::Separation));
         assert!(!before.iter().any(|event| matches!(event, Event::Impact { .. })));
-        // The normal force goes to zero: whatever twists slides in the end, and what does not twist never does.
+        // The normal force goes to zero: whatever twists slides in the end, and what does not twist never
+        // does.
         let slides = |angle| {
             single_toss(&table_i(angle, 0.3, 0.6), InitialSpin::RestRelativeToHand)
                 .unwrap()

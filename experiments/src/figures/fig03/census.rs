@@ -1,4 +1,5 @@
-//! What the picture is drawn from: the transitions that the engine makes, and one cycle of a disk that is thrown, chatters and rests.
+//! The data of the picture: the transitions that the engine makes, and one cycle of a disk that is thrown,
+//! chatters and rests.
 
 use std::collections::BTreeSet;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -25,7 +26,8 @@ pub(super) struct Census {
     pub(super) longest_motion: usize,
     pub(super) motions: u64,
     pub(super) events: u64,
-    /// Impacts of a disk that slides, and those of them whose impulse is the possible one, so that the slip ends.
+    /// Impacts of a disk that slides, and those of them whose impulse is the possible one, so that the slip
+    /// ends.
     pub(super) sliding_impacts: u64,
     pub(super) capped_impacts: u64,
     /// Those that occurred, in the order of the modes and events.

@@ -2,7 +2,7 @@
 //!
 //! The engine keeps its constant preload. A spring that is compressed by δl_0 at the middle of the rotor's
 //! travel presses with g (1 + (x − x_middle)/δl_0): the preload changes by the travel over δl_0 from end to
-//! end. What that does to a flight is computed in closed form, for it is a piece of an oscillation with the
+//! end. The effect on a flight has a closed form, because the flight is a piece of an oscillation with the
 //! frequency sqrt(g/δl_0).
 
 use std::convert::Infallible;

@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 4, compared with the data.
+//! The statements of the paper about Fig. 4, compared with the data.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -62,7 +62,8 @@ fn lower_at(angles: &[f64], curve: &[f64], angle: f64) -> f64 {
     (high - at(angles, curve, angle)) / (high - low)
 }
 
-/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the last, and their share.
+/// The angles at which a curve is lower than its maximum by no more than a line's width: the first and the
+/// last, and their share.
 fn accepted(angles: &[f64], curve: &[f64]) -> (String, f64) {
     let (low, high) = numbers::extent(curve.iter().copied());
     let as_high = angles.iter().zip(curve).filter(|(_, value)| high - **value <= LINE_WIDTH * (high - low));
@@ -215,7 +216,7 @@ fn beside_the_optimum(data: &Fig04Data, fastest: &TossPoint) -> Vec<Claim> {
     let at_optimum = data.speed_ratio_at_printed_optimum;
     let drawn = curves(data, InitialSpin::AbsoluteRest).iter().map(|curve| size(&curve.largest_speed_ratio));
     let largest = drawn.max_by(f64::total_cmp);
-    // What the paper calls negligible: whatever two ratios that print like its two differ by.
+    // The paper calls negligible at most the difference of two ratios that print like its two.
     let negligible = PrintedNumber::read(&data.printed.largest_speed_ratio)
         .zip(PrintedNumber::read(&data.printed.speed_ratio_at_optimum))
         .map(|(largest, at_optimum)| {

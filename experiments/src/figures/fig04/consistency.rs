@@ -1,6 +1,7 @@
 //! Which parameters give the numbers that Sec. III B prints for the best toss.
 //!
-//! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of amplitude angles?
+//! Table I as printed does not give all of them. Can the printed maxima be points of an even grid of
+//! amplitude angles?
 
 use bouncing_disk::core::numerics::elementary::sin;
 use bouncing_disk::toss::InitialSpin;

@@ -128,7 +128,7 @@ pub(super) struct Compromise {
 /// Which parameter sets give the numbers that the paper prints for θ = 0.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Consistency {
-    /// What Table I gives as printed.
+    /// The results of Table I as printed.
     pub(super) as_printed: Reading,
     pub(super) hand_speed: HandSpeed,
     /// The maxima picked from a coarse grid of amplitude angles.

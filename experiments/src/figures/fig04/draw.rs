@@ -48,7 +48,7 @@ enum NumberPlace {
     Best(f64),
     /// At this share of the largest angle, with this text instead of n.
     With(&'static str, f64),
-    /// Left out: another curve with the same values has it.
+    /// Not drawn, because another curve has the same values.
     Nowhere,
 }
 
@@ -186,7 +186,8 @@ fn separation_panel(panel: Panel, data: &Fig04Data) -> Panel {
         panel = panel.layer(
             Line::new(points(phases, &curve.airborne_speed_rad_per_s)).colour(lag_colour(curve.n)).width(1.1),
         );
-        // The curves of n = 0 and 1 are farthest apart at their tops, and almost coincide to the right of them.
+        // The curves of n = 0 and 1 are farthest apart at their tops, and almost coincide to the right of
+        // them.
         let (at, raised) = match curve.n {
             0 => (0.40, 2.4),
             1 => (0.31, -1.0),

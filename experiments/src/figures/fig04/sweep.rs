@@ -251,7 +251,8 @@ mod tests {
     /// The phase lag with the largest |ν| at an amplitude angle, the phase of separation there, and |ν|.
     fn best_lag(case: &TossCase, initial: InitialSpin) -> (f64, f64, f64) {
         let at = |lag: f64| case.at_lag(lag).toss(initial);
-        // An odd number of intervals, so that θ = 0 is no sample; beyond ±π/2 the tosses repeat with the other sign.
+        // An odd number of intervals, so that θ = 0 is no sample; beyond ±π/2 the tosses repeat with the
+        // other sign.
         let found =
             maximum((-FRAC_PI_2, FRAC_PI_2), 65, |lag| at(lag).map(|toss| ratio(&toss))).expect("leaves");
         let toss = at(found.place).expect("leaves");

@@ -20,7 +20,8 @@ use crate::figures::shared::map;
 /// An orbit that has not attached after so many impacts does not chatter.
 const LONGEST_CYCLE: usize = 20_000;
 
-/// The cycles of a disk that has been at rest, at each Γ; `None` where it never leaves or does not come to rest again.
+/// The cycles of a disk that has been at rest, at each Γ; `None` where it never leaves or does not come to
+/// rest again.
 pub(super) fn cycles(
     forcings: &[f64],
     restitution: f64,
@@ -137,7 +138,8 @@ pub(super) fn chattering_slice(
     Ok(Some(Slice { period: Some(cycle.impacts), platform_periods: Some(cycle.platform_periods), ..slice }))
 }
 
-/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their cycles and bisected.
+/// Where the chattering orbit stops being a chain of single tosses, looked for on `forcings` with their
+/// cycles and bisected.
 pub(super) fn single_tosses(
     forcings: &[(f64, Option<ChatteringCycle>)],
     section: &SectionFour,

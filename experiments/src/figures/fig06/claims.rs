@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 6.
+//! The statements of the paper about Fig. 6.
 
 use std::f64::consts::TAU;
 
@@ -78,7 +78,7 @@ fn doublings(data: &Fig06Data) -> Vec<Claim> {
     claims
 }
 
-/// What is printed twice is compared with itself, and the first of it with the data.
+/// A number that is printed twice is compared with itself, and its first print with the data.
 fn printed(key: &str) -> f64 {
     catalogue::number(key, 0).map_or(f64::NAN, |printed| printed.value)
 }
@@ -105,7 +105,7 @@ fn period_one(data: &Fig06Data) -> Vec<Claim> {
     ]
 }
 
-/// What Sec. I says about the vertical and the rotary motion.
+/// The statements of Sec. I about the vertical and the rotary motion.
 fn introduction(data: &Fig06Data) -> Vec<Claim> {
     let motions = &data.motions;
     let (_, fullest) = rotation::extent(motions.iter().map(|motion| motion.highest / motion.height_bound));

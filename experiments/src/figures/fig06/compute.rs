@@ -20,15 +20,16 @@ use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::Progress;
 
-/// Impacts after which a disk that has not come to rest is looked at.
+/// Impacts after which the motion of a disk that has not come to rest is recorded.
 const SETTLING: usize = 20_000;
 /// Longest period (impacts) of an orbit that it may have settled on, and how well two rounds of it agree.
 const LONGEST_PERIOD: usize = 256;
 /// See [`LONGEST_PERIOD`].
 const REPEATS_WITHIN: f64 = 1.0e-6;
-/// Values of Γ of the followed attractor, and of the disk from rest, at which transfers and lags are looked at.
+/// Number of values of Γ, of the followed attractor and of the disk from rest, at which transfers and lags
+/// are computed.
 const SAMPLED: usize = 40;
-/// Impacts that a search for the best lag does not look at: more than the rotation takes at Γ_T = 100.
+/// Impacts that a search for the best lag discards: more than the rotation takes to settle at Γ_T = 100.
 const LAG_TRANSIENT: usize = 300;
 /// Impacts over which a Lyapunov exponent is taken.
 const GROWTH_IMPACTS: usize = 4_000;
@@ -189,7 +190,8 @@ impl Diagrams {
         self.cycles.iter().filter(|(_, cycle)| cycle.is_some()).map(|(forcing, _)| *forcing).collect()
     }
 
-    /// What Γ_T does to the rotation from the period-4 bifurcation on: of the followed attractor, and beyond the crisis of the disk from rest.
+    /// The effect of Γ_T on the rotation from the period-4 bifurcation on: for the followed attractor, and
+    /// beyond the crisis for the disk from rest.
     fn forcing_effects(
         &self,
         period_four: Option<f64>,
@@ -221,7 +223,7 @@ impl Diagrams {
     }
 }
 
-/// What is found by bisection and by further orbits.
+/// The results of bisections and of further orbits.
 struct Searches {
     merging: Merging,
     single_tosses: SingleTosses,
@@ -258,8 +260,8 @@ impl Searches {
     }
 }
 
-/// The transfers of angular momentum and the best lags, evenly over the diagram: of the followed attractor, and of the disk from
-/// rest, all along and beyond the crisis.
+/// The transfers of angular momentum and the best lags, evenly over the diagram: of the followed attractor,
+/// and of the disk from rest, all along and beyond the crisis.
 fn along_the_diagram(
     diagrams: &Diagrams,
     chaotic: &[&Followed],
@@ -280,7 +282,7 @@ fn along_the_diagram(
     Ok((transfers, explored::best_lags(&lagged, &beyond, inputs, lag_settings)?))
 }
 
-/// What a disk from rest that does not come to rest again has settled on.
+/// The motion on which a disk from rest settles if it does not come to rest again.
 fn bouncing(axial_forcing: f64, restitution: f64) -> Result<Bouncing, ExperimentError> {
     let map = map(axial_forcing, restitution)?;
     let mut period = None;

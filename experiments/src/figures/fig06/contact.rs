@@ -23,8 +23,8 @@ const LONG: usize = 4_000;
 /// Restitutions other than the paper's: nearly elastic ones.
 const NEARLY_ELASTIC: [f64; 2] = [0.9, 0.99];
 
-/// No impact is faster than this, relative to the platform: between two impacts the disk falls by no more than the platform's
-/// 2P, and the platform moves with no more than P. In units of g/ω.
+/// No impact is faster than this, relative to the platform: between two impacts the disk falls by no more
+/// than the platform's 2P, and the platform moves with no more than P. In units of g/ω.
 fn speed_bound(peak: f64, restitution: f64) -> f64 {
     let mut speed = 0.0_f64;
     // A contraction by the restitution.
@@ -89,10 +89,11 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
         .collect()
 }
 
-/// Impacts over which the angular impulses are added up, from a disk that does not turn: once it turns in step with the
-/// platform, nothing is transferred in period 1.
+/// Impacts over which the angular impulses are added up, from a disk that does not turn: once it turns in
+/// step with the platform, nothing is transferred in period 1.
 const TRANSFERS: usize = 600;
-/// Parts into which a segment on the platform is divided: the impulse of friction may change its sign within a segment.
+/// Parts into which a segment on the platform is divided: the impulse of friction may change its sign within
+/// a segment.
 const PARTS: usize = 16;
 
 /// The share of the angular impulses, by size, that impacts transfer; `None` where there are none.

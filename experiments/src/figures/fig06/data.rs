@@ -40,11 +40,12 @@ pub struct Fig06Data {
     pub(super) single_tosses: SingleTosses,
     /// How a disk from rest comes to rest again, at some Γ.
     pub(super) chatters: Vec<Chatter>,
-    /// What Γ_T does to the rotation, at some Γ from period 4 on.
+    /// The effect of Γ_T on the rotation, at some Γ from period 4 on.
     pub(super) forcing_effects: Vec<ForcingEffect>,
     /// Γ at which two branches of the period-4 orbit have the same speed in (d).
     pub(super) branch_crossings: Vec<f64>,
-    /// Lyapunov exponents of the followed attractor beyond the last doubling: Γ, and the growth rate per impact.
+    /// Lyapunov exponents of the followed attractor beyond the last doubling: Γ, and the growth rate per
+    /// impact.
     pub(super) lyapunov_exponents: Vec<(f64, f64)>,
     pub(super) period_one: PeriodOne,
     /// Long motions: how far they go.
@@ -61,7 +62,8 @@ pub struct Fig06Data {
     pub(super) explored: Explored,
     /// The best phase lag at some Γ.
     pub(super) best_lags: Vec<BestLag>,
-    /// Values of Γ from the crisis on at which one impact gives a disk from rest more than half of its impulse.
+    /// Values of Γ from the crisis on at which one impact gives a disk from rest more than half of its
+    /// impulse.
     pub(super) one_impact_decides: OneImpactDecides,
 }
 
@@ -84,7 +86,8 @@ pub(super) struct Column {
 /// The rotation of period-1 orbits, from many starts and for many motions of the platform.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct PeriodOne {
-    /// Orbits: of one impact every one, two or three periods of the platform, by Γ, θ, Γ_T and the speed of the disk at first.
+    /// Orbits: of one impact every one, two or three periods of the platform, by Γ, θ, Γ_T and the speed of
+    /// the disk at first.
     pub(super) orbits: usize,
     pub(super) impacts_each: usize,
     /// The largest |w_T|/(ωΦ) in the last impact of an orbit.
@@ -127,7 +130,7 @@ pub(super) struct Motion {
 pub(super) struct Dimension {
     /// Parameters of the system in SI units that are changed one by one.
     pub(super) parameters: Vec<String>,
-    /// Numbers that are looked at.
+    /// Number of outputs whose derivatives are taken.
     pub(super) outcomes: usize,
     /// Rank of the matrix of derivatives.
     pub(super) rank: usize,
@@ -138,7 +141,8 @@ pub(super) struct Dimension {
 pub(super) struct TorqueRatio {
     pub(super) system: String,
     pub(super) angular_forcing: f64,
-    /// The torque that gives the disk the platform's largest angular acceleration, over the frictional torque of the preload.
+    /// The torque that gives the disk the platform's largest angular acceleration, over the frictional torque
+    /// of the preload.
     pub(super) ratio: f64,
 }
 
@@ -153,7 +157,7 @@ pub(super) struct Transfer {
     pub(super) share_in_impacts: f64,
 }
 
-/// What orbits visit in the plane of phase and speed.
+/// The part of the plane of phase and speed that orbits visit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Visited {
     pub(super) axial_forcing: f64,
@@ -175,7 +179,8 @@ pub(super) struct Explored {
     pub(super) before_with_chattering: Visited,
     /// The orbit that starts on that attractor, just after the crisis.
     pub(super) after: Visited,
-    /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the chaotic saddle there.
+    /// Beyond the crisis: Γ, and the share of the impacts of the orbit from rest that are near the chaotic
+    /// saddle there.
     pub(super) shadows: Vec<Shadow>,
 }
 
@@ -189,7 +194,8 @@ pub(super) struct Shadow {
     pub(super) share_of_plane: f64,
 }
 
-/// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk from rest.
+/// The phase lag with the highest mean speed at one Γ, of the followed attractor or, beyond it, of a disk
+/// from rest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct BestLag {
     pub(super) axial_forcing: f64,
@@ -202,7 +208,8 @@ pub(super) struct BestLag {
     pub(super) speed: f64,
 }
 
-/// Where one impact of the cycle of a disk from rest has most of the impulse: a motor with the lag that is best for this impact turns at ωΦ.
+/// Where one impact of the cycle of a disk from rest has most of the impulse: a motor with the lag that is
+/// best for this impact turns at ωΦ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct OneImpactDecides {
     /// Smallest and largest Γ, and how many were tried.
@@ -221,7 +228,8 @@ pub(super) struct Twist {
     pub(super) angular_forcing: f64,
 }
 
-/// The last impacts of a disk from rest before it comes to rest again: those that end flights of less than half a period.
+/// The last impacts of a disk from rest before it comes to rest again: those that end flights of less than
+/// half a period.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Chatter {
     pub(super) axial_forcing: f64,
@@ -230,7 +238,8 @@ pub(super) struct Chatter {
     /// Of all pairs of these, those whose later one is slower, and whose later flight is shorter.
     pub(super) slower: Cases,
     pub(super) shorter: Cases,
-    /// The time of rest (periods), from the separation on, with infinitely many impacts summed, and with the paper's cut.
+    /// The time of rest (periods), from the separation on, with infinitely many impacts summed, and with the
+    /// paper's cut.
     pub(super) rests_at_cycles: f64,
     pub(super) cut_at_cycles: f64,
 }
@@ -247,7 +256,8 @@ pub(super) struct ForcingEffect {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Slice {
     pub(super) axial_forcing: f64,
-    /// Impacts in one round of a periodic orbit or from one rest to the next of a chattering one, if it repeats.
+    /// Impacts in one round of a periodic orbit or from one rest to the next of a chattering one, if it
+    /// repeats.
     pub(super) period: Option<usize>,
     /// Periods of the platform in the same.
     pub(super) platform_periods: Option<u64>,

@@ -100,8 +100,8 @@ pub(super) fn merging(
     })
 }
 
-/// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays near it for some 1500
-/// impacts on the mean before it comes to rest for the first time.
+/// Just before and just after the crisis: so far from it. An orbit that starts on the attractor then stays
+/// near it for some 1500 impacts on the mean before it comes to rest for the first time.
 const BESIDE: f64 = 1.0e-4;
 /// Impacts before and after the crisis.
 const VISITING: usize = 20_000;
@@ -109,8 +109,8 @@ const VISITING: usize = 20_000;
 const CELLS: f64 = 100.0;
 /// Impacts of an orbit beyond the crisis that are compared with the saddle.
 const SHADOWING: usize = 2_000;
-/// Starts, on the attractor just before the crisis, of the orbits that show the saddle: those that have not come to rest after so many impacts are next to it in the
-/// middle of them.
+/// Starts, on the attractor just before the crisis, of the orbits that show the saddle: those that have not
+/// come to rest after so many impacts are next to it in the middle of them.
 const SADDLE_STARTS: usize = 4_000;
 /// See [`SADDLE_STARTS`].
 const SADDLE_LIFE: usize = 40;
@@ -272,12 +272,14 @@ pub(super) fn zoom(
         .collect())
 }
 
-/// The lags tried, in steps: wherever an orbit spends its impacts between phase 0 and a quarter of a period, the best lag is there.
+/// The lags tried, in steps: wherever an orbit spends its impacts between phase 0 and a quarter of a period,
+/// the best lag is there.
 const LAGS_DEG: std::ops::RangeInclusive<i32> = -9..=2;
 /// Distance of two lags (degrees).
 pub(super) const LAG_STEP_DEG: i32 = 10;
 
-/// The best phase lag of the followed attractor at some states of it, and of a disk from rest at some Γ, for both Γ_T of Fig. 6.
+/// The best phase lag of the followed attractor at some states of it, and of a disk from rest at some Γ, for
+/// both Γ_T of Fig. 6.
 pub(super) fn best_lags(
     followed: &[(f64, ImpactState)],
     from_rest_at: &[f64],
@@ -325,15 +327,16 @@ pub(super) fn best_lags(
         .collect()
 }
 
-/// The largest Γ up to which cycles are looked for in which one impact has most of the impulse: where the paper's own motor operates.
+/// The largest Γ up to which cycles are looked for in which one impact has most of the impulse: where the
+/// paper's own motor operates.
 const LARGEST_FORCING: f64 = 3.0;
 /// Γ_T of the motors simulated there: as in a motor, it leaves the speed to change little in one impact.
 const LARGE_ANGULAR_FORCING: f64 = 1.0e4;
 /// Impacts of a cycle from rest, at least.
 const WEIGHED_IMPACTS: usize = 400;
 
-/// The values of Γ beyond `from` at which more than half of the impulse of a disk from rest comes at one phase, and the mean speed of a motor with the lag that is best
-/// for this phase.
+/// The values of Γ beyond `from` at which more than half of the impulse of a disk from rest comes at one
+/// phase, and the mean speed of a motor with the lag that is best for this phase.
 pub(super) fn one_impact_decides(
     from: f64,
     restitution: f64,

@@ -12,8 +12,8 @@ use super::slices::{Inputs, no_orbit};
 use crate::experiment::ExperimentError;
 use crate::figures::shared::map;
 
-/// Width at which the bisection on the threshold ends. The orbit is found next to its birth as far as Newton's iteration goes
-/// there; its phase moves with the square root of the distance.
+/// Width at which the bisection on the threshold ends. The orbit is found next to its birth as far as
+/// Newton's iteration goes there; its phase moves with the square root of the distance.
 const BRACKET: f64 = 1.0e-9;
 /// Γ at which there is no such orbit at restitution 0.5, and far from the printed threshold.
 const BELOW_THRESHOLD: f64 = 0.30;
@@ -97,8 +97,8 @@ pub(super) fn period_one(inputs: Inputs) -> Result<PeriodOne, ExperimentError> {
     let first_doubling = ImpactMap::first_doubling_forcing(inputs.restitution);
     let mut result =
         PeriodOne { orbits: 0, impacts_each: IMPACTS, largest_tangential_speed: 0.0, lags: Vec::new() };
-    // The window of one impact every k periods runs from k times the threshold to the doubling, of which the height above the
-    // threshold, in squares, does not depend on k.
+    // The window of one impact every k periods runs from k times the threshold to the doubling, of which the
+    // height above the threshold, in squares, does not depend on k.
     let squared = |value: f64| value * value;
     let height = squared(first_doubling) - squared(threshold);
     for flight in 1..=LONGEST_FLIGHT {

@@ -1,4 +1,4 @@
-//! What the paper says about chattering and the merging of the attractors in Fig. 6.
+//! The statements of the paper about chattering and the merging of the attractors in Fig. 6.
 
 use super::data::{BestLag, Chatter, Fig06Data, Shadow, Slice};
 use super::rotation::{extent, period_ones};
@@ -31,7 +31,7 @@ fn arc(slice: &Slice) -> f64 {
     occupied_arc(slice.impact_phase_cycles.iter().copied()).unwrap_or_default()
 }
 
-/// What changes where the attractors merge.
+/// The changes where the attractors merge.
 fn merged(data: &Fig06Data) -> Vec<Claim> {
     let crisis = data.merging.axial_forcing();
     let beyond = |forcing: f64| forcing > crisis;
@@ -76,7 +76,7 @@ fn merged(data: &Fig06Data) -> Vec<Claim> {
 fn widening(data: &Fig06Data) -> Claim {
     let explored = &data.explored;
     let (before, after) = (&explored.before, &explored.after);
-    // What the attractor has widened by on the whole way from the doublings to the crisis.
+    // The widening of the attractor on the whole way from the doublings to the crisis.
     let chaotic = chaotic(data);
     let (narrowest, widest) = extent(chaotic.iter().map(|slice| arc(slice)));
     let (slowest, fastest) =
@@ -115,7 +115,7 @@ fn shadow(data: &Fig06Data) -> Claim {
     .cause("short cycles beyond the merging")
 }
 
-/// What chaos and the regime beyond the merging do to the speed.
+/// The effect of chaos, and of the regime beyond the merging, on the speed.
 fn speeds(data: &Fig06Data) -> Vec<Claim> {
     let last = data.doublings.last().copied().unwrap_or(f64::NAN);
     let best = |chosen: &dyn Fn(&BestLag) -> bool| -> Vec<BestLag> {
@@ -188,7 +188,8 @@ fn rest(data: &Fig06Data) -> Claim {
     )
 }
 
-/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk of the cut's speed does.
+/// Two times of rest (periods) that differ by less than this are one: the paper's cut leaves out what a disk
+/// of the cut's speed does.
 const SAME_REST: f64 = 1.0e-4;
 
 /// How the chattering sequences of a disk from rest end.
@@ -224,7 +225,8 @@ fn decay(data: &Fig06Data) -> [Claim; 2] {
     ]
 }
 
-/// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has the longer cycle.
+/// Whether the chattering orbits become more complex with Γ: of two orbits the one at the higher Γ mostly has
+/// the longer cycle.
 fn complexity(data: &Fig06Data) -> Claim {
     // By rising Γ.
     let cycles: Vec<(f64, u64)> = data

@@ -1,4 +1,4 @@
-//! What the paper says about the rotation in Fig. 6: Eq. (16), the two motions, mean speeds.
+//! The statements of the paper about the rotation in Fig. 6: Eq. (16), the two motions, mean speeds.
 
 use std::f64::consts::TAU;
 
@@ -10,8 +10,8 @@ use crate::claims::{self as claim, Cases, Claim, Kind};
 use crate::figures::shared::numbers;
 pub(super) use crate::figures::shared::numbers::extent;
 
-/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence to the
-/// orbit next to a doubling.
+/// Rounding of stored phases and speeds (1e-6) seen through the slopes of Eq. (16), and the slow convergence
+/// to the orbit next to a doubling.
 const STORED: f64 = 1.0e-5;
 
 pub(super) fn claims(data: &Fig06Data) -> Vec<Claim> {
@@ -137,7 +137,7 @@ fn rotation(data: &Fig06Data) -> Vec<Claim> {
         let pairs = trend(ones.iter().map(|(slice, _)| (slice.axial_forcing, of(slice))), sign);
         Claim::printed_statement(key, pairs, format!("in {} of all pairs of Γ", pairs.words()))
     };
-    // What half a unit of the last digit of the printed lag does to the speed.
+    // The effect of half a unit of the last digit of the printed lag on the speed.
     let printed = crate::claims::catalogue::number("section4.semielliptical_phase_lag", 0);
     let least = printed.map_or(f64::NAN, |lag| cos(lag.half_unit));
     let reached = ones.last().map(|(slice, _)| slice.semielliptical_mean);
@@ -217,7 +217,8 @@ fn oscillation(data: &Fig06Data) -> Claim {
     )
 }
 
-/// How far the speed after an impact is from that of the platform in the impact, on the mean over consecutive impacts.
+/// How far the speed after an impact is from that of the platform in the impact, on the mean over consecutive
+/// impacts.
 fn untracked(slice: &Slice, speeds: &[f64], lag: f64) -> Option<f64> {
     let misses: Vec<f64> = speeds
         .iter()
@@ -257,8 +258,8 @@ fn large_and_small(slice: &Slice) -> Option<[usize; 2]> {
     Some(if one > other { [0, 1] } else { [1, 0] })
 }
 
-/// The two impacts of period 2 against the platform, in (c) and (d): |w_T| in the larger of them, and the distances of the mean
-/// speed from the platform's speed in the impact of large and in that of small |w_A|.
+/// The two impacts of period 2 against the platform, in (c) and (d): |w_T| in the larger of them, and the
+/// distances of the mean speed from the platform's speed in the impact of large and in that of small |w_A|.
 fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> (Vec<f64>, Vec<(f64, f64)>) {
     let of_motion = |speeds: &[f64], mean: f64, phases: &[f64], lag: f64, order: [usize; 2]| {
         let platform = |impact: usize| cos(TAU * phases[impact] + lag);
@@ -284,7 +285,7 @@ fn two_impacts(data: &Fig06Data, twos: &[(&Slice, [usize; 2])]) -> (Vec<f64>, Ve
     all.unzip()
 }
 
-/// What is said about the region of period 2.
+/// The statements about the region of period 2.
 fn period_two(data: &Fig06Data) -> Vec<Claim> {
     let twos: Vec<(&Slice, [usize; 2])> = between(data, 0, 1)
         .into_iter()
@@ -372,11 +373,12 @@ fn mean_speeds(data: &Fig06Data) -> Vec<Claim> {
     claims
 }
 
-/// Angular speeds closer than this share of ωΦ look like one branch: dots of panel (d) are 0.6 points wide, and ωΦ is 60 points
-/// long there.
+/// Angular speeds closer than this share of ωΦ look like one branch: dots of panel (d) are 0.6 points wide,
+/// and ωΦ is 60 points long there.
 const ONE_BRANCH: f64 = 0.01;
 
-/// The two impacts of an orbit with the nearest speeds in (d): their distance there, and in the plane of phase (periods) and
+/// The two impacts of an orbit with the nearest speeds in (d): their distance there, and in the plane of
+/// phase (periods) and
 /// |w_A Γ/(ωA)|.
 fn nearest_speeds(slice: &Slice) -> Option<(f64, f64)> {
     let speeds = &slice.semielliptical;

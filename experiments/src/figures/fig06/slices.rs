@@ -208,7 +208,8 @@ fn variation(speeds: &[f64]) -> Option<f64> {
     Spread::of(speeds).ok().map(|spread| spread.deviation)
 }
 
-/// What Γ_T does to the rotation at one Γ: the slice drawn, and that of the same vertical motion with the angular forcings of (c) and (d) exchanged.
+/// The effect of Γ_T on the rotation at one Γ: the slice drawn, and that of the same vertical motion with the
+/// angular forcings of (c) and (d) exchanged.
 pub(super) fn forcing_effect(drawn: &Slice, exchanged: &Slice) -> Option<ForcingEffect> {
     Some(ForcingEffect {
         axial_forcing: drawn.axial_forcing,

@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 7.
+//! The statements of the paper about Fig. 7.
 
 use super::data::{Fig07Data, Panel, TopShares};
 use super::draw::forcing_text;
@@ -7,10 +7,11 @@ use crate::claims::{self as claim, Claim};
 const ID: &str = "fig07";
 /// What was chosen so that both printed fractions come out.
 const FITTED: &str = "the window's top speed, 5, was chosen so that both printed fractions come out";
-/// Deep within a basin: no other start below this |w_A Γ/(ωA)|, a fiftieth of the window. What is found is far from it on either
-/// side.
+/// Deep within a basin: no other start below this |w_A Γ/(ωA)|, a fiftieth of the window. The results are far
+/// from it on either side.
 const DEEP: f64 = 0.1;
-/// The boundary share of a smooth curve falls as the first power of the cell size; a grid finds 0.97 to 1.02 for one.
+/// The boundary share of a smooth curve falls as the first power of the cell size; a grid finds 0.97 to 1.02
+/// for one.
 const SMOOTH_FROM: f64 = 0.9;
 
 /// Fraction, binomial error, and the share of cells at a boundary, in words.

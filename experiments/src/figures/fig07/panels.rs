@@ -67,7 +67,7 @@ fn route(map: &ImpactMap) -> Result<Route, ExperimentError> {
     KnownOrbit::new(orbit, radius).map(Route::Periodic).map_err(ExperimentError::model)
 }
 
-/// Other periodic attractors: what undecided cells of a coarse grid settle on.
+/// Other periodic attractors, on which undecided cells of a coarse grid settle.
 pub(super) fn others(map: &ImpactMap, first: &KnownOrbit) -> Result<Vec<KnownOrbit>, ExperimentError> {
     let grid = grid(WINDOW_TOP, COARSE, COARSE)?;
     let settings = BasinSettings { max_impacts: 500, policy: ChatterPolicy::Complete };

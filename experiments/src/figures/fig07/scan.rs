@@ -23,14 +23,16 @@ use crate::progress::{Progress, advancing};
 
 /// Forcings from that of panel (a) to that of (b).
 const ALONG_WINDOW: u32 = 16;
-/// The tops of the windows in which shares are taken: every whole one from where speeds of period 1 (1.33) are well inside.
+/// The tops of the windows in which shares are taken: every whole one from where speeds of period 1 (1.33)
+/// are well inside.
 const TOPS: [usize; 7] = [2, 3, 4, 5, 6, 7, 8];
 /// Impacts after which a start along the window belongs neither to period 1 nor to chattering.
 const LONGEST_ALONG: u32 = 4_000;
-/// Impacts after which a start beyond the crisis counts as one that never comes to rest. The transients of some hundred impacts
-/// that the crisis leaves are over by far.
+/// Impacts after which a start beyond the crisis counts as one that never comes to rest. The transients of
+/// some hundred impacts that the crisis leaves are over by far.
 const LONGEST_BEYOND: u32 = 20_000;
-/// Phases between separation and its mirror image at which a disk at rest is let go, too: there the platform falls away.
+/// Phases between separation and its mirror image at which a disk at rest is let go, too: there the platform
+/// falls away.
 const REST_PHASES: u32 = 64;
 /// Longest period (impacts) that is recognised, and how well two rounds agree.
 const LONGEST_PERIOD: usize = 256;
@@ -83,7 +85,8 @@ pub(super) fn along_window(
         .collect()
 }
 
-/// The starts that do not come to rest, from the printed Γ of the merging to the end of the diagram of Fig. 6.
+/// The starts that do not come to rest, from the printed Γ of the merging to the end of the diagram of
+/// Fig. 6.
 pub(super) fn beyond(
     section: &SectionFour,
     top: f64,
@@ -121,7 +124,7 @@ pub(super) fn beyond(
         .collect()
 }
 
-/// What becomes of a disk at rest on the platform, at any phase.
+/// The fate of a disk at rest on the platform, at any phase.
 pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, ExperimentError> {
     forcings
         .par_iter()

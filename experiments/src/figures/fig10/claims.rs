@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 10.
+//! The statements of the paper about Fig. 10.
 
 use super::data::{Fig10Data, Transient};
 use crate::claims::{Cases, Claim, all, catalogue};

@@ -124,11 +124,11 @@ fn drawn_alike(inputs: PrintedInputs, count: usize) -> Result<Alike, ExperimentE
     })
 }
 
-/// Impacts after which a motor that has not come to rest is looked at no longer.
+/// Impacts after which a motor that has not come to rest is no longer followed.
 const LONGEST_FLIGHTS: u64 = 20_000;
 
-/// The growth of a small perturbation from the separation to the next rest, as the mean of its logarithm per impact. A rest ends it: every motor leaves the stator at the same
-/// phase again.
+/// The growth of a small perturbation from the separation to the next rest, as the mean of its logarithm per
+/// impact. A rest ends it: every motor leaves the stator at the same phase again.
 fn growth(motor: &MotorCase) -> Result<Option<LyapunovEstimate>, ExperimentError> {
     let map = *motor.system()?.dimensionless().map();
     let Some(leaves) = map.vibration().separation_phase() else { return Ok(None) };
@@ -174,7 +174,8 @@ fn exception(motor: &MotorCase) -> Result<Exception, ExperimentError> {
     let cycle = robust_cycle.cycle();
     let repeats =
         |preload: f64| Ok::<_, ExperimentError>(at(preload).cycle(ChatterPolicy::Complete)? == cycle);
-    // Doubled until the cycle is another one, then bisected; the end inside, so that the cycle is surely there.
+    // Doubled until the cycle is another one, then bisected; the end inside, so that the cycle is surely
+    // there.
     let end = |sign: f64| -> Result<f64, ExperimentError> {
         let mut step = printed * f64::EPSILON;
         while repeats(printed + sign * step)? && step < 0.5 * printed {

@@ -53,9 +53,10 @@ pub(super) struct Transient {
     pub(super) relative_exponential_residual: f64,
     /// The same for the fit of a linear rise to a constant speed.
     pub(super) relative_ramp_residual: f64,
-    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over the ensemble.
+    /// Standard deviation of the speed from its straight line in the second half, as a share of ωΦ; mean over
+    /// the ensemble.
     pub(super) oscillation: f64,
-    /// What the unperturbed motor repeats.
+    /// The motion that the unperturbed motor repeats.
     pub(super) cycle: Cycle,
     pub(super) impacts_per_s: f64,
 }
@@ -78,13 +79,14 @@ pub(super) struct Exception {
     pub(super) speed_rad_per_s: Vec<f64>,
 }
 
-/// What becomes of a small perturbation of a motor's vertical motion between two rests.
+/// The growth of a small perturbation of a motor's vertical motion between two rests.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct BetweenRests {
     pub(super) amplitude_m: f64,
     /// How many motors it grows in for certain, by the measure of a chaotic attractor.
     pub(super) grows: Cases,
-    /// Medians over these motors: impacts from the separation to the next rest, and mean logarithmic growth per impact.
+    /// Medians over these motors: impacts from the separation to the next rest, and mean logarithmic growth
+    /// per impact.
     pub(super) impacts: Option<f64>,
     pub(super) growth_per_impact: Option<f64>,
 }

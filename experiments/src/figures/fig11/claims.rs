@@ -1,4 +1,4 @@
-//! What the paper says about Fig. 11.
+//! The statements of the paper about Fig. 11.
 
 use super::data::{Fig11Data, Trend};
 use super::trends::{EXPONENT_WITHIN, SHARP};

@@ -33,10 +33,11 @@ pub(super) const PRELOAD_SEED: u64 = 46_201;
 /// Impacts of the orbit that gives a motor's S(0).
 const BALANCED_IMPACTS: usize = 1_500;
 
-/// Motors above the preloads of the trends for each curve beside those drawn: together at least 200 of them at each frequency.
+/// Motors above the preloads of the trends for each curve beside those drawn: together at least 200 of them
+/// at each frequency.
 const MORE_ABOVE: u32 = 52;
 
-/// The share to which the stator's twist is reduced where a smaller one is looked at.
+/// The share to which the stator's twist is reduced, to see the effect of a smaller one.
 const REDUCED_TWIST: f64 = 0.5;
 
 pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11Data, ExperimentError> {
@@ -151,8 +152,9 @@ fn point(
     })
 }
 
-/// Preload accelerations over a range: its equal parts, and in each of them one, drawn evenly. Which values the authors took is not printed, and a motor's
-/// orbit depends on it; a regular grid could meet or miss the preloads at which the motor is on a short cycle.
+/// Preload accelerations over a range: its equal parts, and in each of them one, drawn evenly. Which values
+/// the authors took is not printed, and a motor's orbit depends on it; a regular grid could meet or miss the
+/// preloads at which the motor is on a short cycle.
 fn preloads([first, last]: [f64; 2], count: u32, noise: &mut Noise) -> impl Iterator<Item = f64> {
     (0..count).map(move |index| first + (last - first) * (f64::from(index) + noise.even()) / f64::from(count))
 }

@@ -19,7 +19,8 @@ pub struct Fig11Data {
     pub(super) printed: Preloads,
     /// Mass of the rotor, a solid steel ball.
     pub(super) rotor_mass_kg: f64,
-    /// Members of an ensemble, by amplitude: the larger the amplitude, the fewer collisions a transient averages over, and the cheaper it is.
+    /// Members of an ensemble, by amplitude: the larger the amplitude, the fewer collisions a transient
+    /// averages over, and the cheaper it is.
     pub(super) members: [usize; 3],
     pub(super) rises: f64,
     pub(super) relaunch_perturbation: f64,
@@ -30,11 +31,13 @@ pub struct Fig11Data {
     pub(super) trends: Vec<Trend>,
     /// The motors on a low-period cycle, of all curves.
     pub(super) holes: Holes,
-    /// α̇_ss/t_c over (μ a_e g/a_g²) S(0), the least and the most between the preloads of the trends; motors on a low-period cycle left out.
+    /// α̇_ss/t_c over (μ a_e g/a_g²) S(0), the least and the most between the preloads of the trends; without
+    /// motors on a low-period cycle.
     pub(super) estimate_over_balance: [f64; 2],
     /// Its mean over these motors.
     pub(super) mean_estimate_over_balance: f64,
-    /// What stalls the default motor at the lowest, the middle and the highest preload of the trends, by frequency.
+    /// The stall of the default motor at the lowest, the middle and the highest preload of the trends, by
+    /// frequency.
     pub(super) stalls: Vec<StallAt>,
     /// The default motor at full preload with the printed and with a smaller ωΦ.
     pub(super) reduced_twist: ReducedTwist,
@@ -50,7 +53,8 @@ pub(super) struct Curve {
     pub(super) frequency_hz: f64,
     pub(super) amplitude_m: f64,
     pub(super) points: Vec<Point>,
-    /// Further motors above the preloads of the trends, which are not drawn: the statements about them shall rest on enough.
+    /// Further motors above the preloads of the trends, which are not drawn: the statements about them shall
+    /// rest on enough.
     pub(super) further: Vec<Point>,
 }
 
@@ -105,7 +109,7 @@ pub(super) fn trend_mn(printed: &Preloads) -> [f64; 2] {
     printed.measured_range_n.map(|preload| 1e3 * preload)
 }
 
-/// One curve: what its motors do inside the preloads of the measured trends, and beside them.
+/// One curve: the behaviour of its motors inside the preloads of the measured trends, and beside them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Trend {
     pub(super) frequency_hz: f64,
@@ -116,17 +120,21 @@ pub(super) struct Trend {
     pub(super) speed: Cases,
     pub(super) torque: Cases,
     pub(super) both: Cases,
-    /// How many single orbits above the preload of the measured plateau have a torque nearer to the trend than to that plateau.
+    /// How many single orbits above the preload of the measured plateau have a torque nearer to the trend
+    /// than to that plateau.
     pub(super) no_plateau: Cases,
-    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of motors, which a few off the trend do not move.
+    /// Exponents of speed and torque inside, of all motors that have them: the median over all pairs of
+    /// motors, which a few off the trend do not move.
     pub(super) speed_exponent: Option<f64>,
     pub(super) torque_exponent: Option<f64>,
     /// The same of the torque above the preload of the measured plateau: 1 on the trend, 0 on a plateau.
     pub(super) high_torque_exponent: Option<f64>,
-    /// How many single orbits below and above do not turn more slowly by a sharp change than the middle of those inside, and how many above not faster.
+    /// How many single orbits below and above do not turn more slowly by a sharp change than the middle of
+    /// those inside, and how many above not faster.
     pub(super) no_fall: Cases,
     pub(super) no_rise_above: Cases,
-    /// Middle steady speed of the lowest and of the highest quarter of those beside the preloads of the trends, over that inside.
+    /// Middle steady speed of the lowest and of the highest quarter of those beside the preloads of the
+    /// trends, over that inside.
     pub(super) outside_over_inside: [f64; 2],
 }
 
@@ -139,11 +147,12 @@ pub(super) struct Holes {
     /// Smallest and largest fraction of Γ of the motors on a cycle of one flight, and the difference.
     pub(super) one_flight_fractions: Option<[f64; 2]>,
     pub(super) one_flight_window: Option<f64>,
-    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all others.
+    /// Slowest and fastest steady speed (rad/s) of these, of all motors on a low-period cycle, and of all
+    /// others.
     pub(super) one_flight_speeds_rad_per_s: Option<[f64; 2]>,
 }
 
-/// What bouncing rotors do at Γ < 1/π.
+/// The fate of bouncing rotors at Γ < 1/π.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct EndOfBouncing {
     /// What still prints as the ε of Table III.
@@ -189,7 +198,7 @@ pub(super) struct MeasuredExponent {
     pub(super) points: usize,
 }
 
-/// What was measured and fitted.
+/// Measurements and their fits.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct MeasuredMotors {
     pub(super) points: Vec<MeasuredMotor>,
@@ -208,12 +217,12 @@ pub(super) const LAYOUT: Layout = Layout {
     least_rows: 1,
 };
 
-/// A measured frequency that differs by less than this share from that of a panel belongs there: a motor's resonance
-/// moves by a few percent.
+/// A measured frequency that differs by less than this share from that of a panel belongs there: a motor's
+/// resonance moves by a few percent.
 pub(super) const SAME_FREQUENCY_WITHIN: f64 = 0.05;
 
-/// Sorts the points into the panels and fits the stall torques of each within the preloads of the trends, as those of
-/// the model are.
+/// Sorts the points into the panels and fits the stall torques of each within the preloads of the trends, as
+/// those of the model are.
 pub(super) fn read(data: &Fig11Data, series: &Series) -> Result<MeasuredMotors, ExperimentError> {
     let frequencies = data.printed.frequencies_hz;
     let mut points = Vec::new();
@@ -270,7 +279,7 @@ impl MeasuredMotors {
         Some(format!(r"measured: exponent ${:.2} \pm {:.2}$", fit.value, fit.standard_error))
     }
 
-    /// What the caption says; nothing when there are no measurements.
+    /// The sentence of the caption; empty if there are no measurements.
     pub(super) fn caption(&self, data: &Fig11Data) -> String {
         if self.is_empty() {
             return String::new();

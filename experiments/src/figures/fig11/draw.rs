@@ -201,7 +201,8 @@ fn crosses(data: &Fig11Data, frequency_hz: f64, quantity: fn(&MeasuredMotor) -> 
     (!points.is_empty()).then(|| crosses.name("measured"))
 }
 
-/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a low-period cycle.
+/// The line of one amplitude, its points, a few with error bars, and those where the motor repeats a
+/// low-period cycle.
 fn layers(curve: &Curve, index: usize, quantity: Quantity, names: Names) -> Vec<Layer> {
     let (colour, dash) = STYLES[index.min(STYLES.len() - 1)];
     let dots = curve_points(curve, quantity, false);

@@ -4,12 +4,14 @@ use super::data::{Curve, Holes, Point, Trend};
 use crate::claims::Cases;
 use crate::figures::shared::numbers;
 
-/// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed, or whose stall torque over preload, is
-/// farther from the middle of its curve is off the trend, and a steady speed that differs as much from the others is a sharp fall or rise.
+/// A change by more than this share is one that a reader of the figure would see: a motor whose steady speed,
+/// or whose stall torque over preload, is farther from the middle of its curve is off the trend, and a steady
+/// speed that differs as much from the others is a sharp fall or rise.
 pub(super) const SHARP: f64 = 0.2;
 
-/// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload, and largest exponent of either
-/// sign (with two standard errors) at which the speed counts as independent of it: over the 3.5-fold range of preloads both make 13 %.
+/// Largest difference of a fitted exponent from 1 at which stall torque counts as proportional to preload,
+/// and largest exponent of either sign (with two standard errors) at which the speed counts as independent of
+/// it: over the 3.5-fold range of preloads both make 13 %.
 pub(super) const EXPONENT_WITHIN: f64 = 0.1;
 
 /// The ends are one in so many of the motors below, and above, the preloads of the trends.
@@ -36,7 +38,8 @@ impl Trend {
         let no_rise = |points: &[&Point]| {
             Cases::of(points.iter().map(|point| point.single_speed_rad_per_s <= (1.0 + SHARP) * single_speed))
         };
-        // The outermost of them: a fall at the lowest preloads is none of the middle one of all below.
+        // Only the outermost motors: a fall at the lowest preloads does not show in the middle one of all
+        // below.
         let outermost = |points: &[&Point], sign: f64| {
             let mut points = points.to_vec();
             points.sort_by(|one, other| (sign * one.preload_mn).total_cmp(&(sign * other.preload_mn)));
@@ -54,7 +57,8 @@ impl Trend {
             torque: Cases::of(inside.iter().map(|point| torque_holds(point))),
             both: Cases::of(inside.iter().map(|point| speed_holds(point) && torque_holds(point))),
             no_plateau: Cases::of(high.iter().map(|point| {
-                // Halfway between the line through the origin and what the torque is where the plateau begins.
+                // Halfway between the line through the origin and what the torque is where the plateau
+                // begins.
                 let halfway = 0.5 * single_stall_per_preload * (point.preload_mn + plateau_mn);
                 single_stall(point).is_some_and(|stall| stall > halfway)
             })),
@@ -148,7 +152,8 @@ mod tests {
         }
     }
 
-    /// A motor that turns much more slowly counts against the trend, and against "no sharp fall" where it lies outside.
+    /// A motor that turns much more slowly counts against the trend, and against "no sharp fall" where it
+    /// lies outside.
     #[test]
     fn a_motor_in_a_hole_counts_against_the_statement() {
         let mut points: Vec<Point> = (0..30)

@@ -17,7 +17,8 @@ use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
 use crate::figures::shared::numbers::StraightLine;
 use crate::progress::Progress;
 
-/// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two flights.
+/// Relative distance of the amplitudes that are tried: a fraction of the width of a robust cycle of two
+/// flights.
 const AMPLITUDE_STEP: f64 = 1e-9;
 /// Most amplitudes tried on each side.
 const MOST_STEPS: u32 = 40_000;
@@ -197,7 +198,8 @@ fn is_short(motor: &MotorCase) -> Result<bool, ExperimentError> {
     Ok(false)
 }
 
-/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a robust low-period cycle of more than one flight.
+/// The motor at the amplitude nearest to that of `case` whose unperturbed motion is a robust low-period cycle
+/// of more than one flight.
 fn nearest_low_period(case: &MotorCase) -> Result<MotorCase, ExperimentError> {
     for step in 0..MOST_STEPS {
         for sign in [1.0, -1.0] {
@@ -349,7 +351,8 @@ fn zoom(
 mod tests {
     use super::*;
 
-    /// Of what is drawn in (d) to (f) no change of the inputs by some units in the last place alters anything; of the printed amplitude it does.
+    /// Of what is drawn in (d) to (f) no change of the inputs by some units in the last place alters
+    /// anything; of the printed amplitude it does.
     #[test]
     fn the_low_period_case_that_is_drawn_is_not_chosen_by_rounding() {
         let cases = paper::chattering_cases().expect("reads");

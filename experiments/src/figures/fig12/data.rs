@@ -13,7 +13,8 @@ pub struct Fig12Data {
     pub(super) cases: ChatteringCases,
     /// The printed long-period case.
     pub(super) long_period: Shown,
-    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period cycle of more than one flight.
+    /// The low-period case, at the amplitude nearest to the printed one that repeats a robust low-period
+    /// cycle of more than one flight.
     pub(super) low_period: Shown,
     /// Most flights of a cycle that counts as one of low period.
     pub(super) low_period_flights: usize,
@@ -43,7 +44,8 @@ pub(super) struct LowPeriod {
     pub(super) lines: Vec<Lines>,
 }
 
-/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for each flight of the cycle.
+/// The lines on which the speeds of the flights of a low-period cycle lie while the rotor is slow: one for
+/// each flight of the cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Lines {
     pub(super) flights: usize,
@@ -68,7 +70,7 @@ pub(super) struct Shown {
     pub(super) flight_speed_rad_per_s: Vec<f64>,
     /// The same motor averaged over equal intervals, and its fits.
     pub(super) fits: Fits,
-    /// What the impulses of one cycle predict.
+    /// The prediction from the impulses of one cycle.
     pub(super) prediction: Prediction,
     pub(super) zoom: Zoom,
 }

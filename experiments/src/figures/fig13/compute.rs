@@ -119,7 +119,8 @@ fn values(parameter: Parameter, amplitudes: &[f64; 3], quality: Quality) -> Vec<
     }
 }
 
-/// Steady speed over ωΦ and stall acceleration of the transient that the impulses give, fitted as the ensembles are.
+/// Steady speed over ωΦ and stall acceleration of the transient that the impulses give, fitted as the
+/// ensembles are.
 fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
     let levels = impulses.balance(case.phase_lag_rad);
     let (times, speeds) = levels.transient(RISES, 240);
@@ -130,7 +131,8 @@ fn predict(case: &MotorCase, impulses: &NormalImpulses) -> (f64, Option<f64>) {
     (levels.steady_speed(), stall)
 }
 
-/// Motors of Table III with the g drawn that is not printed, at several ε; and each of them with other values of one of the others.
+/// Motors of Table III with the g drawn that is not printed, at several ε; and each of them with other values
+/// of one of the others.
 fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     let inputs = PrintedInputs::table_three()?;
     let count = quality.choose(DRAWN / 10, DRAWN);

@@ -102,7 +102,8 @@ pub(super) struct SweepPoint {
     pub(super) value: f64,
     pub(super) peak_angular_speed_rad_per_s: f64,
     pub(super) statistics: MotorStatistics,
-    /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the ensembles are.
+    /// From the phases of the impulses: steady speed over ωΦ, and α̇_ss/t_c of the curve fitted as the
+    /// ensembles are.
     pub(super) predicted_speed_ratio: f64,
     pub(super) predicted_stall_acceleration_rad_per_s2: Option<f64>,
     /// Means over the impacts that are not summed.
@@ -131,8 +132,8 @@ pub(super) struct ImpulsePhases {
     pub(super) collisions: Option<Concentration>,
 }
 
-/// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at each. Nothing perturbs
-/// them.
+/// Motors whose inputs all print like Table III's, at some values of ε: the same draws of the other inputs at
+/// each. Nothing perturbs them.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct AlikeMotors {
     /// The ranges drawn from.
@@ -165,31 +166,34 @@ pub(super) struct Prevalence {
     pub(super) share_of_low_period: f64,
     /// Number of flights, and the share of motors with chattering cycles of no more.
     pub(super) share_up_to: Vec<(usize, f64)>,
-    /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in lines.
+    /// Share of motors whose cycle takes at most a hundredth of the rise time, so that the speed rises in
+    /// lines.
     pub(super) share_of_short: f64,
-    /// Of the motors that settle and whose rise is exponential, how many have an α̇_ss/t_c of at most the limit μ a_e g/a_g².
+    /// Of the motors that settle and whose rise is exponential, how many have an α̇_ss/t_c of at most the
+    /// limit μ a_e g/a_g².
     pub(super) within_limit: Cases,
 }
 
 /// One draw of the inputs other than ε.
 #[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Draw {
-    /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit, against ε.
+    /// Slopes of the straight lines through steady speed over ωΦ, and through α̇_ss/t_c over the limit,
+    /// against ε.
     pub(super) speed_ratio_slope: Option<f64>,
     pub(super) stall_over_limit_slope: Option<f64>,
-    /// What the second of these lines rises by over the range of ε, over its value at the first ε.
+    /// The rise of the second of these lines over the range of ε, relative to its value at the first ε.
     pub(super) stall_over_limit_rise: Option<f64>,
     /// Share of the ε at which the exponential fits the transient better than a linear rise to a constant.
     pub(super) share_of_exponential: f64,
-    /// What each parameter changes, in the order of the panels.
+    /// The effect of each parameter, in the order of the panels.
     pub(super) sensitivities: Vec<Sensitivity>,
     /// Share of the variance of steady speed and of α̇_ss/t_c over θ that a cosine explains.
     pub(super) speed_cosine: Option<f64>,
     pub(super) stall_cosine: Option<f64>,
 }
 
-/// What a parameter changes in a motor that nothing perturbs: by the trend over the range, a straight line in the parameter (of A in its logarithm, of θ a cosine), relative
-/// to the motor as printed.
+/// The effect of a parameter on a motor that nothing perturbs: by the trend over the range, a straight line
+/// in the parameter (of A in its logarithm, of θ a cosine), relative to the motor as printed.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Sensitivity {
     pub(super) parameter: Parameter,
@@ -204,7 +208,7 @@ pub(super) struct Sensitivity {
 }
 
 impl Draw {
-    /// What this parameter changes.
+    /// The effect of this parameter.
     pub(super) fn sensitivity(&self, parameter: Parameter) -> Option<&Sensitivity> {
         self.sensitivities.iter().find(|sensitivity| sensitivity.parameter == parameter)
     }

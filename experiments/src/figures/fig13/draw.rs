@@ -51,7 +51,7 @@ fn sensitivity(area: Rect, data: &Fig13Data, sweep: &Sweep, index: usize) -> Pan
     let band = |of: fn(&AlikeRange) -> &[[f64; 2]], colour: Colour| {
         let points = alike.into_iter().flat_map(move |range| range.values.iter().zip(of(range)));
         let mut points: Vec<_> = points.map(|(value, [low, high])| (*value, *low, *high)).collect();
-        // What is at -π is at π, too.
+        // The values at -π are those at π.
         if let Some((_, low, high)) = points.first().copied().filter(|_| signed) {
             points.push((PI, low, high));
         }

@@ -1,4 +1,4 @@
-//! What the orbits do to steady speed and stall torque.
+//! The effect of the orbits on steady speed and stall torque.
 
 use std::f64::consts::{FRAC_PI_8, PI};
 
@@ -97,12 +97,14 @@ pub(super) fn reduced_restitution(data: &Fig13Data) -> Claim {
     )
 }
 
-/// The mean direction is "at τ = 0" within half of an eighth of the cycle; cos τ changes by less than a thirteenth up to there.
+/// The mean direction is "at τ = 0" within half of an eighth of the cycle; cos τ changes by less than a
+/// thirteenth up to there.
 const AT_ZERO: f64 = FRAC_PI_8;
 
-/// What is said about where in the cycle the collisions fall. A chattering sequence has infinitely many: the collisions that are counted are those
-/// that end a flight of more than half a period; all are weighed by their impulse. The paper's argument is about cos τ, so that the measures are those of
-/// circular statistics, the mean direction and the mean cosine; there is no width to choose.
+/// The statements on where in the cycle the collisions fall. A chattering sequence has infinitely many: the
+/// collisions that are counted are those that end a flight of more than half a period; all are weighed by
+/// their impulse. The paper's argument is about cos τ, so that the measures are those of circular statistics,
+/// the mean direction and the mean cosine; there is no width to choose.
 pub(super) fn phases_of_impulse(data: &Fig13Data) -> [Claim; 2] {
     let both: Vec<Option<[Concentration; 2]>> =
         data.impulses.iter().map(|impulse| Some([impulse.impulse?, impulse.collisions?])).collect();

@@ -23,7 +23,8 @@ fn range(data: &Fig13Data, parameter: Parameter) -> (f64, f64) {
     extent(sweep(data, parameter).into_iter().flat_map(|sweep| &sweep.points).map(|point| point.value))
 }
 
-/// Whether a power law of this exponent changes by less than a significant share over the range of a parameter.
+/// Whether a power law of this exponent changes by less than a significant share over the range of a
+/// parameter.
 fn is_insignificant(data: &Fig13Data, parameter: Parameter, exponent: f64) -> bool {
     let (low, high) = range(data, parameter);
     exponent.abs() * ln(high / low) < ln(1.0 + SIGNIFICANT)
@@ -62,7 +63,8 @@ pub(super) fn cosine(data: &Fig13Data) -> Claim {
     .single_orbits(Cases::of(draws.iter().map(|draw| is_cosine(draw.speed_cosine) && is_cosine(draw.stall_cosine))))
 }
 
-/// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among them.
+/// The exponent of a parameter in a mean that the figure draws, those of motors on a low-period cycle among
+/// them.
 fn exponent(data: &Fig13Data, parameter: Parameter, of: Quantity) -> f64 {
     numbers::median_exponent(read(data, parameter, of)).unwrap_or(f64::NAN)
 }
@@ -135,7 +137,7 @@ pub(super) fn friction(data: &Fig13Data) -> Claim {
     .single_orbits(single)
 }
 
-/// What is read off the trend of a parameter.
+/// The numbers that are read off the trend of a parameter.
 type Change = fn(&Sensitivity) -> Option<f64>;
 
 pub(super) fn speed_change(of: &Sensitivity) -> Option<f64> {
@@ -146,7 +148,7 @@ pub(super) fn stall_change(of: &Sensitivity) -> Option<f64> {
     of.stall_change
 }
 
-/// What each parameter changes in the means that the figure draws, by the same measure as in a single orbit.
+/// The effect of each parameter on the means that the figure draws, by the same measure as in a single orbit.
 fn mean_changes(data: &Fig13Data, of: Quantity, default: Option<f64>) -> Vec<(Parameter, f64)> {
     let change = |parameter: Parameter| {
         let points = read(data, parameter, of);
@@ -173,13 +175,14 @@ fn change_words(changes: &[(Parameter, f64)]) -> String {
     words.collect::<Vec<_>>().join(", ")
 }
 
-/// What ε changes, in words.
+/// The effect of ε, in words.
 fn of_restitution(changes: &[(Parameter, f64)]) -> String {
     let own = changes.iter().find(|(parameter, _)| *parameter == Parameter::Restitution);
     own.map_or_else(|| "none".to_owned(), |(_, change)| format!("{change:.2}"))
 }
 
-/// The same changes over the one range that the paper prints, that of the measured ε; the others are not printed.
+/// The same changes over the one range that the paper prints, that of the measured ε; the others are not
+/// printed.
 fn over_printed_range(data: &Fig13Data, changes: &[(Parameter, f64)]) -> Vec<(Parameter, f64)> {
     let (low, high) = range(data, Parameter::Restitution);
     let printed = crate::claims::catalogue::number("section5.estimated_restitution", 0);
@@ -195,7 +198,8 @@ fn are_largest(mut changes: Vec<(Parameter, f64)>, named: [Parameter; 3]) -> boo
         && changes.iter().take(named.len()).all(|(parameter, _)| named.contains(parameter))
 }
 
-/// That the parameters `named` are those with the largest changes of the steady speed, or of the stall torque.
+/// That the parameters `named` are those with the largest changes of the steady speed, or of the stall
+/// torque.
 pub(super) fn most_sensitive(data: &Fig13Data, key: &str, of: Change, named: [Parameter; 3]) -> Claim {
     let means =
         if key == "section5.speed_sensitivity" { mean_speed_changes(data) } else { mean_stall_changes(data) };

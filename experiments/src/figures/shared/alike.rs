@@ -22,8 +22,8 @@ use crate::experiment::ExperimentError;
 /// Intervals over which the speed of a transient is averaged.
 pub(crate) const INTERVALS: usize = 120;
 
-/// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of them it is, is chance
-/// enough.
+/// One motor of those that print alike. Nothing perturbs it, as nothing did in the paper's program: which of
+/// them it is, is chance enough.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct AlikeMotor {
     pub(crate) restitution: f64,
@@ -32,38 +32,41 @@ pub(crate) struct AlikeMotor {
     pub(crate) frequency_hz: f64,
     pub(crate) peak_angular_speed_rad_per_s: f64,
     pub(crate) axial_forcing: f64,
-    /// What it repeats.
+    /// The motion that it repeats.
     pub(crate) cycle: Cycle,
     /// Mean over the last third.
     pub(crate) steady_speed_rad_per_s: f64,
-    /// The initial slope of the form that fits better, α̇_ss/t_c or α̇_ss/t_r, over the limit μ a_e g/a_g². `None` where the speed does not settle or is
-    /// not told apart from zero.
+    /// The initial slope of the form that fits better, α̇_ss/t_c or α̇_ss/t_r, over the limit μ a_e g/a_g².
+    /// `None` where the speed does not settle or is not distinguishable from zero.
     pub(crate) stall_over_limit: Option<f64>,
     /// Root mean square of curve minus exponential, as a share of ωΦ.
     pub(crate) exponential_residual: f64,
     /// The same for a linear rise to a constant.
     pub(crate) ramp_residual: f64,
-    /// Standard deviation of the speed from its straight line over the second half of the transient, as a share of ωΦ: the oscillation of the steady speed. A slow
-    /// rise that goes on is none.
+    /// Standard deviation of the speed from its straight line over the second half of the transient, as a
+    /// share of ωΦ: the oscillation of the steady speed. A slow rise that continues does not count.
     pub(crate) oscillation: f64,
     pub(crate) impacts_per_s: f64,
-    /// The time from nine tenths of the last speed to all but a fiftieth of it, over that to one half: 0.16 for a linear rise to a constant, 2.3 for an
-    /// exponential. `None` where the speed does not get so far.
+    /// The time from nine tenths of the last speed to all but a fiftieth of it, over that to one half: 0.16
+    /// for a linear rise to a constant, 2.3 for an exponential. `None` where the speed does not get so far.
     pub(crate) turn: Option<f64>,
 }
 
-/// Times from nine tenths to all but a fiftieth of the last speed, over that to one half, of a linear rise to a constant: (0.98 - 0.90)/0.5.
+/// Times from nine tenths to all but a fiftieth of the last speed, over that to one half, of a linear rise to
+/// a constant: (0.98 - 0.90)/0.5.
 const TURN_OF_RAMP: f64 = 0.16;
 /// The same of an exponential: ln 5/ln 2.
 const TURN_OF_EXPONENTIAL: f64 = 2.322;
 
 impl AlikeMotor {
-    /// Whether the speed stops rising abruptly, more like a linear rise to a constant than like an exponential (by ratios).
+    /// Whether the speed stops rising abruptly, more like a linear rise to a constant than like an
+    /// exponential (by ratios).
     pub(crate) fn stops_abruptly(&self) -> bool {
         self.turn.is_some_and(|turn| turn * turn < TURN_OF_RAMP * TURN_OF_EXPONENTIAL)
     }
 
-    /// Whether the exponential fits the transient better than the linear rise. One that hardly rises has neither form.
+    /// Whether the exponential fits the transient better than the linear rise. One that hardly rises has
+    /// neither form.
     pub(crate) fn is_exponential(&self) -> bool {
         self.exponential_residual < self.ramp_residual
     }
@@ -98,7 +101,8 @@ impl AlikeMotor {
     }
 }
 
-/// Standard deviation of the speed, averaged over [`INTERVALS`], from its straight line over the second half, as a share of `top`.
+/// Standard deviation of the speed, averaged over [`INTERVALS`], from its straight line over the second half,
+/// as a share of `top`.
 pub(crate) fn oscillation(curve: &SpeedCurve, top: f64) -> Result<f64, ExperimentError> {
     let per_point = (curve.speeds.len() / INTERVALS).max(1);
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -132,7 +136,8 @@ pub(crate) struct SpeedBand {
 }
 
 impl SpeedBand {
-    /// The intervals of the curves are equal parts of durations that differ by what the rise times do: a per cent.
+    /// The intervals of the curves are equal parts of durations that differ by what the rise times do: a per
+    /// cent.
     fn of(curves: &[SpeedCurve]) -> Self {
         let points = curves.iter().map(|curve| curve.times.len()).min().unwrap_or(0);
         let mut band = Self { time_s: Vec::new(), low_rad_per_s: Vec::new(), high_rad_per_s: Vec::new() };
@@ -148,7 +153,8 @@ impl SpeedBand {
     }
 }
 
-/// The motors from rest, over `rises` rise times each; their starting phases are spread evenly over the cycle of the platform.
+/// The motors from rest, over `rises` rise times each; their starting phases are spread evenly over the cycle
+/// of the platform.
 pub(crate) fn alike(motors: &[MotorCase], rises: f64) -> Result<Vec<AlikeMotor>, ExperimentError> {
     Ok(alike_with_band(motors, rises)?.0)
 }

@@ -13,9 +13,10 @@ use serde::{Deserialize, Serialize};
 use crate::claims::{Cases, paper};
 use crate::experiment::{ExperimentError, named};
 
-/// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a period of the platform. The paper draws
-/// no line; its example in Fig. 12 shows a few lines that can be told apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16
-/// and 32 flights, and so how much hangs on it.
+/// Low period: a chattering cycle of at most so many flights, from rest to rest, that are longer than half a
+/// period of the platform. The paper draws no line; its example in Fig. 12 shows a few lines that can be told
+/// apart. Every figure uses this one; Fig. 13 has the shares of cycles of up to 2, 4, 8, 16 and 32 flights,
+/// and so show how much depends on it.
 pub(crate) const LOW_PERIOD_FLIGHTS: usize = 4;
 
 /// Other definitions, under which a verdict must be the same to count.
@@ -85,7 +86,7 @@ impl MotorCase {
         }
     }
 
-    /// What all motors of the figures share, by name and with units, for the gallery.
+    /// The parameters that all motors of the figures share, by name and with units, for the gallery.
     pub(crate) fn shared_inputs(&self) -> Vec<(String, String)> {
         named([
             ("μ", self.friction.to_string()),
@@ -110,7 +111,8 @@ impl MotorCase {
         Ok(Cycle::from(unperturbed_orbit(&self.system()?, policy)?))
     }
 
-    /// The cycle of the motor that nothing perturbs, if it is also that of all motors that cannot be told from it.
+    /// The cycle of the motor that nothing perturbs, if all motors that cannot be distinguished from it have
+    /// the same.
     pub(crate) fn robust_cycle(&self) -> Result<Option<RobustCycle>, ExperimentError> {
         let cycle = self.cycle(ChatterPolicy::Complete)?;
         let ulps = UNTOLD.map(|part| self.amplitude_m * (1.0 + part));
@@ -171,11 +173,12 @@ impl From<OrbitClass> for Cycle {
     }
 }
 
-/// Changes of the amplitude, as parts of it, that nobody could set or compute: some units in the last place, and a hundred times as much.
+/// Changes of the amplitude, as parts of it, that nobody could set or compute: some units in the last place,
+/// and a hundred times as much.
 const UNTOLD: [f64; 6] = [5e-16, -5e-16, 1.1e-15, -1.1e-15, 1e-13, -1e-13];
 
-/// A cycle that the last places of the inputs do not choose. Of no other is the length written or drawn: only [`MotorCase::robust_cycle`] makes one, and only it has
-/// words.
+/// A cycle that the last places of the inputs do not choose. Of no other is the length written or drawn: only
+/// [`MotorCase::robust_cycle`] makes one, and only it has words.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub(crate) struct RobustCycle(Cycle);
@@ -226,7 +229,8 @@ impl Cycle {
         }
     }
 
-    /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle, however short.
+    /// Whether it is of low period: [`LOW_PERIOD_FLIGHTS`]. An orbit without rest is no chattering cycle,
+    /// however short.
     pub(crate) fn is_low_period(self) -> bool {
         self.is_low(LOW_PERIOD_FLIGHTS)
     }
@@ -267,8 +271,8 @@ impl From<bouncing_disk::estimate::MotorStatistics> for MotorStatistics {
 }
 
 impl MotorStatistics {
-    /// Whether a low-period cycle governs the perturbed motor, too: one that the perturbation does not break, or one of a single
-    /// flight, which it breaks only now and then.
+    /// Whether a low-period cycle governs the perturbed motor, too: one that the perturbation does not break,
+    /// or one of a single flight, which it breaks only now and then.
     pub(crate) fn is_low_period(&self) -> bool {
         self.cycle.is_low_period() && (self.locked || self.cycle.is_one_flight())
     }
@@ -278,7 +282,8 @@ impl MotorStatistics {
 mod tests {
     use super::*;
 
-    /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8 itself does not.
+    /// Fig. 12's printed low-period case hangs on the last places, and so do the motors next to 9.8 m/s²; 9.8
+    /// itself does not.
     #[test]
     fn a_cycle_that_a_few_units_in_the_last_place_change_has_no_words() {
         let motor = MotorCase::table_three().expect("reads");

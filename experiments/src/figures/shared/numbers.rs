@@ -1,5 +1,5 @@
-//! Numbers that several figures need: statistics of samples and angles, straight lines, seeded noise, propagated
-//! uncertainties, powers of ten.
+//! Numbers that several figures need: statistics of samples and angles, straight lines, seeded noise,
+//! propagated uncertainties, powers of ten.
 
 use bouncing_disk::core::{
     numerics::elementary::{exp, ln},
@@ -25,7 +25,8 @@ pub(crate) fn six_decimals(value: f64) -> f64 {
     (value * 1.0e6).round() / 1.0e6
 }
 
-/// The exponent of a power law, the median over all pairs of positive points (Theil and Sen, in logarithms), which a few points off the law do not move.
+/// The exponent of a power law, the median over all pairs of positive points (Theil and Sen, in logarithms),
+/// which a few points off the law do not move.
 pub(crate) fn median_exponent(points: impl IntoIterator<Item = (f64, f64)>) -> Option<f64> {
     let positive = points.into_iter().filter(|(x, y)| *x > 0.0 && *y > 0.0);
     let points: Vec<(f64, f64)> = positive.map(|(x, y)| (ln(x), ln(y))).collect();
@@ -38,7 +39,8 @@ pub(crate) fn median_exponent(points: impl IntoIterator<Item = (f64, f64)>) -> O
     median(pairs.map(|(one, other)| (other.1 - one.1) / (other.0 - one.0)))
 }
 
-/// The range of the middle nine tenths of some values: between those of which a twentieth of all is lower, and a twentieth higher. `None` of none.
+/// The range of the middle nine tenths of some values: between those of which a twentieth of all is lower,
+/// and a twentieth higher. `None` of none.
 pub(crate) fn middle_range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     let mut sorted: Vec<f64> = values.into_iter().collect();
     sorted.sort_by(f64::total_cmp);
@@ -90,8 +92,8 @@ impl StraightLine {
         })
     }
 
-    /// The slope over the line's own value at `x`, and its standard error: value and slope come from the same points, so
-    /// that their errors are correlated.
+    /// The slope over the line's own value at `x`, and its standard error: value and slope come from the same
+    /// points, so that their errors are correlated.
     pub(crate) fn slope_over_value_at(&self, x: f64) -> (f64, f64) {
         let value = self.intercept + self.slope * x;
         let relative = self.slope / value;
@@ -120,8 +122,8 @@ impl Noise {
         (0..12).map(|_| self.even()).sum::<f64>() - 6.0
     }
 
-    /// Log-normal with this mean and standard deviation, both positive: for quantities that cannot be negative. A bell cut
-    /// at zero would have a larger mean and less scatter than asked for.
+    /// Log-normal with this mean and standard deviation, both positive: for quantities that cannot be
+    /// negative. A bell cut at zero would have a larger mean and less scatter than requested.
     pub(crate) fn log_normal(&mut self, mean: f64, deviation: f64) -> f64 {
         let relative = deviation / mean;
         let variance = ln(1.0 + relative * relative);
@@ -129,8 +131,8 @@ impl Noise {
     }
 }
 
-/// A result and its uncertainty. The effect of an input is half the difference of the results at both ends of its
-/// range.
+/// A result and its uncertainty. The effect of an input is half the difference of the results at both ends of
+/// its range.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Propagated {
     pub(crate) value: f64,

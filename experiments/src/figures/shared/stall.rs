@@ -1,7 +1,7 @@
 //! The load at which a motor stalls.
 //!
-//! The model's [`ImpulseTrain`] finds it; beside it stands what the balance of the normal impulse says
-//! ([`NormalImpulses`]).
+//! The model's [`ImpulseTrain`] finds it; beside it stands the prediction of the balance of the normal
+//! impulse ([`NormalImpulses`]).
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{ExponentialFit, Spread};
@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::motor::MotorCase;
 use crate::experiment::ExperimentError;
 
-/// Duration of a run in rise times ωΦ a_g²/(μ a_e g): a dozen relaxation times of the speed, so that where it starts does not matter.
+/// Duration of a run in rise times ωΦ a_g²/(μ a_e g): a dozen relaxation times of the speed, so that where it
+/// starts does not matter.
 const RISES: f64 = 12.0;
 
 /// Duration of the transients for α̇_ss/t_c, as in Fig. 11.
@@ -27,7 +28,7 @@ const BALANCED_IMPACTS: usize = 6_000;
 /// Seed of the relaunches.
 pub(crate) const SEED: u64 = 11;
 
-/// What stalls one motor, as accelerations (rad/s²): times m a_g² they are torques.
+/// The stall of one motor, as accelerations (rad/s²): times m a_g² they are torques.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Stall {
     pub(crate) members: usize,
@@ -45,10 +46,12 @@ pub(crate) struct Stall {
     /// The estimate over the load, minus one, and its standard error.
     pub(crate) estimate_off: f64,
     pub(crate) estimate_off_error: f64,
-    /// The same of the speed that the balance of the impulse predicts, fitted by the same exponential: what is off because the speed does not rise exponentially.
+    /// The same of the speed that the balance of the impulse predicts, fitted by the same exponential: the
+    /// part of the excess that is due to a rise that is not exponential.
     pub(crate) predicted_off: f64,
-    /// The largest angular acceleration that friction can give in contact over the stator's largest one: where it is small, friction cannot hold
-    /// the rotor on the stator but for an instant about the turning points of the stator's speed.
+    /// The largest angular acceleration that friction can give in contact over the stator's largest one:
+    /// where it is small, friction cannot hold the rotor on the stator but for an instant about the turning
+    /// points of the stator's speed.
     pub(crate) hold_share: f64,
 }
 
@@ -173,7 +176,8 @@ mod tests {
         speeds.sum::<f64>() / 4.0
     }
 
-    /// The engine integrates flights, impacts, chattering and contact with the load; the list of kicks is none of its business.
+    /// The engine integrates flights, impacts, chattering and contact with the load, without the list of
+    /// impulses.
     #[test]
     fn the_engine_stands_still_on_average_at_the_stall_load_and_turns_with_less_or_more() {
         let case = MotorCase::table_three().expect("reads");

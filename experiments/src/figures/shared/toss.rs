@@ -69,7 +69,7 @@ impl TossCase {
         (1.0 - 1e-12) * self.largest_angle()
     }
 
-    /// The dough and the hand. What happens after the separation does not matter, so neither does the
+    /// The dough and the hand. The motion after the separation does not matter, so neither does the
     /// restitution (`table1` checks it).
     pub(crate) fn system(&self) -> Result<System, ExperimentError> {
         self.system_with(0.0)

@@ -79,7 +79,7 @@ fn draw(largest_torque: f64, rows: &[Row]) -> Figure {
     pictures::torque_speed(largest_torque, &rows.iter().map(point).collect::<Vec<_>>())
 }
 
-/// A load, and the spread over motors within the tolerance, where it was asked for.
+/// A load, and the spread over motors within the tolerance, if requested.
 type Row = (Operation, Option<InputSpread>);
 
 fn value(row: &Row, quantity: SweepQuantity) -> Option<f64> {

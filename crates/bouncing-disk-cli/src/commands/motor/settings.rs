@@ -75,7 +75,7 @@ pub(super) fn lock_note(motor: &Motor) -> Result<String> {
     Ok(if regime.is_locked() { format!("\nlocked ({regime}): {note}") } else { String::new() })
 }
 
-/// What became of a motor.
+/// The state of a motor.
 pub(super) const fn state(operation: &Operation) -> &'static str {
     match operation {
         Operation::Steady(_) => "steady",

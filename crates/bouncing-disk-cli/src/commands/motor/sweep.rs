@@ -158,7 +158,7 @@ impl GridJob for SweepJob {
     }
 }
 
-/// The quantity over the axes. What a cell does not have is a gap in a curve, and grey in a map.
+/// The quantity over the axes. A missing value is a gap in a curve, and grey in a map.
 fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
     let (name, unit, scale) = match quantity {
         SweepQuantity::Efficiency => (quantity.name(), "%", 100.0),

@@ -138,8 +138,8 @@ impl GridJob for TransientJob {
     }
 }
 
-/// Runs with their fit; of runs too few for a fit that can be judged, with that of the first. A fit that was judged
-/// and refused is not drawn.
+/// Runs with their fit; of runs too few for a fit that can be judged, with that of the first. A fit that was
+/// judged and refused is not drawn.
 fn draw(ensemble: &TransientEnsemble, fit: Option<&TransientFit>, judged: bool) -> Figure {
     let times = &ensemble.curves[0].times;
     let end = times.last().copied().unwrap_or(1.0);

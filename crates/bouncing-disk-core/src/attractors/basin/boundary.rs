@@ -1,5 +1,6 @@
-//! How the share of uncertain cells falls with their distance: the uncertainty exponent of a basin boundary and
-//! its dimension (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125 (1985)).
+//! How the share of cells with an uncertain fate falls as starts are known better: the uncertainty exponent
+//! of a basin boundary, and its dimension (S. W. McDonald, C. Grebogi, E. Ott, J. A. Yorke, Physica D 17, 125
+//! (1985)).
 
 use std::collections::VecDeque;
 
@@ -9,33 +10,34 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::fraction::Fraction;
 use crate::run::{Observer, Watch};
 
-/// The fewest distances that a power law is fitted to.
+/// The fewest distances to which a power law is fitted.
 const FEWEST: usize = 3;
 
-/// Labels that are looked at in the time of a flight, roughly.
+/// How many labels the code reads in the time of one flight, roughly.
 const CELLS_OF_FLIGHT: usize = 16;
 
-/// How far the slopes from one distance to the next may differ from each other along a power law: this much, and
-/// this share of their mean. Near saturation, where most cells are uncertain, they fall to zero and differ by more.
+/// The largest difference between the slopes from one distance to the next that still counts as a power law:
+/// a fixed part, plus a share of their mean. Near saturation, where most cells are uncertain, slopes fall to
+/// zero and differ by more.
 const SPREAD: f64 = 0.05;
 const SPREAD_OF_SLOPE: f64 = 0.2;
 
-/// The share of cells that are uncertain at some distance.
+/// The share of cells whose fate is uncertain if a start is known only to within some distance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct UncertainShare {
-    /// The distance, in cells.
+    /// The distance, in cells along each axis.
     pub distance: usize,
-    /// The cells with another label than their own in the square up to this distance along both axes.
+    /// The share of cells with a differently labelled cell in the square within this distance about them.
     pub uncertain: Fraction,
 }
 
-/// Whether the share of uncertain cells is a power of their distance.
+/// Whether the share of uncertain cells is a power of the distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum BoundaryFit {
-    /// It is, over the distances of the fit.
+    /// It is a power, over the distances of the fit.
     PowerLaw {
         /// The uncertainty exponent alpha: the share grows like distance^alpha.
         exponent: f64,
@@ -46,37 +48,36 @@ pub enum BoundaryFit {
         /// The smallest slope from one distance to the next, and the largest.
         slopes: (f64, f64),
     },
-    /// The slopes from one distance to the next differ by more than 0.05 and a fifth of their mean: of a grid that
-    /// is too coarse, too, where most cells are uncertain.
+    /// It is not: the slopes from one distance to the next differ by more than 0.05 plus a fifth of their
+    /// mean. This also happens on a grid so coarse that most of its cells are uncertain.
     NoPowerLaw {
-        /// The smallest and the largest of them.
+        /// The smallest and the largest slope.
         slopes: (f64, f64),
     },
-    /// There are uncertain cells at fewer than three distances.
+    /// Fewer than three distances have any uncertain cell, too few for a fit.
     TooFew {
-        /// At how many.
+        /// The number of distances that have one.
         distances: usize,
     },
 }
 
-/// How the share of uncertain cells depends on their distance.
+/// How the share of uncertain cells depends on the distance.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct BoundaryScaling {
-    /// The shares by rising distance: all of the same cells.
+    /// One share for each distance, in rising order, all counted over the same cells.
     pub shares: Vec<UncertainShare>,
-    /// The line through their logarithms, shares of zero left out.
+    /// The fit of a line to the logarithms of the shares above zero, over those of the distances.
     pub fit: BoundaryFit,
 }
 
 impl Basins {
-    /// The share of cells that are uncertain when a start is known up to a distance in cells, and the power
-    /// law that it follows: its exponent and the dimension of the boundary.
+    /// The share of cells whose fate is uncertain if a start is known only to within a distance, given in
+    /// cells; and the power law of this share, with its exponent and the dimension of the basin boundary.
     ///
-    /// A cell is uncertain if there is another label than its own in the square up to that distance along both
-    /// axes. The cells that count are those farther from the edges of the grid than the largest of the `distances`
-    /// (1, 2, 4, 8, ... or 1, 3, 9, ...), the same for each of them. Undecided cells count as a basin of their
-    /// own.
+    /// A cell is uncertain if a cell with another label lies within that distance along both axes. For all
+    /// `distances` (such as 1, 2, 4, 8, ... or 1, 3, 9, ...) the same cells count: those farther from the
+    /// edges of the grid than the largest distance. Undecided cells count as a basin of their own.
     ///
     /// The items of `observer` are the rows of cells that count, once for each distance.
     ///
@@ -124,8 +125,8 @@ impl Basins {
         Ok(BoundaryScaling { fit: fit(&points), shares })
     }
 
-    /// The cells farther than `margin` from the edges with another label than their own in the square of cells
-    /// up to this distance along both axes.
+    /// The share of cells with a differently labelled cell within this distance along both axes, of all cells
+    /// farther than `margin` from the edges.
     fn uncertain(&self, distance: usize, margin: usize, watch: &Watch<'_>) -> Result<Fraction, Error> {
         let inner = margin..self.columns() - margin;
         let mut work = watch.work();
@@ -241,8 +242,8 @@ mod tests {
         assert!((found - 1.0).abs() < 1e-13 && error < 1e-13, "{found} {error}");
     }
 
-    /// The gaps of Cantor's set belong to two basins in turn, by their size: the boundary is that set along the
-    /// columns, and a line along the rows.
+    /// The gaps of Cantor's set belong to two basins in turn, by their size: the boundary is that set along
+    /// the columns, and a line along the rows.
     #[test]
     fn a_cantor_set_has_its_dimension() {
         let digits = 7;

@@ -22,15 +22,15 @@ pub struct BasinEntropy {
     /// S_b, the mean over the boxes of -sum p ln p, p being the shares of the labels in a box: 0 if each box
     /// has one label, at most the logarithm of the number of labels.
     pub entropy: f64,
-    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box that a
-    /// smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small beside the
-    /// basins shows that the boundary is not smooth, a smaller one shows nothing.
+    /// S_bb, the same mean over the boxes with more than one label; `None` if there is no such box. A box
+    /// that a smooth curve between two basins cuts has ln 2 at most: a larger mean over boxes that are small
+    /// beside the basins shows that the boundary is not smooth, a smaller one shows nothing.
     pub boundary_entropy: Option<f64>,
 }
 
 impl Basins {
-    /// The entropy over boxes of `box_side` x `box_side` cells in [2, 100 000]; those at the upper ends of the
-    /// axes that would not be whole are left out. Boxes of 5 x 5 are usual.
+    /// The entropy over boxes of `box_side` x `box_side` cells in [2, 100 000]; those at the upper ends of
+    /// the axes that would not be whole are omitted. Boxes of 5 x 5 are usual.
     ///
     /// ```
     /// use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid};
@@ -124,8 +124,8 @@ mod tests {
         assert!(entropy.boundary_entropy.is_some_and(|own| (own - sum / 2.0).abs() < 1e-15));
     }
 
-    /// Cells without any order of three kinds have nearly the largest entropy there is, and a straight boundary
-    /// stays below ln 2.
+    /// Cells without any order of three kinds have nearly the largest entropy there is, and a straight
+    /// boundary stays below ln 2.
     #[test]
     fn the_limits_are_those_of_order_and_of_chance() {
         let mut random = SplitMix64::new(1);

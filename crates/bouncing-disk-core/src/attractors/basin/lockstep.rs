@@ -8,12 +8,12 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Lanes, Purpose};
 
-/// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better; with these, what a
-/// thread holds still fits into the second-level cache of small processors.
+/// Batches that are computed together. More of them fill the vectors of the rarer kinds of flight better;
+/// with these, what a thread holds still fits into the second-level cache of small processors.
 const BATCHES: usize = 24;
 
 impl ImpactMap {
-    /// Labels cells until there are none left to take, at most `lanes` of them at a time.
+    /// Labels cells until all are taken, at most `lanes` of them at a time.
     pub(super) fn label_cells(
         &self,
         cells: &Cells<'_>,
@@ -153,7 +153,7 @@ impl<'a> Lockstep<'a> {
         }
     }
 
-    /// Begins the next start in `lane`; false if there is none.
+    /// Begins the next start in `lane`; false if no start is left.
     fn load(&mut self, lane: usize, starts: &mut Starts<'_, '_>) -> bool {
         let Some((cell, from)) = starts.next(&self.judge) else { return false };
         self.batches[lane / LANES].take_impact(lane % LANES, starts.batch(), from);
@@ -214,7 +214,7 @@ mod tests {
         counts
     }
 
-    /// What docs/performance.md says of the memory of a thread.
+    /// The bound of docs/performance.md on the memory of a thread.
     #[test]
     fn lanes_take_less_than_512_kibibytes() {
         let (started, share) = ((BATCHES + 1) * LANES, size_of::<Share<'_>>() + 2 * size_of::<usize>());

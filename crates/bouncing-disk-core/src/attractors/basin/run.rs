@@ -15,8 +15,8 @@ use crate::run::{Observer, Watch};
 /// bit, for any number of threads. It stores the map, the grid, the known orbits, the settings and the
 /// labels of the finished rows; deserialising checks that they fit together.
 ///
-/// It knows periodic attractors only; where there are others, `Attractors::basins_of_rows` makes a grid in parts.
-/// Read from JSON it is the same if `serde_json` has its feature `float_roundtrip`.
+/// It knows periodic attractors only; where there are others, `Attractors::basins_of_rows` makes a grid in
+/// parts. Read from JSON it is the same if `serde_json` has its feature `float_roundtrip`.
 ///
 /// [`Observer`] shows an example.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,8 +47,8 @@ impl BasinRun {
     ) -> Result<Self, Error> {
         check_number_of(known)?;
         let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        // Zeros that the system gives at once, where writing those of a large grid takes seconds in which nobody is
-        // asked; whether there is room for them is known by then.
+        // The system provides these zeros at once; writing those of a large grid would take seconds without a
+        // call of the observer. The first line checks that there is room for them.
         drop(room_for::<Label>("cells of a grid", columns as u64 * rows as u64, MAX_CELLS)?);
         let labels = vec![UNDECIDED; columns * rows];
         Ok(Self { map, grid, known: known.to_vec(), settings, labels, finished: vec![false; rows] })
@@ -71,7 +71,7 @@ impl BasinRun {
             }
         }
         match outcome {
-            // Other threads may have finished rows after the one that was told to stop, or even all.
+            // After one thread got the order to stop, others may have finished further rows, or even all.
             Err(Error::Stopped { .. }) if !self.is_done() => {
                 Err(Error::Stopped { done: self.done(), total: self.total() })
             }
@@ -83,8 +83,8 @@ impl BasinRun {
         }
     }
 
-    /// [`Self::advance`] for the rows of this range alone, as far as they exist: a part of a grid that is divided
-    /// over several machines. For the observer, all other rows count as finished.
+    /// [`Self::advance`] for the rows of this range alone, as far as they exist: a part of a grid that is
+    /// divided over several machines. For the observer, all other rows count as finished.
     ///
     /// # Errors
     /// Those of [`Self::advance`].
@@ -175,7 +175,7 @@ impl BasinRun {
     /// The basins.
     ///
     /// # Errors
-    /// [`Error::Stopped`] if a row is not finished: [`Self::is_done`] tells before.
+    /// [`Error::Stopped`] if a row is not finished, which [`Self::is_done`] shows.
     pub fn into_basins(self) -> Result<Basins, Error> {
         if !self.is_done() {
             return Err(Error::Stopped { done: self.done(), total: self.total() });

@@ -16,7 +16,7 @@ const SLACK: f64 = 1.0e-9;
 /// Targets that a batch is compared with between two looks at an observer.
 const TARGETS_AT_ONCE: usize = 1 << 12;
 
-/// What the comparison of a batch with a target counts as, in flights.
+/// The work of comparing a batch with a target, in flights.
 const FLIGHTS_OF_TARGET: u64 = 2;
 
 /// An impact of a known orbit.
@@ -39,7 +39,7 @@ pub(super) struct Verdicts {
     pub(super) settled: Lanes,
 }
 
-/// What decides the label of a start: the known orbits and the proof of rest.
+/// The tests that decide the label of a start: the known orbits and the proof of rest.
 pub(super) struct Judge<'a> {
     map: &'a ImpactMap,
     known: &'a [KnownOrbit],
@@ -74,8 +74,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Finds the lanes whose impacts decide their labels. `spend` is told what this counts as for an observer:
-    /// the flights of a batch, and the comparisons with the targets.
+    /// Finds the lanes whose impacts decide their labels. `spend` gets the work of this in the units of an
+    /// observer: the flights of a batch, and the comparisons with the targets.
     #[inline(always)]
     pub(super) fn screen(
         &self,
@@ -105,7 +105,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What the resolution of a doubt counts as for an observer.
+    /// The work of resolving a doubt, in the units of an observer.
     pub(super) const fn work_of_doubt(&self) -> u64 {
         (self.targets.len() / TARGETS_OF_FLIGHT) as u64
     }

@@ -11,7 +11,8 @@ use crate::sweep::lockstep::lanes::{Batch, LANES, Lanes};
 
 use core::f64::consts::PI;
 
-/// Most cells in a share, but for longer rows: enough that a thread seldom waits for the next one, few enough for the threads to finish together.
+/// Most cells in a share, but for longer rows: enough that a thread seldom waits for the next one, few enough
+/// for the threads to finish together.
 const SHARE: usize = 1_024;
 
 /// Some rows of the grid: the first of them, and their labels.
@@ -163,8 +164,8 @@ impl<'c, 'l> Starts<'c, 'l> {
         }
     }
 
-    /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. The cells of the others get
-    /// their labels. None once the call is stopped.
+    /// The next start that is not decided at once: its cell, and its lane of [`Self::batch`]. The cells of
+    /// the others get their labels. None once the call is stopped.
     #[inline(always)]
     pub(super) fn next(&mut self, judge: &Judge<'_>) -> Option<(Cell, usize)> {
         let lane = loop {
@@ -179,7 +180,7 @@ impl<'c, 'l> Starts<'c, 'l> {
                 return None;
             }
             if self.screen(judge, count).is_err() {
-                // No start goes on whose first state has not been judged to the end.
+                // A start advances only after its first state has been fully judged.
                 self.open = Lanes::NONE;
                 return None;
             }

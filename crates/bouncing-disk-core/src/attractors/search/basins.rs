@@ -13,14 +13,14 @@ use crate::numerics::error::Error;
 use crate::run::{Observer, Progress, Unobserved};
 use crate::sweep::{SweepEvent, sweep};
 
-/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after those
-/// that were allowed.
+/// Impacts of an undecided start that are compared with the cells of the attractors that have any, after
+/// those that were allowed.
 const COMPARED: u32 = 256;
 
 /// Starts that are followed at a time, for their memory.
 const AT_ONCE: usize = 1 << 14;
 
-/// What labels a start.
+/// The tests that label a start.
 struct Labels<'a> {
     map: &'a ImpactMap,
     known: Vec<KnownOrbit>,
@@ -149,7 +149,7 @@ fn start_of(grid: &Grid, row: usize, column: usize) -> Result<ImpactState, Error
     ImpactState::from_normalised(grid.impact_angle(column), grid.speed().centre(row))
 }
 
-/// Tells the observer of all rows of the progress of some of their starts: which are finished before.
+/// Reports the progress of some starts to the observer of all rows, after the rows that are finished.
 struct Rows<'o> {
     observer: &'o dyn Observer,
     done: u64,
@@ -167,7 +167,8 @@ impl Attractors {
     ///
     /// Rests and periodic attractors are recognised as by [`ImpactMap::basin_label`]. A start that is
     /// undecided after [`BasinSettings::max_impacts`] is compared with the attractors that are known by their
-    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of them.
+    /// cells: it is followed for 256 more impacts, half of which at least must lie in the cells of one of
+    /// them.
     ///
     /// # Errors
     /// Those of [`ImpactMap::basin_label`].
@@ -176,8 +177,8 @@ impl Attractors {
         Ok(labels.first().copied().unwrap_or(UNDECIDED))
     }
 
-    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it is
-    /// the same in every window and for every number of threads.
+    /// The basins on a grid, each cell with its [`Self::basin_label`]. A label depends on its start alone: it
+    /// is the same in every window and for every number of threads.
     ///
     /// The items of `observer` are the rows, each of which counts twice where there are attractors that are
     /// known by their cells.

@@ -1,4 +1,4 @@
-//! The cells of a grid that an orbit has visited: what is known of an aperiodic attractor.
+//! The cells of a grid that an orbit has visited. They represent an aperiodic attractor.
 
 use core::f64::consts::TAU;
 
@@ -6,8 +6,8 @@ use crate::map::impact_map::ImpactState;
 use crate::numerics::error::{Error, not_negative, within};
 use crate::numerics::stored::read_checked;
 
-/// Cells of impacts that an orbit has visited: of a grid with the same number of cells along the phase, from 0
-/// to 2 pi, and along the impact speed, from 0 to `top`.
+/// Cells of impacts that an orbit has visited: of a grid with the same number of cells along the phase, from
+/// 0 to 2 pi, and along the impact speed, from 0 to `top`.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedCells"))]
@@ -68,7 +68,8 @@ impl VisitedCells {
         cell(self.side, self.top, state).is_some_and(|cell| self.visited.binary_search(&cell).is_ok())
     }
 
-    /// The centres of the visited cells, in their order: phase (rad) and impact velocity (units of g/omega, < 0).
+    /// The centres of the visited cells, in their order: phase (rad) and impact velocity (units of g/omega, <
+    /// 0).
     pub fn centres(&self) -> impl Iterator<Item = (f64, f64)> {
         let side = f64::from(self.side);
         self.visited.iter().map(move |cell| {

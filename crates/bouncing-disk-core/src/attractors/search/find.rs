@@ -27,8 +27,8 @@ const SAMPLES: u32 = 64;
 /// How many cells away an orbit that creeps towards a marginal one may have been from it.
 const CELLS_AWAY: f64 = 1.5;
 
-/// Tells the observer of the whole search of the progress of a part: the items of the part, or none of them,
-/// after those that are done.
+/// Reports the progress of a part to the observer of the whole search: the items of the part, or none of
+/// them, after those that are done.
 struct Part<'o> {
     observer: &'o dyn Observer,
     done: u64,
@@ -83,7 +83,7 @@ struct Finder<'a> {
     rests: u64,
     periodic: Vec<Periodic>,
     recurrent: Vec<Recurrent>,
-    /// Starts that have been looked at, and of which the attractor is known.
+    /// Starts that were followed, and those whose attractor is known.
     done: u64,
 }
 
@@ -133,7 +133,8 @@ impl<'a> Finder<'a> {
         Part { observer: self.observer, done: self.done, total, counts: false }
     }
 
-    /// Counts starts that come ever nearer to an attracting orbit through this impact; where it is none, the start stays undecided.
+    /// Counts starts that approach an attracting orbit through this impact; if no orbit goes through it, the
+    /// starts stay undecided.
     fn repeats(&mut self, state: ImpactState, impacts: u64, platform_periods: u64, starts: u64) {
         let scale = self.map.vibration().peak_acceleration();
         let known = self.periodic.iter_mut().find(|known| {
@@ -177,7 +178,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// The marginal orbit that an orbit has crept towards which has been in these cells.
+    /// The marginal orbit towards which an orbit that visited these cells has crept.
     fn marginal(&mut self, recurrence: &Recurrence) -> Option<&mut Periodic> {
         let cells = &recurrence.cells;
         let width = CELLS_AWAY / f64::from(cells.side());
@@ -210,7 +211,8 @@ impl<'a> Finder<'a> {
                     self.repeats(state, impacts, platform_periods, 1);
                     continue;
                 }
-                // The motion itself knows whether it repeats after twice as many impacts, next to a doubling.
+                // Next to a doubling only the motion itself shows whether it repeats after twice as many
+                // impacts.
                 Seen::Verdict(Verdict::Undecided {
                     reason: UndecidedReason::OnPeriodicOrbit { impacts, .. },
                     ..
@@ -247,7 +249,8 @@ impl<'a> Finder<'a> {
         (self.recurrent.len() - 1, true)
     }
 
-    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how many do.
+    /// The starts whose attractor is not known but for those that rest or come back to these cells, and how
+    /// many do.
     fn compare(
         &mut self,
         cells: &VisitedCells,
@@ -274,7 +277,8 @@ impl<'a> Finder<'a> {
     fn add_candidates(&mut self) -> Result<(), Error> {
         let map = self.map;
         let (r, forcing) = (map.restitution(), map.vibration().axial_forcing());
-        // A node attracts from its birth to its doubling: the longest flights do, down to some number of periods.
+        // A node attracts from its birth to its doubling: the longest flights do, down to some number of
+        // periods.
         let longest = ((1.0 + r) * forcing / (1.0 - r)) as u64;
         let longest = longest.saturating_add(1);
         for k in (longest.saturating_sub(MOST_PERIOD_ONE).max(1)..=longest).rev() {
@@ -301,7 +305,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// What a disk at rest does next: one that is put on the platform at its lowest point.
+    /// The further motion of a disk at rest, that is of a disk put on the platform at its lowest point.
     fn after_rest(&mut self) -> Result<RestLeadsTo, Error> {
         let lowest = ImpactState::of_impact(Phase::new(1.5 * PI)?, 0.0);
         let looks = (self.search.long_look(), self.search.cells());

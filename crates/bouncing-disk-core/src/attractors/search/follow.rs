@@ -17,12 +17,12 @@ use crate::sweep::{SweepEvent, sweep};
 pub(super) const COMPARED: u64 = 512;
 pub(super) const SHARE_IN_CELLS: f64 = 0.5;
 
-/// What has been seen of a start.
+/// The observed fate of a start.
 #[derive(Debug, Clone)]
 pub(super) enum Seen {
     /// It has come to rest.
     Rest,
-    /// What the witness says.
+    /// The verdict of the witness.
     Verdict(Verdict),
 }
 
@@ -65,7 +65,8 @@ struct Recorder {
     rests: bool,
 }
 
-/// What a start does that is followed for long, and where it has been: through its first rest, or until there.
+/// The fate of a start that is followed for long, and the cells that its orbit visits: through its first
+/// rest, or up to it.
 pub(super) fn long_look(
     map: &ImpactMap,
     start: ImpactState,
@@ -147,7 +148,8 @@ pub(super) fn come_back(
     Ok(seen.into_iter().map(compared).collect())
 }
 
-/// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of them.
+/// Whether two orbits have been in the same cells: half of the cells of the one that has been in fewer of
+/// them.
 pub(super) fn overlap(one: &VisitedCells, other: &VisitedCells) -> bool {
     let (few, many) = if one.visited().len() <= other.visited().len() { (one, other) } else { (other, one) };
     let shared = few.visited().iter().filter(|cell| many.visited().binary_search(cell).is_ok()).count();

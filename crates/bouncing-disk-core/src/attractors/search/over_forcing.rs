@@ -17,8 +17,8 @@ pub const MAX_FORCINGS: usize = 1 << 16;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct FollowedAttractor {
-    /// The first forcing at which it was found, by its number in the list: it appears between this one and the
-    /// one before.
+    /// The first forcing at which it was found, by its number in the list: it appears between this one and
+    /// the one before.
     pub appears: usize,
     /// The last forcing at which it was found: it vanishes between this one and the next.
     pub vanishes: usize,
@@ -36,8 +36,8 @@ pub struct AttractorsAt {
     /// Which of [`BasinFractions::followed`] each of them is.
     pub followed: Vec<usize>,
     /// How far each of them is from where it was at the forcing before (rad; a radian counts as much as the
-    /// speed P at this one): the mean distance of an impact of one from the nearest of the other, the larger of both ways.
-    /// `None` for one that appears, and for the disk at rest.
+    /// speed P at this one): the mean distance of an impact of one from the nearest of the other, the larger
+    /// of both ways. `None` for one that appears, and for the disk at rest.
     pub moved: Vec<Option<f64>>,
 }
 
@@ -124,7 +124,8 @@ pub(super) fn places(attractor: &Attractor) -> Option<Places> {
     }
 }
 
-/// The mean distance of a place of `one` from the nearest of `other` (rad; a radian counts as much as the speed P).
+/// The mean distance of a place of `one` from the nearest of `other` (rad; a radian counts as much as the
+/// speed P).
 fn one_way(one: &Places, other: &Places, peak: f64) -> f64 {
     let nearest = |from: &(f64, f64)| {
         let square = other.iter().fold(f64::INFINITY, |least, to| {

@@ -1,4 +1,4 @@
-//! How attractors are searched for.
+//! The settings of a search for attractors.
 
 use super::cells::VisitedCells;
 use crate::attractors::verdict::VerdictSettings;
@@ -37,7 +37,7 @@ read_checked!(AttractorSearch as UncheckedSearch {
     orbits: Option<OrbitSearch>,
 });
 
-/// The search that is told at each number.
+/// The search after each change of a number.
 impl Default for AttractorSearch {
     fn default() -> Self {
         Self {

@@ -9,7 +9,7 @@ use crate::map::impact_map::{ImpactMap, ImpactState};
 /// most even sequence of its kind in two dimensions (M. Roberts' R2; g = 1.32471795724...).
 const STEPS: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1d];
 
-/// Tries for one start that is asked for: the region fills a quarter at least of the rectangle about it.
+/// Tries per requested start: the region fills at least a quarter of the rectangle about it.
 const TRIES: u64 = 16;
 
 /// A fixed-point number in [0, 1), to the 53 bits that a double has.

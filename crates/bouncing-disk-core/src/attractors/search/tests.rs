@@ -51,7 +51,8 @@ fn the_attractors_along_the_paper_s_route() {
     assert_eq!((gone.all().len(), gone.all()[0].starts.count()), (1, 300));
 }
 
-/// Just above the first doubling two impacts attract, just below one does, and at the fold one orbit is semi-stable.
+/// Just above the first doubling two impacts attract, just below one does, and at the fold one orbit is
+/// semi-stable.
 #[test]
 fn marginal_orbits_are_neither_multiplied_nor_invented() {
     let first = ImpactMap::first_doubling_forcing(0.5);
@@ -201,7 +202,8 @@ fn labels_are_the_same_in_every_window_and_for_one_start() {
     assert_eq!((own.labelled(UNDECIDED), own.labelled(255)), (None, None));
 }
 
-/// The labels of single starts are those of the basins of known orbits, for every policy and count of impacts.
+/// The labels of single starts are those of the basins of known orbits, for every policy and count of
+/// impacts.
 #[test]
 fn labels_of_starts_are_those_of_known_orbits() {
     let own = found(0.486, 0.5, 500);
@@ -285,8 +287,8 @@ fn basin_fractions(forcings: &[f64], observer: &dyn Observer) -> Result<over_for
     over_forcing::basin_fractions_over(0.5, forcings, &quick(200), 0.3, observer)
 }
 
-/// Period 1 from 1/3 on, its doubling to period 2, which goes on, and the orbit of four impacts from 0.4841 to 0.4883
-/// (docs/errata.md).
+/// Period 1 from 1/3 on, its doubling to period 2, which goes on, and the orbit of four impacts from 0.4841
+/// to 0.4883 (docs/errata.md).
 #[test]
 fn attractors_are_followed_over_the_forcing() {
     let forcings = [0.32, 0.35, 0.40, 0.45, 0.48, 0.486, 0.487, 0.50, 0.52];

@@ -1,16 +1,17 @@
-//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at one.
+//! Whether an orbit that nearly repeats itself is on its way to an attracting periodic orbit, or stays at
+//! one.
 
 use super::VerdictSettings;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::elementary::{exp, ln};
 use crate::orbits::periodic::{PeriodicOrbit, Stability, distance};
 
-/// Where the parts of a solution repeat each other to within this (rad, relative speed), the shorter orbit is
-/// sought: next to a doubling the equations are nearly singular, and a solution of rounded ones is that far
-/// from the exact one.
+/// If the parts of a solution repeat each other to within this (rad, relative speed), the code looks for the
+/// shorter orbit: next to a doubling the equations are nearly singular, and rounding may move their solution
+/// that far.
 const NEARLY_SAME: f64 = 1.0e-2;
 
-/// Nearer than this (rad) rounding keeps an orbit from coming nearer.
+/// At this distance (rad) rounding keeps an orbit from approaching further.
 const ROUNDING_DISTANCE: f64 = 1.0e-11;
 
 /// Most impacts over which an orbit must come nearer.
@@ -19,7 +20,7 @@ const MOST_CONFIRMING: u64 = 8_192;
 /// How near an orbit must stay to a neutral one that it was on (rad).
 const STAYS_WITHIN: f64 = 2.0e-6;
 
-/// Multipliers that may be off by more say nothing.
+/// Multipliers with a larger error prove nothing.
 const LARGEST_ERROR: f64 = 1.0e-2;
 
 /// A periodic orbit next to a followed one.
@@ -29,8 +30,8 @@ pub(super) struct Proof {
     pub(super) stability: Stability,
 }
 
-/// The periodic orbit that the orbit from `state`, which nearly repeats itself after `period` impacts, comes
-/// ever nearer to, or else one that it stays at.
+/// The periodic orbit that the orbit from `state` approaches, or else one at which it stays; the orbit from
+/// `state` nearly repeats itself after `period` impacts.
 pub(super) fn prove(
     map: &ImpactMap,
     state: ImpactState,
@@ -57,12 +58,12 @@ pub(super) fn prove(
     proved.then_some(Proof { orbit, distance, stability })
 }
 
-/// Whether the multipliers of an orbit say anything.
+/// Whether the multipliers of an orbit are known well enough to judge it.
 fn is_known(orbit: &PeriodicOrbit) -> bool {
     orbit.multiplier_error() <= LARGEST_ERROR * orbit.multipliers().spectral_radius().max(1.0)
 }
 
-/// So many impacts from this one on.
+/// `count` impacts, beginning with `state`.
 fn impacts_from(map: &ImpactMap, state: ImpactState, count: usize) -> Option<Vec<ImpactState>> {
     let mut impacts = Vec::with_capacity(count);
     let mut state = state;
@@ -91,9 +92,9 @@ fn prime(map: &ImpactMap, orbit: PeriodicOrbit) -> PeriodicOrbit {
     shorter.find(|orbit| is(orbit, least)).unwrap_or(orbit)
 }
 
-/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by half of
-/// what its multipliers promise within twice the time that they take to shrink a distance to a third, or
-/// within the impacts that there are for it.
+/// Whether the orbit from `state` comes nearer to the periodic one, after whole periods of it: by at least
+/// half of the decrease that the multipliers predict, within about twice the time in which they shrink a
+/// distance to a third, or within [`MOST_CONFIRMING`] impacts if these are fewer.
 fn comes_nearer(map: &ImpactMap, orbit: &PeriodicOrbit, state: ImpactState, from: f64) -> bool {
     if from <= ROUNDING_DISTANCE {
         return true;

@@ -4,13 +4,13 @@ use super::VerdictSettings;
 use crate::map::impact_map::ImpactState;
 use crate::orbits::periodic::phase_difference;
 
-/// After a return that proved nothing another one is waited for: half as many impacts as there have been, and
-/// these.
+/// After a return that proved nothing the next one counts only after as many further impacts as half of those
+/// so far, and these.
 const LEAST_WAIT: u64 = 16;
 
-/// Compares each impact with one reference (R. P. Brent, BIT 20, 176 (1980)): the reference is renewed after
-/// 1, 2, 4, ... impacts, up to the longest period, so that short periods are found early and no impact but
-/// one is kept.
+/// Compares each impact with one reference (R. P. Brent, BIT 20, 176 (1980)). The reference is renewed after
+/// 1, 2, 4, ... impacts, up to the longest period. So short periods are found early, and only one impact is
+/// kept.
 #[derive(Debug, Clone)]
 pub(super) struct Returns {
     reference: Option<ImpactState>,
@@ -19,7 +19,7 @@ pub(super) struct Returns {
     window: usize,
     /// Passes of the phase through 0 since the reference.
     turns: u64,
-    /// Impacts so far, and before the next return is told.
+    /// Impacts so far, and the number from which on the next return counts.
     impacts: u64,
     wait: u64,
     /// The nearest return to this reference and to the last one: distance and impacts.
@@ -31,8 +31,8 @@ impl Returns {
         Self { reference: None, age: 0, window: 1, turns: 0, impacts: 0, wait: 0, nearest: [None; 2] }
     }
 
-    /// Takes the next impact, whose phase passed 0 so often during the flight before it; after how many
-    /// impacts it has returned, if it has.
+    /// Takes the next impact, before which the phase passed 0 `turns` times. If this impact is a return,
+    /// gives the number of impacts after which it comes.
     #[inline]
     pub(super) fn see(
         &mut self,

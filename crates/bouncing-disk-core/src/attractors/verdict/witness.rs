@@ -17,12 +17,12 @@ use crate::sweep::{SweepEvent, SweepImpact};
 /// A flight is long if it lasts longer than this (rad), half a period of the platform.
 const LONG_FLIGHT: f64 = PI;
 
-/// The rounding error of a cycle (rad and g/omega) up to which it counts as that of exact arithmetic: a
-/// thousandth of the size of the motion, where what is neglected beside the first order is a thousandth of it
-/// again.
+/// The largest rounding error (rad and g/omega) of a cycle that counts as that of exact arithmetic: a
+/// thousandth of the size of the motion. The terms neglected beside the first order are then a thousandth of
+/// this error.
 const TRUSTED_ROUNDING: f64 = 1.0e-3;
 
-/// What is known of the disk since it separated from rest.
+/// The course of the motion since the disk separated from rest.
 #[derive(Debug, Clone)]
 struct Round {
     long_flights: u64,
@@ -50,13 +50,13 @@ impl Round {
         self.long_flights += u64::from(impact.duration > LONG_FLIGHT);
     }
 
-    /// Takes the growth (its logarithm) by a flight that ends in `state`; of the first flight there is none.
+    /// Takes the logarithm of the growth by a flight that ends in `state`; the first flight has no growth.
     fn grow(&mut self, growth: f64, state: ImpactState) {
         self.growth.push(growth);
         self.round(exp(growth), state);
     }
 
-    /// What was wrong has grown, and the impact is rounded itself.
+    /// The earlier error has grown, and the rounding of this impact is added.
     fn round(&mut self, growth: f64, state: ImpactState) {
         self.rounding = self.rounding * growth + f64::EPSILON * (1.0 + state.velocity().abs());
         // Also of what is no number.
@@ -65,8 +65,9 @@ impl Round {
     }
 }
 
-/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever perturbations
-/// of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as near.
+/// An orbit that returns to within this (rad, and relative speed) is on a periodic one, whatever
+/// perturbations of it do: of the pairs of impacts that are compared a chaotic one has about one in 1e8 as
+/// near.
 const ON_AN_ORBIT: f64 = 1.0e-9;
 
 /// An orbit under way to its verdict.
@@ -213,8 +214,8 @@ impl Witness {
         self.round.is_some() as u64
     }
 
-    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is no
-    /// less stable than `least`.
+    /// The verdict if the orbit is on its way to an attracting one with this period, or stays at one that is
+    /// no less stable than `least`.
     fn periodic(&self, period: usize, least: Stability) -> Option<Verdict> {
         let proof = prove(&self.map, self.state, period, &self.settings)?;
         let Proof { orbit, distance, stability } = proof;
@@ -236,7 +237,7 @@ impl Witness {
         (stability <= least).then_some(Verdict::Undecided { reason, rests })
     }
 
-    /// What is said of an orbit that has used up its impacts.
+    /// The verdict on an orbit that has used up its impacts.
     fn conclusion(&self) -> Verdict {
         let rests = self.rests();
         if let Some((impacts, phase)) = self.grazed {
@@ -246,7 +247,8 @@ impl Witness {
         let nothing = LyapunovEstimate { exponent: 0.0, standard_error: 0.0, impacts: self.impacts };
         let estimate = LyapunovEstimate::of(&self.growth).unwrap_or(nothing);
         let LyapunovEstimate { exponent, standard_error, impacts } = estimate;
-        // What is approached slowly has not returned to within the tolerance; what repels may be stayed at.
+        // An orbit that approaches slowly has not returned to within the tolerance; one that started on a
+        // repelling orbit may have stayed there.
         let nearest = self.returns.nearest();
         let nearest = nearest.filter(|(distance, _)| !estimate.grows() || *distance <= ON_AN_ORBIT);
         if let Some(verdict) = nearest.and_then(|(_, period)| self.periodic(period, Stability::Unstable)) {

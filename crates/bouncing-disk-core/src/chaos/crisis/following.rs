@@ -1,4 +1,4 @@
-//! Where orbits on an attractor begin to come to rest, by following them.
+//! The forcing at which orbits on an attractor begin to come to rest, found by following them.
 
 use crate::chaos::crisis::lifetimes::MeanLife;
 use crate::chaos::crisis::{CrisisSearch, NoCrisis};
@@ -18,14 +18,14 @@ use crate::sweep::lyapunov::lyapunov_exponents;
 use crate::sweep::{SweepEvent, SweepRun};
 use core::ops::ControlFlow;
 
-/// How far beyond its birth (relative to Gamma) the period-1 orbit is followed from at the earliest.
+/// The least distance beyond its birth (relative to Gamma) from which on the period-1 orbit is followed.
 const AFTER_BIRTH: f64 = 1.0e-3;
 
-/// How far the first orbits are from the periodic one (relative to its velocity).
+/// Distance of the first orbits from the periodic one (relative to its velocity).
 const BESIDE: f64 = 1.0e-6;
 
-/// How far orbits are moved from one forcing to the next (relative to the velocity), so that those which have
-/// become one part again.
+/// Displacement of the orbits from one forcing to the next (relative to the velocity), which separates orbits
+/// that have merged.
 const SHAKE: f64 = 1.0e-10;
 
 /// The longest step in Gamma over the range.
@@ -34,8 +34,8 @@ const LONGEST_STEP: f64 = 1.0 / 64.0;
 /// The narrowest bracket, relative to Gamma: [`SHAKE`] must not carry orbits over it.
 const NARROWEST: f64 = 1.0e-9;
 
-/// The mean life over all impacts at which the upper end of the bracket is as near as they can tell, and how often
-/// the bracket is halved from then on.
+/// Once the mean survival time exceeds this share of all impacts, the upper end of the bracket is as near as
+/// so many impacts can show; from then on the bracket is halved so often.
 const TOLD: f64 = 1.0 / 16.0;
 const MORE_HALVINGS: u32 = 5;
 
@@ -45,20 +45,20 @@ const FEWEST_RESTS: u64 = 8;
 /// The fewest impacts of an orbit.
 const FEWEST_IMPACTS: usize = 200;
 
-/// How many forcings that were lived at are kept.
+/// Most forcings, at which orbits survived, whose states are kept.
 const KEPT: usize = 24;
 
-/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral motion,
-/// has an exponent of a few ln n/n: five of these are not chaos.
+/// Impacts over which exponents are taken. A growth that is a power of their number, as that of neutral
+/// motion, has an exponent of a few ln n/n: five of these are not chaos.
 const EXPONENT_IMPACTS: usize = 4_000;
 
-/// Distances beyond the lower end, over the nearest one, at which lives are compared.
+/// Distances beyond the lower end at which survival times are compared, as multiples of the smallest.
 const DISTANCES: [f64; 4] = [1.0, 4.0, 16.0, 64.0];
 
-/// How far lives oscillate about their power law, as a factor.
+/// The factor by which survival times oscillate about their power law.
 const OSCILLATION: f64 = 2.0;
 
-/// The least ratio of lives that a margin is taken from.
+/// The least ratio of survival times from which a margin is computed.
 const LEAST_SEEN: f64 = 1.1;
 
 /// The share of searches that miss a rest at a lower end by chance.
@@ -91,7 +91,7 @@ pub(super) struct End {
     pub(super) attractor: Vec<ImpactState>,
     /// Orbits from there that come to rest at its upper end or next to it, then those farther beyond.
     pub(super) lost: Vec<Lost>,
-    /// The mean life where 8 of them do.
+    /// The mean survival time at the distance where 8 of them come to rest.
     pub(super) life: f64,
 }
 
@@ -101,7 +101,8 @@ impl CrisisSearch {
         ((self.impacts / u64::from(self.samples)) as usize).max(FEWEST_IMPACTS)
     }
 
-    /// Where the attractor that `inside` or the period-1 orbit leads to begins to lose orbits.
+    /// The forcing at which the attractor to which `inside` or the period-1 orbit leads begins to lose
+    /// orbits.
     pub(super) fn end_of_attractor(
         &self,
         inside: Option<&PeriodicOrbit>,
@@ -139,13 +140,13 @@ impl CrisisSearch {
                 step = 0.5 * width;
                 continue;
             }
-            // The lower end with all impacts: so far it had a quarter of them.
+            // The lower end again with all impacts: so far it had a quarter of them.
             lower_ends += 1;
             let lived = self.follow(here.forcing, &here.states, each, watch)?;
             if lived.iter().all(|own| own.0 == each) {
                 let below = Herd { forcing: here.forcing, states: ends(lived) };
                 match self.end(below, forcing, lower_ends, watch)? {
-                    // Another attractor beside that of the others has ended: these are followed further.
+                    // An attractor beside that of the other orbits has ended: follow the others further.
                     Err((_, Some(survivors))) if survivors.forcing < self.high => reached = vec![survivors],
                     found => return Ok(found.map_err(|(reason, _)| reason)),
                 }
@@ -160,9 +161,10 @@ impl CrisisSearch {
         Ok(Err(NoCrisis::RestsBefore { forcing: self.low, life: shortest_life as u64 }))
     }
 
-    /// The bracket and what is beyond it, of orbits that live on `below` and come to rest at `forcing`; or why it is
-    /// no crisis, with the orbits that live on where a periodic one beside them ends. `below` is the last of so many
-    /// `lower_ends`, of which the others had rests.
+    /// The end of an attractor on which orbits survive at `below` and begin to come to rest at `forcing`; or
+    /// the reason why this is no crisis, with the surviving orbits if a periodic attractor beside theirs has
+    /// ended. `below` is the last of `lower_ends` lower ends that were tried; orbits came to rest at the
+    /// others.
     fn end(
         &self,
         below: Herd,
@@ -176,7 +178,7 @@ impl CrisisSearch {
             let error = (1.0 / near.ended as f64 + 1.0 / far.ended as f64).sqrt() / apart;
             (ln(near.impacts / far.impacts) / apart, error)
         };
-        // As far up as rests are not chance, and lives shrink.
+        // As far up as it takes until rests are not chance and survival times shrink.
         let (lives, lost, steepest) = loop {
             let (mut lives, mut lost) = (Vec::new(), Vec::new());
             for share in DISTANCES {
@@ -213,10 +215,12 @@ impl CrisisSearch {
             }
             width *= 4.0;
         };
-        // Lives rise in steps as gaps close one after the other: as steeply as anywhere.
+        // Survival times rise in steps, as gaps close one after the other, so the steepest rise anywhere
+        // counts.
         let powers = lives.windows(2).map(|pair| power(&pair[0], &pair[1]));
         let steepest = powers.fold(steepest, |most, (power, error)| most.max(power + 2.0 * error));
-        // If the crisis lay lower by the margin, a rest would have been seen at the lower end, and at the others before.
+        // If the crisis lay lower by the margin, a rest would have been seen at the lower end, and at the
+        // others before.
         let unseen = ln(f64::from(lower_ends) / MISSED);
         let all = each as f64 * below.states.len() as f64;
         let margin = lives.iter().fold(f64::MAX, |least, life| {
@@ -233,7 +237,7 @@ impl CrisisSearch {
         ended.map(|(&start, own)| Lost { forcing, start, impacts: own.0 }).collect()
     }
 
-    /// The mean of the largest exponents of some of these orbits at a forcing at which they live on.
+    /// The mean of the largest exponents of some of these orbits at a forcing at which they survive.
     fn exponent(&self, forcing: f64, lost: &[Lost]) -> Result<f64, Error> {
         let map = self.map(forcing)?;
         let starts: Vec<_> = lost.iter().take(16).map(|own| (map, own.start)).collect();
@@ -354,7 +358,7 @@ impl CrisisSearch {
         }
     }
 
-    /// The forcing of which a periodic orbit is one: by the height at the end of its first flight.
+    /// The forcing to which a periodic orbit belongs, from the height at the end of its first flight.
     fn forcing_of(&self, orbit: &PeriodicOrbit) -> Result<Option<f64>, Error> {
         let (from, to) = (orbit.states[0], orbit.states[1 % orbit.period()]);
         let launch = 0.0 - self.restitution * from.velocity();
@@ -413,7 +417,7 @@ fn shaken(states: &[ImpactState]) -> Result<Vec<ImpactState>, Error> {
     moved.collect()
 }
 
-/// Orbits that are looked at.
+/// The number of orbits that are examined.
 const ORBITS: usize = 24;
 
 /// The last impacts of an orbit among which it passes the saddle.
@@ -470,7 +474,7 @@ fn passed(map: &ImpactMap, last: &[ImpactState]) -> Option<PeriodicOrbit> {
         for (index, (a, b)) in last.iter().zip(last.iter().skip(period)).enumerate() {
             let phase = phase_difference(b.phase().angle(), a.phase().angle()).abs();
             let distance = phase + (b.velocity() - a.velocity()).abs() / scale;
-            // What chatters closes ever more nearly.
+            // The impacts of a chatter come ever closer, but they are no cycle.
             let flies = a.velocity() < -0.01 * scale;
             if flies && distance < CLOSES && nearest.is_none_or(|(least, ..)| distance < least) {
                 nearest = Some((distance, index, period));

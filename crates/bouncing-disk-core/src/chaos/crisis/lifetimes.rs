@@ -36,7 +36,7 @@ pub struct MeanLife {
 }
 
 impl MeanLife {
-    /// That of orbits with these lives, of which those of `most` impacts have not ended.
+    /// The mean life of orbits with these lives; those with `most` impacts have not ended.
     pub(super) fn of(lives: impl Iterator<Item = usize>, most: usize, beyond: f64) -> Self {
         let (mut orbits, mut ended, mut total) = (0, 0, 0.0);
         for life in lives {

@@ -16,7 +16,7 @@ use crate::sweep::survival_times;
 /// Samples of the first piece among which folds are looked for.
 const SAMPLES: u32 = 2_048;
 
-/// The most flights from the first piece to a fold that is looked for.
+/// The most flights from the first piece to a fold for which the search looks.
 const MOST_FLIGHTS: u32 = 80;
 
 /// The most folds that are followed to their tangency.
@@ -32,7 +32,7 @@ const ASIDE: f64 = 1.0 / 64.0;
 /// The farthest that neighbouring samples may be apart at a fold (in the units of manifolds).
 const STEP: f64 = 0.2;
 
-/// How near to the stable direction a fold is taken to lie next to the stable manifold.
+/// The largest distance from the stable direction at which a fold counts as next to the stable manifold.
 const TOUCHES: f64 = 0.02;
 
 /// Parts into which the window is divided to find the fold.
@@ -41,7 +41,7 @@ const PARTS: u32 = 32;
 /// Halvings of the place of the fold.
 const HALVINGS: u32 = 60;
 
-/// The share of the slope beside a fold that is left on it.
+/// The slope at a fold as a share of the slope beside it.
 const VANISHES: f64 = 1.0e-3;
 
 /// Steps of the secant method in Gamma for a number of flights.
@@ -53,7 +53,7 @@ const MAX_HALVINGS: u32 = 30;
 /// How many rounds along the second saddle are tried after the first.
 const MAX_ROUNDS: u32 = 12;
 
-/// Rounds after which a tangency that is not next to the bracket is not sought any longer.
+/// Rounds after which the search abandons a tangency that is not next to the bracket.
 const ROUNDS_ASTRAY: u32 = 2;
 
 /// The distance from the second saddle (in the units of manifolds) at which its stable manifold is straight
@@ -129,7 +129,7 @@ pub(super) fn tangencies(
     Ok(Err(failure))
 }
 
-/// What is sought.
+/// The task of the search.
 #[derive(Clone, Copy)]
 struct Sought<'s> {
     search: &'s CrisisSearch,
@@ -338,15 +338,15 @@ impl Setting {
 }
 
 impl Sought<'_> {
-    /// Whether the unstable manifold leads to the attractor: no orbit from these shares of its first piece rests
-    /// at the lower end of the bracket.
+    /// Whether the unstable manifold leads to the attractor: no orbit from these shares of its first piece
+    /// rests at the lower end of the bracket.
     fn lives(&self) -> Result<bool, Error> {
         let shares = (0..PROBES).map(|probe| f64::from(probe) / f64::from(PROBES));
         Ok(self.setting(self.bracket.0, 0)?.rests(shares, LOST)? == 0)
     }
 
-    /// Whether orbits from about the tangency rest beyond it, and not before: what it opens is no way from one
-    /// part of the attractor to another.
+    /// Whether orbits from near the tangency come to rest beyond it and not before: only then does it open a
+    /// way out of the attractor, and not one from a part of the attractor to another.
     fn loses(&self, solution: &Solution, flights: u32) -> Result<bool, Error> {
         let (low, high) = self.bracket;
         let aside = ASIDE * (high - low);
@@ -358,7 +358,7 @@ impl Sought<'_> {
         Ok(rests(solution.forcing + aside)? > 0 && rests(solution.forcing - aside)? == 0)
     }
 
-    /// Everything at a forcing, with the coordinates of this impact of the second saddle.
+    /// The setting at a forcing, with the coordinates of this impact of the second saddle.
     fn setting(&self, forcing: f64, impact: usize) -> Result<Setting, Error> {
         let map = self.search.map(forcing)?;
         let inside = map.refine(&self.pair.inside.states)?;

@@ -91,8 +91,8 @@ fn tangencies_that_the_lives_of_orbits_deny_are_refused() {
     }
 }
 
-/// At restitution 0.3 orbits rest first where the platform is about to fall away: no saddle is touched, and the
-/// motion goes on after the rest as before.
+/// At restitution 0.3 orbits rest first where the platform is about to fall away: no saddle is touched, and
+/// the motion goes on after the rest as before.
 #[test]
 fn a_crisis_without_a_saddle_has_a_bracket() {
     let crisis = search_of(0.3, (0.8091, 0.8092)).crisis(None, &Unobserved).expect("no failure");
@@ -104,8 +104,9 @@ fn a_crisis_without_a_saddle_has_a_bracket() {
     assert_eq!(crisis.life_exponent(), None);
 }
 
-/// At restitution 0.2 a periodic attractor beside that of the others ends at 0.9549475: those are followed further. Their
-/// chaos lies in the window of an orbit of four impacts, and what leaves it comes back after a rest.
+/// At restitution 0.2 a periodic attractor beside that of the others ends at 0.9549475: those are followed
+/// further. Their chaos lies in the window of an orbit of four impacts, and what leaves it comes back after a
+/// rest.
 #[test]
 fn a_periodic_attractor_that_ends_beside_is_no_crisis() {
     let crisis = search_of(0.2, (0.9, 0.96)).crisis(None, &Unobserved).expect("no failure");
@@ -116,8 +117,8 @@ fn a_periodic_attractor_that_ends_beside_is_no_crisis() {
     assert!(!matches!(crisis.after_rest, LifeAfterRest::Short { .. }), "{:?}", crisis.after_rest);
 }
 
-/// Ranges that begin or end next to the crisis: it is found there or not at all. The lower end of the bracket holds in 95
-/// of 100 searches: one of these may fail.
+/// Ranges that begin or end next to the crisis: it is found there or not at all. The lower end of the bracket
+/// holds in 95 of 100 searches: one of these may fail.
 #[test]
 fn a_range_may_begin_or_end_at_the_crisis() {
     let (mut found, mut covered) = (0, 0);
@@ -219,7 +220,8 @@ fn mean_lives_follow_a_power_law() {
     assert!(matches!(stopped, Err(Error::Stopped { .. })));
 }
 
-/// Lives at distances that hardly differ are those of unrelated orbits: their means scatter as the errors say.
+/// Lives at distances that hardly differ are those of unrelated orbits: their means scatter as the errors
+/// say.
 #[test]
 fn mean_lives_scatter_as_their_errors_say() {
     let crisis = found();

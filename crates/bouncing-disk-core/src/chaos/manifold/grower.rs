@@ -17,11 +17,11 @@ use glam::DVec2;
 /// the order of its square, and shrinks from then on.
 const FIRST_LENGTH: f64 = 1.0e-5;
 
-/// The shortest part of the first piece that is divided: what is left of it in doubles has few digits more.
+/// The shortest part of the first piece that is still divided: doubles leave few more digits inside of it.
 const SHORTEST_PART: f64 = 1.0 / 268_435_456.0;
 
 /// Turns between parts shorter than this share of a chord are not resolved, and points nearer than that are
-/// left out.
+/// omitted.
 const FINEST: f64 = 0.02;
 
 /// The direction of a part that is shorter than this may be rounding.
@@ -50,7 +50,7 @@ struct Node {
     place: Place,
 }
 
-/// What lies between two neighbours of a generation.
+/// The connection of two neighbours of a generation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Link {
     /// The curve, over this displacement (in the units of lengths).
@@ -210,7 +210,7 @@ impl<'m> Grower<'m> {
         Ok(Node { from, place })
     }
 
-    /// What lies between two neighbours.
+    /// The connection of two neighbours.
     fn link(&self, from: &Node, to: &Node) -> Link {
         match (from.place, to.place) {
             (Place::At(a), Place::At(b)) => {
@@ -352,7 +352,7 @@ fn is_undivided(from: &Node, to: &Node) -> bool {
     to.from - from.from <= SHORTEST_PART
 }
 
-/// The pieces as far as they are known.
+/// The pieces found so far.
 pub(super) struct Record {
     pieces: Vec<ManifoldPiece>,
     /// The piece that grows.
@@ -395,7 +395,7 @@ impl Record {
         }
     }
 
-    /// Ends the piece that grows, if there is one.
+    /// Ends the growing piece, if there is one.
     pub(super) fn interrupt(&mut self, end: PieceEnd) {
         if let Some(mut piece) = self.current.take() {
             piece.states.extend(self.last.take().map(|(state, _)| state));

@@ -75,8 +75,8 @@ fn cases(peak: f64, restitution: f64, count: u32) -> impl Iterator<Item = Case> 
     })
 }
 
-/// Every flight of the series, of which there are up to 4e17, ends on the platform, with the impact speed that the series
-/// says, and the next one starts with r times that: the gap itself, in 700 bits.
+/// Every flight of the series, of which there are up to 4e17, ends on the platform, with the impact speed
+/// that the series says, and the next one starts with r times that: the gap itself, in 700 bits.
 #[test]
 fn impacts_of_the_series_lie_on_the_platform() {
     for restitution in RESTITUTIONS {
@@ -208,7 +208,8 @@ fn the_series_counts_the_impacts_up_to_a_time() {
     }
 }
 
-/// However late the time and however many the impacts: the last impact is not later, the next one not earlier.
+/// However late the time and however many the impacts: the last impact is not later, the next one not
+/// earlier.
 #[test]
 fn the_impact_before_a_time_is_found_next_to_restitution_one() {
     for restitution in [1.0 - 1e-4, 1.0 - 1e-7, 1.0 - 1e-12, 1.0 - f64::EPSILON / 2.0] {
@@ -230,7 +231,8 @@ fn the_impact_before_a_time_is_found_next_to_restitution_one() {
     }
 }
 
-/// Sums over a few impacts, and moments that all but vanish, keep their digits: against the impacts in 700 bits.
+/// Sums over a few impacts, and moments that all but vanish, keep their digits: against the impacts in 700
+/// bits.
 #[test]
 fn sums_over_few_impacts_do_not_cancel() {
     for restitution in [0.5, 0.999, 1.0 - 1e-12, 1.0 - f64::EPSILON / 2.0] {

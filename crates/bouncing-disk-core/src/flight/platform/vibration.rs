@@ -8,8 +8,8 @@ use core::f64::consts::{PI, TAU};
 
 /// The vertical vibration of the platform, P sin tau, with the constants of its flights computed once.
 ///
-/// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the preload
-/// acceleration. In these units P is also its amplitude and its peak speed.
+/// The one parameter is P = pi Gamma = A omega^2 / g: the platform's peak acceleration in units of the
+/// preload acceleration. In these units P is also its amplitude and its peak speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedVibration"))]
@@ -152,19 +152,20 @@ impl Vibration {
     }
 }
 
-/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the bounds of a flight exceed a tie: far more than their
-/// rounding.
+/// Share of 1 + P by which the gaps and speeds of [`Crests`] and of the bounds of a flight exceed a tie: far
+/// more than their rounding.
 pub(crate) const CLEAR: f64 = 1.0e-9;
 
 /// Share of 1 + P by which a disk at the crest must be faster than one that falls past it.
 const CLEAR_FALL: f64 = 1.0e-5;
 
-/// What decides whether launches clear the first crest.
+/// The numbers that decide whether launches clear the first crest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crests {
     /// Time from the separation to the crest (rad).
     pub(crate) separation_to_crest: f64,
-    /// A disk that has at least this speed at the crest has not been slower than the platform since the separation.
+    /// A disk that has at least this speed at the crest has not been slower than the platform since the
+    /// separation.
     pub(crate) rising_speed: f64,
 }
 
@@ -178,8 +179,9 @@ impl Crests {
     }
 
     /// Whether a launch is certain not to be hit before the first crest, unless within half a radian
-    /// (docs/numerics/lockstep.md, "Tests that are certain when they answer"): `disk_speed` is that at launch, `arc_speed` the one, negative, with
-    /// which it comes down to the height of the crests, not a number where it stays below.
+    /// (docs/numerics/lockstep.md, "Tests that are certain when they answer"): `disk_speed` is that at
+    /// launch, `arc_speed` the one, negative, with which it comes down to the height of the crests, not a
+    /// number where it stays below.
     #[inline(always)]
     pub(crate) fn surely_cleared(&self, peak: f64, angle: f64, disk_speed: f64, arc_speed: f64) -> bool {
         let ahead = CREST - angle;

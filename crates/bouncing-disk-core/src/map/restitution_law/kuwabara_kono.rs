@@ -85,7 +85,7 @@ fn fifth_root(x: f64) -> f64 {
         let square = y * y;
         // Divided by y^2, so that a large x does not overflow. (y^5 + x y^3 - 1)/(5 y^4 + 3 x y^2)
         let next = y - (y * (square + x) - 1.0 / square) / (5.0 * square + 3.0 * x);
-        // Also ends where nothing is a number.
+        // This also ends the loop if the numbers are NaN.
         if next < y {
             y = next;
         } else {

@@ -10,7 +10,7 @@ use crate::numerics::error::Error;
 /// Every double is a decimal fraction of so many places.
 const EXACT_PLACES: usize = 1_074;
 
-/// Significant digits where none are asked for: more than 106 bits hold.
+/// Significant digits if no precision is requested: more than 106 bits hold.
 const SIGNIFICANT_DIGITS: i32 = 33;
 
 /// The largest and smallest power of ten of a number that is read.
@@ -38,7 +38,7 @@ fn digits_of_sum(a: f64, b: f64) -> (usize, Vec<u8>) {
     (whole, sum)
 }
 
-/// Keeps so many digits, rounded half up; a carry out of the first digit is given back.
+/// Keeps so many digits, rounded half up; returns the carry out of the first digit.
 fn rounded(digits: &mut Vec<u8>, keep: usize) -> bool {
     let up = digits.get(keep).is_some_and(|&digit| digit >= 5);
     digits.resize(keep, 0);
@@ -86,7 +86,8 @@ impl FromStr for DoubleDouble {
     /// Reads a decimal number like `-1.25e-3`.
     ///
     /// # Errors
-    /// [`Error::NoDecimal`] for what is none; [`Error::OutOfRange`] for one outside of 1e-250 to 1e280 that is not zero.
+    /// [`Error::NoDecimal`] for a text that is no decimal number; [`Error::OutOfRange`] for a number outside
+    /// of 1e-250 to 1e280 that is not zero.
     fn from_str(text: &str) -> Result<Self, Error> {
         let bad = |at: usize| Error::NoDecimal { at };
         let bytes = text.as_bytes();
@@ -97,7 +98,7 @@ impl FromStr for DoubleDouble {
         while let Some(&byte) = bytes.get(at) {
             match byte {
                 b'0'..=b'9' => {
-                    // What lies beyond 40 digits is less than the number holds.
+                    // Digits beyond the 40th are smaller than the number can hold.
                     if value.high < 1.0e40 {
                         value = value * ten + Self::from(f64::from(byte - b'0'));
                         power -= i32::from(point);

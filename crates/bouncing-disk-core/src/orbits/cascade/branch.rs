@@ -84,13 +84,13 @@ fn power<R: Real>(base: R, exponent: usize) -> R {
     result
 }
 
-/// The determinant of the derivative around an orbit of so many impacts. What underflows is nothing.
+/// The determinant of the derivative around an orbit of so many impacts. If it underflows, it is zero.
 fn determinant<R: Real>(restitution: R, impacts: usize) -> R {
     let tiny = pow(restitution.value(), 2.0 * impacts as f64) < 1.0e-60;
     if tiny { R::of(0.0) } else { power(restitution, 2 * impacts) }
 }
 
-/// What is held while an orbit is corrected.
+/// The quantity that is held while an orbit is corrected.
 #[derive(Debug, Clone, Copy)]
 enum Held<R> {
     /// The peak acceleration.
@@ -99,7 +99,7 @@ enum Held<R> {
     Amplitude(R, usize),
 }
 
-/// Newton's iteration for an orbit; what it ends with is as near as rounding lets it come.
+/// Newton's iteration for an orbit, to the accuracy that rounding allows.
 fn settle<R: Real>(
     (mut times, mut peak): (ImpactTimes<R>, R),
     restitution: R,
@@ -188,7 +188,7 @@ pub(crate) fn first_flip<R: Real>(restitution: R, tick: Tick<'_>) -> Result<Flip
     let threshold = core::f64::consts::PI * (1.0 - r) / (1.0 + r);
     let known = 2.0 * (1.0 + r * r) / ((1.0 + r) * (1.0 + r));
     let expected = (threshold * threshold + known * known).sqrt();
-    // The closed form in doubles is where the search begins; what it finds is not taken from there.
+    // The search begins at the closed form in doubles, but its result does not depend on it.
     let at = |peak: R, tick: Tick<'_>| {
         let phase = R::of(acos((threshold / peak.value()).min(1.0)));
         let seed = ImpactTimes { phases: vec![phase], periods: vec![1] };
@@ -232,7 +232,7 @@ struct DoubledBranch<'p, R> {
     determinant: R,
 }
 
-/// What is known of a doubled orbit at one amplitude.
+/// A doubled orbit at one amplitude.
 struct Doubled<R> {
     times: ImpactTimes<R>,
     peak: R,
@@ -293,7 +293,7 @@ pub(crate) fn next_flip<R: Real>(
     let mut halvings = 0;
     let mut known = loop {
         match branch.at(square.sqrt(), None, tick) {
-            // An amplitude beyond the next doubling is as good, as far as the branch goes.
+            // An amplitude beyond the next doubling will do, too, as long as the branch reaches it.
             Ok(doubled) => break doubled,
             Err(stopped @ Error::Stopped { .. }) => return Err(stopped),
             Err(error) if halvings == MAX_HALVINGS => return Err(error),

@@ -40,9 +40,8 @@ pub struct FeigenbaumEstimate {
     pub alpha_error: f64,
 }
 
-/// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision; a
-/// precision given is
-/// the number of decimals of the constants.
+/// `delta = 4.66920160910 +- 3e-10, alpha = 2.50290787600 +- 3e-8, from 13 doublings` in extended precision;
+/// a precision given is the number of decimals of the constants.
 impl core::fmt::Display for FeigenbaumEstimate {
     fn fmt(&self, formatter: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         let decimals = formatter.precision().unwrap_or(11);

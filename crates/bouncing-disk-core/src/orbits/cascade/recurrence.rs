@@ -3,7 +3,7 @@
 //! Two impacts at the phases a and b, a flight of h = b - a + 2 pi k apart, determine the flight between
 //! them: with D = (sin b - sin a)/h the disk leaves with the speed P D + h/2 and arrives with P D - h/2. The
 //! law of restitution at every impact is then one equation in three successive times, and its linearisation a
-//! three-term recurrence. Nothing is solved for within a flight, which takes one sine and cosine.
+//! three-term recurrence. A flight needs one sine and cosine, and no equation has to be solved for it.
 
 use crate::numerics::real::Real;
 
@@ -40,8 +40,8 @@ pub(crate) struct Equations<R> {
 /// A 2x2 matrix by columns.
 type Columns<R> = [[R; 2]; 2];
 
-/// What solves the equations but for the closing: from (change before, change at the first impact) to the
-/// same a turn later.
+/// The solution of all equations except the closing one: it takes the changes at the impact before the first
+/// and at the first to the same changes one turn later.
 struct Transfer<R> {
     /// The changes that a unit change of either would make, one after the other.
     homogeneous: [Vec<R>; 2],
@@ -105,8 +105,7 @@ impl<R: Real> ImpactTimes<R> {
 }
 
 impl<R: Real> Equations<R> {
-    /// Whether every number in them is one, and every flight one that leaves the platform and comes back to
-    /// it.
+    /// Whether all numbers are finite, and every flight leaves the platform and comes back to it.
     pub(crate) fn are_of_flights(&self) -> bool {
         let zero = R::of(0.0);
         self.flights.iter().all(|&(launch, duration)| launch > 0.0 && duration > 0.0 && duration.is_finite())
@@ -177,7 +176,7 @@ impl<R: Real> Equations<R> {
         let [first, second] = transfer.monodromy();
         let n = self.of_impacts.len();
         let one = R::of(1.0);
-        // (1 - M) y = what the right side has made of nothing in one turn.
+        // (1 - M) y = the change that the right side makes of zero in one turn.
         let (a, b, c, d) = (one - first[0], -second[0], -first[1], one - second[1]);
         let determinant = a * d - b * c;
         let [by_residual, by_peak] = [0, 1].map(|k| {

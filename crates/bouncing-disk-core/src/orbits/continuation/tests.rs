@@ -26,8 +26,8 @@ fn node(k: u64, restitution: f64, above: f64) -> (ImpactMap, PeriodicOrbit) {
     (map, orbit)
 }
 
-/// Every point is an orbit of the map, also the last one before a graze, and so is every bifurcation within the branch; the
-/// invariants of points are those of their derivatives.
+/// Every point is an orbit of the map, also the last one before a graze, and so is every bifurcation within
+/// the branch; the invariants of points are those of their derivatives.
 fn check_points(branch: &Branch) {
     let mut arclength = -1.0;
     let within =
@@ -145,8 +145,9 @@ fn a_doubled_orbit_is_born_in_the_doubling() {
     assert!((last.parameter - birth.point.parameter).abs() < 1e-2 && last.orbit.period() == 2);
 }
 
-/// The largest and the smallest steps, near the elastic limit and far from it: a branch turns at its fold, however near to it its
-/// range ends beyond, and ends at the end of its range, however near before. A leap over the fold, to where no orbit is, is none.
+/// The largest and the smallest steps, near the elastic limit and far from it: a branch turns at its fold,
+/// however near to it its range ends beyond, and ends at the end of its range, however near before. A leap
+/// over the fold, to where no orbit is, is none.
 #[test]
 fn a_range_ends_a_branch_on_its_own_side_of_the_fold_only() {
     for (r, k) in [(0.3, 1), (0.8, 2), (0.99, 1), (0.999_999, 1), (1.0 - 1e-9, 1), (1.0 - 1e-12, 3)] {

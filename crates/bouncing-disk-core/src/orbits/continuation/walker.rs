@@ -30,8 +30,8 @@ const GROWTH: f64 = 1.5;
 /// Halvings until the bracket of a special point is at the rounding of the arclength.
 pub(super) const HALVINGS: u32 = 56;
 
-/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a strongly unstable orbit,
-/// far below the distance of two curves that doubles can tell apart.
+/// The distance (scaled) up to which two points are neighbours on one curve: the rounding of a point on a
+/// strongly unstable orbit, far below the distance of two curves that doubles can tell apart.
 pub(super) const NEIGHBOURS: f64 = 1.0e-9;
 
 /// By how much the duration of a flight (rad) may differ from the one that the map finds.
@@ -63,7 +63,7 @@ struct Start {
     direction: [f64; 3],
 }
 
-/// What a branch does in one step.
+/// The course of a branch in one step.
 #[derive(Debug)]
 struct Stretch {
     /// Where the step ends: at the next point, or where the branch ends before it.
@@ -213,8 +213,9 @@ impl<'s> Walker<'s> {
         Ok(Branch { parameter: closing.by, map: closing.map, points, bifurcations, end })
     }
 
-    /// What the branch does from `base` to `next`, as far as it goes. `None` if the step is too long to tell: every change
-    /// along a curve lies between two neighbouring points of it, and one that does not is a leap to another curve.
+    /// The course of the branch from `base` to `next`, as far as it goes. `None` if the step is too long to
+    /// see it: every change along a curve lies between two neighbouring points of it; one that does not is a
+    /// leap to another curve.
     fn stretch(&self, base: &Located, next: &Located) -> Result<Option<Stretch>, Error> {
         // Where the parameter turns back: only there it may leave its range and return to it within a step.
         let turn = match self.halves(base, next)? {
@@ -255,7 +256,7 @@ impl<'s> Walker<'s> {
             last = within;
         }
         if last.arclength > base.arclength && self.obstacle(&last.at)?.is_some() {
-            // Rarely an orbit is lost and regained within a step: what comes first counts.
+            // Rarely an orbit is lost and regained within a step: then the first of the two counts.
             let free = |located: &Located| Ok(self.obstacle(&located.at)?.is_none());
             let Some((free, beyond)) = self.change(base, &last, free)? else { return Ok(None) };
             found.retain(|turn| turn.kind == BifurcationKind::Fold && turn.point.arclength <= free.arclength);
@@ -263,22 +264,23 @@ impl<'s> Walker<'s> {
                 found.push(Bifurcation { kind, point });
             }
             end = Some(BranchEnd::Bifurcation);
-            // There rounding decides which impact is the first: the points end with the last orbit that the map confirms.
+            // There rounding decides which impact is the first: the points end with the last orbit that the
+            // map confirms.
             let confirmed = |located: &Located| self.is_confirmed(&located.at);
             last = if confirmed(&free)? { free } else { self.bracket(base, &free, confirmed)?.0 };
         }
         let Some(doubling) = self.doubling(base, &last)? else { return Ok(None) };
         found.extend(doubling);
         found.sort_by(|a, b| a.point.arclength.total_cmp(&b.point.arclength));
-        // Next to its birth an orbit of 2m impacts is one of m as far as doubles tell.
+        // Next to its birth doubles cannot distinguish an orbit of 2m impacts from one of m.
         if found.last().is_some_and(|last| last.kind == BifurcationKind::Birth) {
             last = base.clone();
         }
         Ok(Some(Stretch { last, found, end }))
     }
 
-    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1 within rounding at the
-    /// second one, or is so at the start of the branch.
+    /// The doubling between two points, if there is one: where a multiplier passes -1 between them, is -1
+    /// within rounding at the second one, or is so at the start of the branch.
     fn doubling(&self, base: &Located, next: &Located) -> Result<Option<Option<Bifurcation>>, Error> {
         let (Some(before), Some(after)) = (self.point(base)?, self.point(next)?) else {
             return Ok(Some(None));
@@ -324,8 +326,8 @@ impl<'s> Walker<'s> {
             .fold(parameter, |most, (a, b)| most.max((a.x - b.x).abs()).max((a.y - b.y).abs() / scale.speed))
     }
 
-    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the way to
-    /// `next`. A point that is not found does not have it.
+    /// The last point with a property that holds at `base`, and the first one without it, by halvings of the
+    /// way to `next`. A point that is not found does not have it.
     pub(super) fn bracket(
         &self,
         base: &Located,
@@ -347,7 +349,7 @@ impl<'s> Walker<'s> {
         Ok((last, beyond))
     }
 
-    /// What makes it no orbit of the map.
+    /// The reason why it is no orbit of the map.
     fn obstacle(&self, at: &Closed) -> Result<Option<BifurcationKind>, Error> {
         let map = self.closing.map_at(at.parameter)?;
         let velocities = self.closing.velocities(at);
@@ -436,23 +438,23 @@ fn flip(point: &BranchPoint) -> f64 {
     if flip.abs() <= rounding { 0.0 } else { flip }
 }
 
-// Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that one. Its own
-// equations have two branches there, so that the place is sought on the other branch.
+// Where an orbit of 2m impacts is born by the doubling of one of m, both of its halves become that orbit. Its
+// own equations have two branches there, so the code locates the birth on the other branch.
 
-/// The distance of the halves (rad, units of 1 + P) up to which an orbit is the repetition of one half as far as its forcing tells:
-/// that grows with the square of the distance.
+/// The distance of the halves (rad, units of 1 + P) below which the forcing does not distinguish an orbit
+/// from the repetition of one half: the difference of the forcings grows with the square of this distance.
 const REPEATED: f64 = 1.0e-6;
 
-/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations determine the
-/// forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
+/// The distance of the halves up to which an orbit on its way to the birth is as good as there. The equations
+/// determine the forcing to the rounding by this distance; on the shorter orbit they do so to the rounding.
 const CLOSE: f64 = 1.0e-5;
 
-/// The doubling of the shorter orbit is sought this far from the last point, in units of the parameter's scale, and up to
-/// so many times twice as far.
+/// The search for the doubling of the shorter orbit begins this far from the last point, in units of the
+/// parameter's scale, and doubles the distance at most so often.
 const NEAREST: f64 = 1.0e-10;
 const WIDENINGS: u32 = 26;
 
-/// What the halves of an orbit do between two points.
+/// The behaviour of the halves of an orbit between two points.
 #[derive(Debug)]
 enum Halves {
     /// They stay apart.
@@ -464,8 +466,8 @@ enum Halves {
 }
 
 impl Walker<'_> {
-    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an odd number of
-    /// impacts.
+    /// The distance of each impact of the second half from that of the first, up to whole turns; none for an
+    /// odd number of impacts.
     fn apart(&self, at: &Closed) -> Vec<DVec2> {
         let (n, speed) = (at.impacts.len(), self.closing.scale.speed);
         let pairs = at.impacts[..n / 2].iter().zip(&at.impacts[n / 2..]);
@@ -473,13 +475,13 @@ impl Walker<'_> {
         if n.is_multiple_of(2) { pairs.map(turned).collect() } else { Vec::new() }
     }
 
-    /// Whether an orbit is a shorter one, gone through twice, as far as its forcing can tell.
+    /// Whether the forcing does not distinguish an orbit from a shorter one that is passed twice.
     fn is_repeated(&self, at: &Closed) -> bool {
         at.impacts.len().is_multiple_of(2) && largest(&self.apart(at)) <= REPEATED
     }
 
-    /// Whether and where the halves of the orbit meet between two points. Beyond such a point the branch comes back with its
-    /// halves swapped.
+    /// Whether and where the halves of the orbit meet between two points. Beyond such a point the branch
+    /// comes back with its halves swapped.
     fn halves(&self, base: &Located, next: &Located) -> Result<Halves, Error> {
         let before = self.apart(&base.at);
         let as_before = |located: &Located| {

@@ -5,7 +5,7 @@ use crate::numerics::error::{Error, within};
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::run::Unobserved;
 
-/// Steps of the arclength where a part is gone through for the first time, to learn how long it is.
+/// Steps of the arclength in a first pass through a part, which measures its length.
 const FIRST_STEP: f64 = 0.01;
 const LARGEST_STEP: f64 = 0.05;
 
@@ -33,11 +33,11 @@ impl Known {
 }
 
 impl Branch {
-    /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each continued
-    /// anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part, however narrow the range is
-    /// (the smallest step is an arclength of 1e-9). The arclengths are those of the parts. Fewer lie on a part that ends in a birth
-    /// by doubling and is short: close to it the two halves of the orbit are indistinguishable, and the birth
-    /// follows at once.
+    /// The parts of the branch with their parameter in [`low`, `high`], in the order of the arclength, each
+    /// continued anew with steps that are a share of it: at least `points` of them in [2, 1e4] on a part,
+    /// however narrow the range is (the smallest step is an arclength of 1e-9). The arclengths are those of
+    /// the parts. Fewer lie on a part that ends in a birth by doubling and is short: close to it the two
+    /// halves of the orbit are indistinguishable, and the birth follows at once.
     ///
     /// The range only selects: it neither begins nor ends a branch. The birth by doubling that ends a branch
     /// is part of it, as the halved orbit run through twice.
@@ -57,14 +57,14 @@ impl Branch {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for an empty range or the number of points; those of [`ImpactMap::continued`] but for
-    /// [`Error::NoBranch`]: a part that is not found again has the points of this branch.
+    /// [`Error::OutOfRange`] for an empty range or the number of points; those of [`ImpactMap::continued`]
+    /// but for [`Error::NoBranch`]: a part that is not found again has the points of this branch.
     ///
     /// [`ImpactMap::continued`]: crate::ImpactMap::continued
     pub fn within(&self, (low, high): (f64, f64), points: usize) -> Result<Vec<Vec<BranchPoint>>, Error> {
         within("high end of a range", high, low.next_up(), f64::MAX, "(low end, inf)")?;
         within("points of a part", points as f64, 2.0, 1.0e4, "[2, 1e4]")?;
-        // The branch ends where its own range does, also when it is gone along again.
+        // The branch ends where its own range does, also in a second pass.
         let (mut low, mut high) = (low, high);
         if let BranchEnd::RangeLimit(limit) = self.end {
             let below = self.points.iter().all(|point| point.parameter <= limit);
@@ -118,7 +118,8 @@ impl Branch {
         known
     }
 
-    /// The part of the branch between the first and the last of these points that lies in a range: all but these two do.
+    /// The part of the branch between the first and the last of these points that lies in a range: all but
+    /// these two do.
     fn part(
         &self,
         known: &[Known],
@@ -128,7 +129,7 @@ impl Branch {
         let inside = |one: &Known| (low..=high).contains(&one.at());
         let last = known.len() - 1;
         let towards = |from: usize, to: usize| known[to].at() > known[from].at();
-        // From the beginning of the branch there is one way only, and it is not left by going back.
+        // From the beginning of the branch there is only one way, so going back does not leave it.
         if inside(&known[0]) && known[0].begins {
             return self.fine(&known[0].point, towards(0, 1), (low, high), points).map(Some);
         }
@@ -153,8 +154,8 @@ impl Branch {
             } else {
                 let (at, edge) = (known[from].at(), if rising { low } else { high });
                 let settings = Continuation::new(self.parameter, (at.min(edge), at.max(edge)), rising)?;
-                // At a fold the parameter goes with the square of the arclength: a longer step could leap over the range, and
-                // come back on the other side.
+                // At a fold the parameter goes with the square of the arclength: a longer step could leap
+                // over the range, and come back on the other side.
                 let gap = (known[to].point.arclength - known[from].point.arclength).abs();
                 let share = ((edge - known[to].at()) / (at - known[to].at())).abs();
                 let step = (0.5 * gap * share.sqrt()).clamp(SMALLEST_STEP, LARGEST_STEP);
@@ -200,7 +201,7 @@ impl Branch {
     }
 }
 
-/// An orbit gone through twice: what a doubled one is at its birth.
+/// An orbit passed twice, which a doubled orbit is at its birth.
 fn twice(point: &BranchPoint) -> BranchPoint {
     let PeriodicOrbit { states, platform_periods, monodromy, position_error, trace_error } = &point.orbit;
     let orbit = PeriodicOrbit {

@@ -12,8 +12,8 @@ use crate::numerics::bordered_cyclic::{Border, CyclicEquations};
 use crate::numerics::double_double::DoubleDouble;
 use crate::orbits::closing::{Closed, Closing, ContinuationParameter};
 
-/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a multiplier
-/// is next to 1 or -1: then their own uncertainty decides.
+/// Two orbits whose impacts agree within this much (rad, and relative speed) count as one, unless a
+/// multiplier is next to 1 or -1: then their own uncertainty decides.
 pub(crate) const SAME: f64 = 1.0e-6;
 
 /// Relative to the derivative's size, 1 - T + D or 1 + T + D below which a multiplier is next to 1 or -1.
@@ -72,7 +72,8 @@ impl Equations {
         })
     }
 
-    /// What rounding of the forcing and the restitution, by one unit of the last place, moves: to first order.
+    /// The displacement by a change of the forcing and the restitution by one unit in the last place, to
+    /// first order.
     fn moved_by_parameters(&self, equations: &CyclicEquations, at: &Closed) -> Option<Vec<DVec2>> {
         let r = self.map.restitution();
         let mut by_restitution = self.closing.clone();
@@ -100,7 +101,7 @@ impl Equations {
         Some(around.x_axis.x + around.y_axis.y)
     }
 
-    /// What the exact equations leave at impacts in double-doubles.
+    /// The residual of the exact equations at impacts in double-doubles.
     fn residuals(&self, impacts: &[[DoubleDouble; 2]]) -> Vec<DVec2> {
         let p = DoubleDouble::from(self.map.vibration().peak_acceleration());
         let r = DoubleDouble::from(self.map.restitution());
@@ -143,8 +144,8 @@ fn solved(equations: &CyclicEquations, right: Vec<DVec2>) -> Vec<DVec2> {
     CyclicEquations { right, ..equations.clone() }.solve(border).0
 }
 
-/// The impacts of an orbit next to a fold, or next to the doubling that it is born in, by Newton's method with
-/// residuals in double-doubles; `None` where there is no orbit.
+/// The impacts of an orbit next to a fold, or next to the doubling that it is born in, by Newton's method
+/// with residuals in double-doubles; `None` where there is no orbit.
 ///
 /// With residuals in doubles an error of 1e-16 is divided by the distance of a multiplier from 1. Without a
 /// solution an orbit still counts whose residual is within the rounding of the parameters: it exists for a
@@ -196,8 +197,8 @@ pub(super) fn errors(map: &ImpactMap, states: &[ImpactState], monodromy: DMat2) 
     }
 }
 
-/// The errors by what moves an orbit: the parameters, and of an `isolated` one, which is not polished, what its
-/// equations leave. The trace of the sequence is known to `rounding`.
+/// The errors of an orbit by the rounding of its parameters and, for an `isolated` orbit, which is not
+/// polished, by the residual of its equations. The trace of the sequence is known to `rounding`.
 fn measured_errors(
     map: &ImpactMap,
     states: &[ImpactState],
@@ -217,14 +218,14 @@ fn measured_errors(
     if isolated {
         length += own.length(&solved(&equations, equations.right.clone()));
     }
-    // Whatever is pushed in no particular way moves along the weak direction.
+    // Under a push in a generic direction the solution moves along the weak direction.
     let moved = solved(&equations, (0..states.len()).map(|i| DVec2::new(1.0 + i as f64, 1.0)).collect());
     let most = own.length(&moved);
     if !(length.is_finite() && most > 0.0 && most.is_finite()) {
         return None;
     }
     let direction = Closed { impacts: moved.iter().map(|part| *part / most).collect(), parameter: 0.0 };
-    // What the parameters change in the equation of the weak direction, (1 - T + D) t = push.
+    // The change by the parameters in the equation of the weak direction, (1 - T + D) t = push.
     let push = distance * length;
     let [up, down] = [DIFFERENCE, -DIFFERENCE].map(|by| own.trace(&own.at.moved(&direction, by)));
     let (up, down) = (up?, down?);
@@ -286,8 +287,9 @@ mod tests {
         map.periodic_orbits(&search.expect("legal"), &Unobserved).expect("no failure").orbits
     }
 
-    /// At the doubling of the orbit of one impact: which orbits of two impacts lie beside it, and whether they and
-    /// it attract, against the normal form, whose amplitude is that at 1e-6 times the root of the distance.
+    /// At the doubling of the orbit of one impact: which orbits of two impacts lie beside it, and whether
+    /// they and it attract, against the normal form, whose amplitude is that at 1e-6 times the root of the
+    /// distance.
     #[test]
     fn beside_a_doubling_there_are_the_orbits_of_the_normal_form() {
         for (restitution, impacts) in [(0.3, 2), (0.5, 4), (0.8, 2)] {
@@ -336,8 +338,8 @@ mod tests {
         }
     }
 
-    /// At the fold of the orbits of one impact the search by iteration finds what the closed form says: a node and a saddle
-    /// above it, none below, and one marginal orbit where rounding decides.
+    /// At the fold of the orbits of one impact the search by iteration finds what the closed form says: a
+    /// node and a saddle above it, none below, and one marginal orbit where rounding decides.
     #[test]
     fn beside_a_fold_there_are_two_orbits_or_none() {
         for restitution in [0.1, 0.3, 0.5, 0.8, 0.95, 0.999] {

@@ -1,23 +1,49 @@
-//! Newton's method from a rough guess, as the search for periodic orbits uses it: it gives up early.
+//! Newton's method for periodic orbits, by multiple shooting: the refinement of a good guess, and attempts
+//! from a rough one, as the search for periodic orbits makes them, which give up early.
+
+use core::f64::consts::PI;
+
+use glam::{DMat2, DVec2};
 
 use super::margin::{SAME, next_to_margin};
-use super::{PeriodicOrbit, phase_difference};
+use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, phase_difference};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::block_cyclic::solve_block_cyclic;
-use crate::numerics::error::Error;
+use crate::numerics::error::{Error, within};
 use crate::orbits::closing::{Closing, ContinuationParameter, Plane};
+use crate::run::Tick;
 
-/// Newton steps from a guess until [`ImpactMap::refine`] takes over or the guess is given up.
+/// A shooting residual (rad, units of g/omega, relative to the orbit's speeds) at which the orbit counts as
+/// found.
+const SHOOTING_RESIDUAL: f64 = 1.0e-12;
+
+/// Most Newton steps from a rough guess, after which [`ImpactMap::refine`] takes over or the guess is
+/// abandoned.
 pub(super) const MAX_STEPS: usize = 14;
 
-/// The residual from which the iteration converges quadratically: the refinement does the rest.
+/// The residual from which on the iteration converges quadratically, so that the refinement takes over.
 const NEAR: f64 = 1.0e-5;
 
-/// The longest step of a phase (rad): a longer one is shortened, and all of that iteration with it.
+/// The longest step of a phase (rad) from a rough guess. A longer one is shortened, with all steps of that
+/// iteration.
 const LONGEST_STEP: f64 = 0.7;
 
-/// What became of a guess.
+/// One step of the multiple shooting.
+pub(super) struct Shooting {
+    /// The derivative of the map at each impact.
+    derivatives: Vec<DMat2>,
+    /// How far the successor of each impact misses the next one: the step has to make up for it.
+    right: Vec<DVec2>,
+    /// The derivative of the map around the orbit.
+    pub(super) monodromy: DMat2,
+    /// Turns of the phase around the orbit.
+    turns: u64,
+    /// The largest distance of a successor from its target.
+    worst: f64,
+}
+
+/// The outcome of an attempt from a rough guess.
 pub(super) enum Attempt {
     /// A periodic orbit within the limits that repeats no shorter one, its fastest impact first.
     Converged(PeriodicOrbit),
@@ -51,14 +77,117 @@ pub(super) fn prime_period(states: &[ImpactState], room: f64) -> usize {
 }
 
 impl ImpactMap {
+    /// The periodic orbit next to `guess` (its impacts in order), by multiple shooting: every impact is an
+    /// unknown, so that long and unstable orbits converge.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an empty guess or one longer than [`MAX_PERIOD`]; [`Error::NotSettled`] if
+    /// Newton's iteration does not converge; [`Error::ImpactWithoutSpeed`] and [`Error::NoPlatformPeriods`]
+    /// if it converges to a disk at rest; those of
+    /// [`Vibration::first_impact`](crate::Vibration::first_impact).
+    pub fn refine(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
+        self.refine_ticked(guess, &mut |_| Ok(()))
+    }
+
+    /// [`Self::refine`] as a part of a longer call; the tick counts impacts.
+    pub(crate) fn refine_ticked(
+        &self,
+        guess: &[ImpactState],
+        tick: Tick<'_>,
+    ) -> Result<PeriodicOrbit, Error> {
+        let n = guess.len();
+        within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
+        let mut states = guess.to_vec();
+        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
+        let mut residual = f64::INFINITY;
+        // The last result below the residual, if a later step is worse: at the birth of an orbit the
+        // derivative is singular.
+        let mut found = None;
+        let not_settled =
+            |iterations, residual| Error::NotSettled { what: "multiple shooting", iterations, residual };
+        let accepted = |orbit: PeriodicOrbit| {
+            orbit.check_motion()?;
+            let residual = orbit.position_error;
+            self.exact_orbit(orbit).ok_or_else(|| not_settled(MAX_NEWTON_STEPS, residual))
+        };
+        for iterations in 1..=MAX_NEWTON_STEPS {
+            tick(n as u64)?;
+            let Shooting { derivatives, right, monodromy, turns, worst } = match self.shoot(&states, scale) {
+                Ok(shooting) => shooting,
+                Err(error) => return found.map_or(Err(error), accepted),
+            };
+            let orbit = || PeriodicOrbit {
+                states: states.clone(),
+                platform_periods: turns,
+                monodromy,
+                position_error: worst,
+                trace_error: 0.0,
+            };
+            // A step after the residual has stopped shrinking only stirs the rounding.
+            if worst <= SHOOTING_RESIDUAL && worst >= 0.5 * residual || worst == 0.0 {
+                return accepted(orbit());
+            }
+            if worst <= SHOOTING_RESIDUAL {
+                found = Some(orbit());
+            } else if let Some(found) = found {
+                return accepted(found);
+            }
+            residual = worst;
+            let steps = solve_block_cyclic(&derivatives, &right);
+            let moved = states.iter().zip(&steps).map(|(state, step)| {
+                let angle = state.phase().angle() + step.x;
+                let velocity = (state.velocity() + step.y).min(0.0);
+                ImpactState::new(Phase::new(angle)?, velocity)
+            });
+            states = match moved.collect::<Result<_, _>>() {
+                Ok(states) => states,
+                Err(_) => return found.map_or(Err(not_settled(iterations, residual)), accepted),
+            };
+        }
+        found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
+    }
+
+    /// One step of the multiple shooting from these impacts; distances of speeds count in units of `scale`.
+    pub(super) fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
+        let n = states.len();
+        let mut shooting = Shooting {
+            derivatives: Vec::with_capacity(n),
+            right: Vec::with_capacity(n),
+            monodromy: DMat2::IDENTITY,
+            turns: 0,
+            worst: 0.0,
+        };
+        let mut turns = 0;
+        for (i, &state) in states.iter().enumerate() {
+            let (impact, derivative) = self.step_with_derivative(state)?;
+            shooting.monodromy = derivative * shooting.monodromy;
+            turns += impact.turns as i64;
+            let target = states[(i + 1) % n];
+            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
+            let phase = phase_difference(landed, aimed);
+            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            if landed - aimed > PI {
+                turns += 1;
+            } else if aimed - landed > PI {
+                turns -= 1;
+            }
+            let velocity = impact.velocity - target.velocity();
+            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
+            shooting.derivatives.push(derivative);
+            shooting.right.push(DVec2::new(-phase, -velocity));
+        }
+        shooting.turns = turns.max(0) as u64;
+        Ok(shooting)
+    }
+
     /// Whether an impact is proven to be followed by rest.
     pub(crate) fn rests_after(&self, state: ImpactState) -> bool {
         let speed = 0.0 - self.restitution() * state.velocity();
         self.vibration().accumulation(state.phase(), speed, self.restitution()).is_some()
     }
 
-    /// The periodic orbit near a guess, once around: of a guess that nearly repeats itself the shorter orbit,
-    /// unless that is next to its doubling and the guess leads to the doubled one.
+    /// The periodic orbit near a guess, with its least period: if the guess nearly repeats a shorter orbit,
+    /// this one, except next to a doubling, if the guess leads to the doubled orbit.
     pub(crate) fn prime_orbit(&self, guess: &[ImpactState]) -> Result<PeriodicOrbit, Error> {
         let prime = prime_period(guess, SAME);
         let mut orbit = self.refine(&guess[..prime])?;
@@ -70,7 +199,7 @@ impl ImpactMap {
         if repeated < orbit.period() { self.refine(&orbit.states[..repeated]) } else { Ok(orbit) }
     }
 
-    /// The periodic orbit near a guess.
+    /// The periodic orbit near a rough guess.
     pub(super) fn attempt(&self, guess: &[ImpactState], max_platform_periods: u64) -> Attempt {
         let Some(states) = self.approached(guess).or_else(|| self.approached_smoothly(guess)) else {
             return Attempt::NotSettled;
@@ -101,7 +230,7 @@ impl ImpactMap {
         Attempt::Converged(orbit)
     }
 
-    /// Impacts that nearly close to an orbit, by Newton steps from a guess; `None` if they do not.
+    /// The impacts of a nearly closed orbit, by Newton steps from a guess; `None` if it does not converge.
     fn approached(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
         let mut states = guess.to_vec();
         for _ in 0..MAX_STEPS {
@@ -124,8 +253,8 @@ impl ImpactMap {
         None
     }
 
-    /// The same by the equations that do not ask whether an earlier impact forestalls a flight: where the map
-    /// jumps they are smooth, and whether the solution is an orbit of the map is seen when it is refined.
+    /// The same by the smooth equations, which ignore that an earlier impact may end a flight: they do not
+    /// jump where the map does. The refinement shows whether the solution is an orbit of the map.
     fn approached_smoothly(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
         let (closing, at) = Closing::of(self, ContinuationParameter::Forcing, guess).ok()?;
         let plane = Plane { normal: [0.0, 0.0, 1.0], base: closing.scaled(&at), distance: 0.0 };

@@ -8,9 +8,9 @@ use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::error::Error;
 
-/// By how much, relative to the flight, the first impact may come early and still be the one that the closed
-/// form has. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight
-/// under the largest P.
+/// By how much, relative to the flight, the first impact may come early and still count as that of the closed
+/// form. Its root is simple: an earlier one is at least 2 |w_A|/(1 + P) away, which is 3e-8 of a flight under
+/// the largest P.
 const SAME_IMPACT: f64 = 1.0e-9;
 
 /// One of the two orbits with one impact every k periods of the platform, in closed form.

@@ -106,7 +106,7 @@ pub struct OrbitCoverage {
     /// g/omega).
     pub impact_speed_bound: f64,
     /// An orbit with the most impacts that were searched for cannot take more periods of the platform than
-    /// this: where the search's own limit is not below it, no orbit is left out for its length.
+    /// this: if the limit of the search is not below it, the search omits no orbit for its length.
     pub longest_platform_periods: u64,
     /// Starts, on a grid of cells over all phases and all impact speeds up to the bound.
     pub starts: u64,
@@ -142,7 +142,7 @@ pub struct OrbitsFound {
     pub coverage: OrbitCoverage,
 }
 
-/// What the starts of one phase gave.
+/// The results of the starts at one phase.
 struct Row {
     catalogue: Catalogue,
     coverage: OrbitCoverage,
@@ -155,11 +155,11 @@ impl ImpactMap {
     /// method on all impacts at once, from the first 1, 2, ... impacts of orbits that start on a grid over
     /// all impacts that a periodic orbit can have ([`Self::impact_speed_bound`]). The exact map decides where
     /// a flight ends, so that a converged solution is an orbit of it. A search from a grid cannot prove that
-    /// it is complete: [`OrbitCoverage`] tells what was tried, and whether half the resolution would have
-    /// found the same.
+    /// it is complete: [`OrbitCoverage`] states which starts were tried, and whether half the resolution
+    /// would have found the same.
     ///
-    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a doubling
-    /// they do if their [errors](PeriodicOrbit::position_error) overlap.
+    /// Two orbits whose impacts agree within 1e-6 (rad, and relative speed) count as one; next to a fold or a
+    /// doubling they do if their [errors](PeriodicOrbit::position_error) overlap.
     ///
     /// The items of `observer` are the starts.
     ///
@@ -222,8 +222,8 @@ impl ImpactMap {
         column: u32,
         mut work: WorkCount<'_>,
     ) -> Result<Row, Error> {
-        // The count begins anew with each row: without this, short rows never asked, and after a stop each further row
-        // went on until it asked.
+        // The count begins anew with each row: without this, short rows never asked, and after a stop each
+        // further row went on until it asked.
         work.watch().ask()?;
         let mut row = Row { catalogue: Catalogue::default(), coverage: limits.coverage(search) };
         let phase = Phase::new(TAU * (f64::from(column) + 0.5) / f64::from(search.phases))?;

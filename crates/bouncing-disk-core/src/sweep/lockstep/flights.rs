@@ -15,18 +15,19 @@ use crate::sweep::lockstep::lanes::{
 
 /// A loop over lanes that [`Flights::run`] compiles for the vector instructions of the processor.
 ///
-/// Give the implementation of [`Self::run`], and what it calls, the attribute `#[inline(always)]`: a function that is called
-/// is compiled for the baseline.
+/// Give the implementation of [`Self::run`], and what it calls, the attribute `#[inline(always)]`: a function
+/// that is called is compiled for the baseline.
 pub trait LaneLoop {
     /// The loop.
     fn run(self);
 }
 
-/// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are bit for bit
-/// those of [`Vibration::first_impact`].
+/// Independent flights, computed together: each lane has a platform and a launch of its own. The impacts are
+/// bit for bit those of [`Vibration::first_impact`].
 ///
-/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of batch 1. Setting a lane
-/// or batch that does not exist does nothing, and asking for it gives `None`. The more batches, the better flights of one kind fill the vectors of the processor.
+/// Lanes come in batches of [`Self::LANES`] and are counted through all of them: lane 70 is lane 6 of the
+/// batch 1. Setting a lane or batch that does not exist does nothing, and reading it gives `None`. The more
+/// batches, the better flights of one kind fill the vectors of the processor.
 ///
 /// ```
 /// use bouncing_disk_core::sweep::{Flights, InstructionSet};
@@ -101,8 +102,8 @@ impl Flights {
     /// Largest number of batches.
     pub const MAX_BATCHES: usize = 1 << 16;
 
-    /// At least one batch of lanes on a platform at rest, to be computed with these instructions, or the next lower ones that
-    /// the processor has. The impacts do not depend on them.
+    /// At least one batch of lanes on a platform at rest, to be computed with these instructions, or the next
+    /// lower ones that the processor has. The impacts do not depend on them.
     ///
     /// # Errors
     /// [`Error::TooLarge`] for more than [`Self::MAX_BATCHES`] batches or than there is memory for.
@@ -122,7 +123,8 @@ impl Flights {
         self.batches.len()
     }
 
-    /// Puts a lane on another platform. The first platform of a batch is that of all its lanes, until they get their own.
+    /// Puts a lane on another platform. The first platform of a batch is that of all its lanes, until they
+    /// get their own.
     pub fn set_platform(&mut self, lane: usize, vibration: Vibration) {
         let index = lane / LANES;
         let (Some(batch), Some(placed)) = (self.batches.get_mut(index), self.placed.get_mut(index)) else {
@@ -340,7 +342,8 @@ mod tests {
         }
     }
 
-    /// Launches about as fast as the platform at its fastest, that may dip below it between separation and crest.
+    /// Launches about as fast as the platform at its fastest, that may dip below it between separation and
+    /// crest.
     #[test]
     fn launches_that_dip_are_those_of_single_flights() {
         let vibration = Vibration::new(2.0).expect("legal");

@@ -1,11 +1,11 @@
 //! Many flights in lockstep: the first impacts of [`LANES`] launches, bit for bit those of
 //! [`Vibration::first_impact`].
 //!
-//! The solver of one flight waits for its own results most of the time. Here each step of it is a loop over lanes
-//! that do not depend on each other, short enough for the processor to overlap many of them, and plain enough for
-//! the compiler to turn into vectors of whatever width the processor has ([`InstructionSet`]). A lane takes the
-//! vector path only where every decision on it is the one that the solver of one flight takes; the others are handed to
-//! that solver (docs/numerics/lockstep.md, "Why the bits are the same").
+//! The solver of one flight waits for its own results most of the time. Here each step of it is a loop over
+//! lanes that do not depend on each other, short enough for the processor to overlap many of them, and plain
+//! enough for the compiler to turn into vectors of whatever width the processor has ([`InstructionSet`]). A
+//! lane takes the vector path only where every decision on it is the one that the solver of one flight takes;
+//! the others are handed to that solver (docs/numerics/lockstep.md, "Why the bits are the same").
 
 mod above;
 mod awaiting;
@@ -150,13 +150,14 @@ pub(crate) struct Impacts {
     pub(crate) cos: Row,
     /// Relative velocity, <= 0.
     pub(crate) velocity: Row,
-    /// How often the phase passed 0 during the flight; stale, like the duration, unless the launch was set ([`Purpose`]).
+    /// How often the phase passed 0 during the flight; stale, like the duration, unless the launch was set
+    /// ([`Purpose`]).
     pub(crate) turns: Row,
     /// Duration of the flight (rad), or [`Impacts::BETWEEN_PHASES`].
     pub(crate) duration: Row,
 }
 
-/// What the lanes fly above.
+/// The platforms above which the lanes fly.
 #[derive(Debug, Clone)]
 enum Ground {
     Shared(Platform),
@@ -167,7 +168,8 @@ enum Ground {
 #[derive(Debug, Clone)]
 pub(crate) struct Batch {
     ground: Ground,
-    /// The impacts, and those before, which the launches of the last flight followed; they change places with every flight.
+    /// The impacts, and those before, which the launches of the last flight followed; they change places with
+    /// every flight.
     impacts: [Impacts; 2],
     last: usize,
     /// Where the launches are: with the impacts that they follow, until they are flown.
@@ -290,7 +292,7 @@ impl Batch {
         (ground, Rows { from, speed, restitution, arcs, impacts })
     }
 
-    /// Sets the impact of a lane: what its next launch starts from.
+    /// Sets the impact of a lane, from which its next launch starts.
     pub(crate) const fn set_impact(&mut self, lane: usize, phase: Phase, velocity: f64) {
         let impacts = self.impacts_mut();
         impacts.angle[lane] = phase.angle();
@@ -367,7 +369,8 @@ impl Arcs {
 }
 
 impl Impacts {
-    /// In place of a duration: what the phases of launch and impact and the turns make it (`flight::landed`).
+    /// In place of a duration: it follows from the phases of launch and impact and the turns
+    /// (`flight::landed`).
     pub(crate) const BETWEEN_PHASES: f64 = -1.0;
 
     const fn new() -> Self {

@@ -42,7 +42,7 @@ pub enum LyapunovOutcome {
     /// The orbit lasted for the requested number of impacts.
     Exponents(LyapunovSpectrum),
     /// The disk came to rest on the platform. The motion after a rest does not depend on the one before, so
-    /// that the orbit of the map has no exponent: [`ImpactMap::verdict`] tells what the disk does.
+    /// that the orbit of the map has no exponent; [`ImpactMap::verdict`] describes the motion of the disk.
     Rested {
         /// Impacts before the rest, those of the transient among them.
         impacts: u64,
@@ -82,12 +82,12 @@ impl TangentFrame {
         let across = self.first.tangent().perp();
         let length = self.first.grow(derivative);
         self.batches.push(length);
-        // What is left of the second direction at right angles to the new first one.
+        // The component of the second direction at right angles to the new first one.
         self.second_sum += ln(self.first.tangent().perp().dot(derivative * across).abs());
     }
 }
 
-/// An orbit whose exponents are sought.
+/// The state of the computation of an orbit's exponents.
 #[derive(Debug, Clone)]
 struct Followed {
     map: ImpactMap,
@@ -141,8 +141,8 @@ impl Followed {
 /// `transient` ones, with the standard error of the largest; for an orbit without exponents the reason. The
 /// orbits are advanced in lockstep.
 ///
-/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the rounding of
-/// its sum.
+/// The largest exponent is that of [`lyapunov_exponents`](crate::chaos::lyapunov_exponents), but for the
+/// rounding of its sum.
 ///
 /// The items of `observer` are the orbits.
 ///

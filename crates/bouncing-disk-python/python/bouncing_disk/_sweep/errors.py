@@ -27,7 +27,7 @@ class FailedPoint(NamedTuple):
     values: dict[str, bool | int | float | complex | str]
     #: The name of the exception's class.
     error: str
-    #: What the exception said.
+    #: The text of the exception.
     message: str
     #: The traceback, as Python prints it.
     traceback: str

@@ -235,16 +235,16 @@ class Assembly:
             raise SweepFunctionError(message, self._function) from loss
 
     def _room(self, shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-        """Zeros, for which the system gives no memory before they are written."""
+        """Zeros for the results of all points; the system assigns their memory only on writing."""
         try:
             return np.zeros((self._grid.points, *shape), dtype)
         except (MemoryError, ValueError) as error:
             wanted = self._grid.points * np.zeros((1, *shape), dtype).nbytes
-            message = f"the results need {wanted} bytes, for which there is no memory"
+            message = f"the results need {wanted} bytes, more memory than is available"
             raise TooLargeError(message, "bytes", wanted, 0) from error
 
     def _wider(self, whole: Array, kind: np.dtype[Any]) -> Array:
-        """The results so far in a type that holds those of another chunk, too."""
+        """The results so far, converted to a type that also holds those of the new chunk."""
         wider = self._room(whole.shape[1:], kind)
         for start in range(0, len(whole), _LARGEST):
             some = slice(start, start + _LARGEST)
@@ -252,14 +252,14 @@ class Assembly:
         return wider
 
     def whole(self, failed: npt.NDArray[np.bool_]) -> Array:
-        """All results, in the shape of the grid; where the function failed, the marker of their type."""
+        """All results, in the shape of the grid; points at which the function failed hold NaN or zero."""
         values: Array = np.zeros(self._grid.points) if self._values is None else self._values
         values[failed.ravel()] = filled((1, *values.shape[1:]), values.dtype)
         return values.reshape(*self._grid.shape, *values.shape[1:])
 
 
 def filled(shape: tuple[int, ...], dtype: np.dtype[Any]) -> Array:
-    """An empty array: NaN if the type has it, else zeros."""
+    """An array without results: NaN wherever the type has it, else zeros."""
     array: Array = np.zeros(shape, dtype)
     if dtype.names is not None:
         for name in dtype.names:

@@ -41,11 +41,11 @@ class Failure(NamedTuple):
 class Outcome(NamedTuple):
     """The results at some points, in their order."""
 
-    #: What the function returned, filled up where it failed; None if it did so everywhere.
+    #: The results of the function, filled up where it failed; None if it failed everywhere.
     values: Array | None
     #: Points where it failed.
     failures: tuple[Failure, ...]
-    #: Whether more points failed than are allowed, so that the others were not looked at.
+    #: Whether more points failed than are allowed, so that the others were not computed.
     given_up: bool
     #: The versions of this package and of NumPy where it was computed; older ones of this package tell none.
     versions: Mapping[str, str] = {}
@@ -93,7 +93,7 @@ class Job:
 
     def _together(self, points: Points, pieces: list[Piece], failures: list[Failure]) -> None:
         """All points in one call; where this raises an exception, halves, down to the points that do so."""
-        # The last one is the next to be looked at, so that points come in their order.
+        # The last one is the next to be computed, so that points come in their order.
         waiting = [(0, len(points))]
         first_error: BaseException | None = None
         while waiting:

@@ -1,4 +1,4 @@
-"""What a sweep returns, and its NetCDF files, which have fewer types than NumPy."""
+"""The result of a sweep, and its NetCDF files, which have fewer types than NumPy."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 #: How many failed points a message names.
 _NAMED = 3
-#: What writes NetCDF files, by the name that xarray knows it by, and the packages that it needs.
+#: The writers of NetCDF files, by the names that xarray uses, and the packages that they need.
 _ENGINES = {"netcdf4": ("netCDF4",), "h5netcdf": ("h5netcdf", "h5py"), "scipy": ("scipy",)}
 
 

@@ -60,12 +60,12 @@ def orbit_diagram(
     (black), where there is one, and a slow one (grey), which is drawn above it.
 
     Args:
-        diagram: what is drawn, with a legend if it has names.
+        diagram: the diagram to draw, with a legend if it has names.
         restitution: coefficient of restitution, without a diagram.
         axial_forcing: lowest and highest axial forcing parameter Gamma.
         columns: forcings, one at least.
-        transient, recorded: impacts that are left out, and drawn, at each of them.
-        quantity: what is drawn over the forcing: the phase of the impacts in periods, or their normalised
+        transient, recorded: impacts to discard, and to draw, at each of them.
+        quantity: the quantity to draw over the forcing: the phase of the impacts in periods, or their normalised
             speed.
         ax: where it is drawn.
 
@@ -86,7 +86,7 @@ def orbit_diagram(
             raise TypeError(
                 f"diagram must be an OrbitDiagram or a mapping to them, not {type(orbits).__name__}"
             )
-    # The diagrams, not what is asked for, if there are any forcings.
+    # The forcings of the diagrams, not the requested ones, if there are any.
     forcings = np.concatenate([orbits.axial_forcing for orbits in named.values()] or [ends])
     impacts = sum(len(orbits.impact_phase) for orbits in named.values())
     speeds = np.concatenate([orbits.normalised_speed for orbits in named.values()] or [ends])
@@ -198,7 +198,7 @@ def basins(
     for ever.
 
     Args:
-        basins: what is drawn; of a map, the basins of all attractors that :func:`bouncing_disk.attractors`
+        basins: the basins to draw; for a map, the basins of all attractors that :func:`bouncing_disk.attractors`
             finds.
         phases, speeds: cells along the impact phase and speed, of a map.
         speed_range: lowest and highest normalised speed, of a map.
@@ -267,7 +267,7 @@ def _label_legend(ax: Any, basins: bd.Basins, colours: list[tuple[float, float, 
 
 
 def _explained(basins: bd.Basins, label: int) -> str:
-    """What a label means, in a few words, and its share."""
+    """The meaning of a label, in a few words, and its share."""
     orbit = re.fullmatch(r"periodic orbit: impacts (\d+), platform periods (\d+)", basins.meaning[label])
     if orbit is None:
         meaning = re.sub(r"(:|, then| again and again| for ever).*", "", basins.meaning[label])

@@ -44,7 +44,7 @@ def motor_transient(
     """The speed of a motor from rest: one member, the band of four fifths of all, and the fit of their means.
 
     Args:
-        runs: what is drawn; of a motor, run-ups that are computed.
+        runs: the run-ups to draw; for a motor, they are computed.
         members: how many, of a motor.
         duration: how long they last (s), of a motor; by default eight of its time constants.
         intervals: intervals over which the speed is averaged, of a motor.
@@ -138,7 +138,7 @@ def torque_speed(
     """Speed and mechanical power of a motor against its load, with two standard errors.
 
     Args:
-        curve: what is drawn; of a motor, a curve that is computed.
+        curve: the curve to draw; for a motor, it is computed.
         load_torques: the loads (N m), of a motor; by default twelve from zero to the stall load, shape (n,).
         relative_error: requested standard error of the speeds, relative to the speed without load, of a
             motor.

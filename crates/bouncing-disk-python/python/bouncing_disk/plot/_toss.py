@@ -65,10 +65,10 @@ def toss(
 ) -> tuple[Figure, np.ndarray[Any, Any]]:
     """Height and angle of disk and platform over time, with the events, as Fig. 5 of the paper.
 
-    Events of a motion with more than 400 are left out: they would cover the curves.
+    Events of a motion with more than 400 are omitted: they would cover the curves.
 
     Args:
-        motion: what is drawn; of a system, its toss until the disk lands.
+        motion: the motion to draw; for a system, its toss until the disk lands.
         initial_spin: how the toss of a system starts, as of ``toss_trajectory``.
         samples: points of the curves; by default 2000, or of a long motion 24 in each period of the platform,
             but not more than 200000.
@@ -151,7 +151,7 @@ def toss_animation(
     behind.
 
     Args:
-        motion: what is shown; of a system, its toss until the disk lands.
+        motion: the motion to show; for a system, its toss until the disk lands.
         initial_spin: how the toss of a system starts, as of ``toss_trajectory``.
         slow_motion: how many times longer the animation lasts than the motion.
         frames: pictures, two at least; by default 30 a second, and not more than 100000.

@@ -30,7 +30,8 @@ fn refusal(times: &[f64], speed: impl Fn(f64) -> f64) -> FitRefusal {
 #[test]
 fn intervals_of_synthetic_curves_cover_the_friction() {
     let even = |_: f64| 1.0;
-    // Noise of a tacho grows with the speed; that of an encoder, or of the stick at the end, where it is small.
+    // Noise of a tacho grows with the speed; that of an encoder, or of the stick at the end, where it is
+    // small.
     let with_speed = |time: f64| 0.05 * braking(time);
     let against_speed = |time: f64| 2.0 - 0.035 * braking(time);
     let in_burst = |time: f64| if (0.9..1.5).contains(&time) { 3.0 } else { 0.3 };
@@ -83,7 +84,8 @@ fn the_standstill_is_left_out() {
     assert!((fit.friction.value / FRICTION - 1.0).abs() < 1e-9 && fit.points == 100, "{fit:?}");
 }
 
-/// The error of a slope of independent points is sigma/sqrt(Sxx), its interval that of Student with n - 2 degrees.
+/// The error of a slope of independent points is sigma/sqrt(Sxx), its interval that of Student with n - 2
+/// degrees.
 #[test]
 fn the_interval_of_independent_points_is_the_textbooks() {
     let times = times(100, 0.01);

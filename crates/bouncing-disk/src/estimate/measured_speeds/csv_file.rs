@@ -1,7 +1,7 @@
 //! Reads measured speeds from separated values, and locates every malformed place.
 //!
-//! Nothing is guessed: a column has its unit in its name, in the row below the header, or from the caller; a
-//! comma that may be a decimal mark or separate thousands is refused.
+//! The reader makes no guesses: the unit of a column is in its name, in the row below the header, or given by
+//! the caller; a comma that may be a decimal mark or separate thousands is an error.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -17,13 +17,13 @@ use crate::regular_file;
 const NAMES: [&[&str]; 3] =
     [&["time", "t"], &["speed", "angular speed", "angular_speed", "omega", "n"], &["member", "run", "trial"]];
 
-/// What a message calls the columns.
+/// The names of the columns in messages.
 const COLUMNS: [&str; 3] = ["time_s", "speed_rad_s", "member"];
 
 /// The legal values of each column.
 const LEGAL: [&str; 3] = ["a finite number", "a finite number", "a whole number from 0 to 4294967295"];
 
-/// What may separate columns, in the order in which it is tried.
+/// Characters that may separate columns, in the order in which they are tried.
 const SEPARATORS: [char; 3] = [';', '\t', ','];
 
 /// The largest file that is read (bytes).
@@ -55,8 +55,9 @@ pub struct CsvColumns {
 }
 
 impl MeasuredSpeeds {
-    /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for repeated runs,
-    /// `member` (a whole number), or with times and speeds in other units stated in the file. Feature `csv`.
+    /// Reads a file of separated values with the columns `time_s` (s), `speed_rad_s` (rad/s) and, for
+    /// repeated runs, `member` (a whole number), or with times and speeds in other units stated in the file.
+    /// Feature `csv`.
     ///
     /// The header is the first line that names the columns, in any order; text before it, a row of units
     /// below it, blank lines and lines that begin with `#`, `%` or `//` are legal. Columns are separated by
@@ -103,7 +104,7 @@ impl MeasuredSpeeds {
     }
 }
 
-/// The beginning of a text of somebody else's.
+/// The beginning of a text from a file.
 fn shortened(text: &str) -> String {
     if text.chars().nth(SHOWN).is_none() {
         return text.to_owned();
@@ -223,7 +224,8 @@ struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    /// The first line that names times and speeds. Only text is before it: a line of numbers ends the search.
+    /// The first line that names times and speeds. Only lines of text may precede it: a line of numbers ends
+    /// the search.
     fn find(
         lines: &mut std::iter::Peekable<impl Iterator<Item = (usize, &'a str)>>,
         columns: &CsvColumns,
@@ -245,12 +247,12 @@ impl<'a> Header<'a> {
                     Err(other) => own = own.or(Some(other)),
                 }
             }
-            // A line without any separator is text, unless it is all that there is.
+            if are_numbers {
+                return Err(Located(Some(line.0), None, CsvFault::NoHeader));
+            }
+            // A line without any separator is text, unless no other line is a header.
             let single = || Self::read(line.0, ',', &[plain(line.1)], columns).err();
             fault = own.or_else(|| if fault.is_none() { single() } else { fault.take() }).or(fault);
-            if are_numbers {
-                break;
-            }
         }
         Err(fault.unwrap_or(Located(None, None, CsvFault::Empty)))
     }

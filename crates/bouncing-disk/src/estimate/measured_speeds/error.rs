@@ -40,8 +40,8 @@ fn located(file: &str, line: Option<usize>, field: Option<usize>, fault: &CsvFau
     format!("{file:?}{line}{field}: {fault}")
 }
 
-/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust, so that
-/// they cannot disturb a terminal.
+/// A fault in the text of a file of measured speeds. Texts of the file are shortened, and escaped as in Rust,
+/// so that they cannot disturb a terminal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum CsvFault {
@@ -51,13 +51,13 @@ pub enum CsvFault {
     /// A line is longer than this number of bytes.
     #[error("it is longer than {0} bytes; end each line of numbers by a line end")]
     LongLine(usize),
-    /// The header is missing.
+    /// The file has no line besides remarks.
     #[error("it is empty; a line must name the columns: {HEADER}")]
     Empty,
     /// A column has no known unit, or not the one stated by the caller or the row below the header.
     #[error(
-        "the unit of the {name} is {unit:?} here; legal are {legal}, in the name, in the row below it, or as an option \
-         (--{name}-unit), and the same in all places"
+        "the unit of the {name} is {unit:?} here; legal are {legal}. State it in the name of the column, in the row below \
+         it, or when you read the file, and everywhere the same"
     )]
     Unit {
         /// `time` or `speed`.
@@ -75,10 +75,16 @@ pub enum CsvFault {
     /// A quotation mark that begins a field is not closed on the line.
     #[error("a quotation mark is not closed on its line; close or remove it")]
     OpenQuote,
+    /// The first line has numbers instead of the names of columns.
+    #[error(
+        "the header line is missing, because this line has numbers; add a line before it that names the columns, for \
+         instance time_s,speed_rad_s"
+    )]
+    NoHeader,
     /// The header has an unknown name.
     #[error(
         "the column {0:?} is unknown; legal are {HEADER}. Remove the column, put a # before a line of remarks, or name the \
-         columns to read (--time-column, --speed-column)"
+         columns of times and speeds when you read the file"
     )]
     UnknownColumn(String),
     /// The header has a name twice.

@@ -9,10 +9,12 @@ use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 use crate::estimate::parameter_fit::weights::Weights;
 use crate::statistics::{drawn_index, normal};
 
-/// What the places of resampled fits differ by from that of the fit: a column each, sorted in each row.
+/// The differences of the places of resampled fits from that of the fit: one column for each resample, sorted
+/// in each row.
 ///
-/// A resampled measurement is the mean of as many members as runs were measured, with errors of measurement; the model that it is
-/// compared with is the mean of members that are drawn again. The best fit follows both along `response`.
+/// A resampled measurement is the mean of as many members as runs were measured, with errors of measurement.
+/// It is compared with a model that is the mean of members drawn again. The best fit follows both along
+/// `response`.
 pub(crate) fn resampled_places(
     model: &Model<'_>,
     local: &Local,
@@ -41,7 +43,8 @@ pub(crate) fn resampled_places(
             for (window, variance) in windows.error_variances.iter().enumerate() {
                 difference[first + window] += variance.sqrt() * normal(&mut generator);
             }
-            // The motor is near those that were computed: what it differs by from their smooth mean is drawn as well.
+            // The measured motor is one of those near the smooth mean: draw its difference from this mean as
+            // well.
             for residual in local.roughness.iter().flat_map(|rough| &rough.residuals) {
                 let luck = normal(&mut generator);
                 for window in first..first + size {

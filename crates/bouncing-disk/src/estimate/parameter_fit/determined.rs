@@ -1,16 +1,16 @@
-//! The directions in the space of the parameters that the data determine, each by itself.
+//! The directions in the space of the parameters that the data determine independently of each other.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use crate::estimate::parameter_fit::model::{Local, mean_of};
 use crate::estimate::parameter_fit::weights::Weights;
 
-/// The largest standard error of a direction that counts as determined, as a share of half of the ranges: its interval of
-/// 95 % is then as wide as they are.
+/// The largest standard error of a direction that counts as determined, as a share of half of the ranges: its
+/// interval of 95 % is then as wide as they are.
 pub(crate) const LARGEST_ERROR: f64 = 0.5;
 
-/// A parameter is told from a direction that is not determined if moving along it to the end of the range changes the parameter
-/// by less than this share of its standard error.
+/// A parameter is independent of an undetermined direction if moving along this direction to the end of the
+/// range changes the parameter by less than this share of its standard error.
 const LARGEST_SHARE: f64 = 0.5;
 
 /// The directions in which the weighted means change, and by how much.
@@ -25,7 +25,8 @@ pub(crate) struct Directions {
 }
 
 impl Directions {
-    /// From the derivatives of each member. What luck alone gives the squares of a derivative's mean is taken off.
+    /// From the derivatives of each member. The contribution of chance to the squares of a mean derivative is
+    /// subtracted.
     pub(crate) fn of(weights: &Weights, local: &Local) -> Self {
         let derivatives = &local.derivatives;
         let columns: Vec<DVector<f64>> =
@@ -70,7 +71,8 @@ impl Directions {
         Self { determined, undetermined, derivatives: weighted }
     }
 
-    /// What the places of the best fit change by if the weighted means do: a row a parameter.
+    /// The change of the places of the best fit for a change of the weighted means, one row for each
+    /// parameter.
     pub(crate) fn response(&self) -> DMatrix<f64> {
         let along = &self.derivatives * &self.determined;
         let information = along.transpose() * &along;
@@ -80,7 +82,7 @@ impl Directions {
         &self.determined * inverse * along.transpose()
     }
 
-    /// Whether a parameter with a standard error of its place is told from the directions that are not determined.
+    /// Whether a parameter whose place has this standard error is independent of the undetermined directions.
     pub(crate) fn tells(&self, parameter: usize, error: f64) -> bool {
         let open = self.undetermined.iter().map(|(direction, _)| direction[parameter] * direction[parameter]);
         let open = open.sum::<f64>().sqrt();

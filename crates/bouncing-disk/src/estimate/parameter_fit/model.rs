@@ -19,11 +19,13 @@ use crate::motor::batch::shared_orbit::transients::shared_transients;
 use crate::motor::data_sheet::Motor;
 use crate::motor::rotor::transient::TransientSettings;
 
-/// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of half the range.
+/// Half of the step of a derivative along a parameter that leaves the vertical motion as it is, as a share of
+/// half the range.
 const STEP: f64 = 0.05;
 
-/// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical motion. Neighbouring
-/// motions differ by their luck, and some lock on a cycle: neither says how the next one does.
+/// Half of the span, as a share of half the range, over which a parabola smooths what depends on the vertical
+/// motion. Neighbouring motions differ by chance, and some lock on a cycle; neither says anything about the
+/// next motion.
 pub(crate) const SPAN: f64 = 0.4;
 
 /// Places on that span.
@@ -63,8 +65,8 @@ impl Model<'_> {
         })
     }
 
-    /// The means of all members of the motors at these places. All share starting phases and perturbations, and those that
-    /// follow each other and share a vertical motion are carried by it together.
+    /// The means of all members of the motors at these places. All share starting phases and perturbations,
+    /// and those that follow each other and share a vertical motion are carried by it together.
     pub(crate) fn members(
         &self,
         candidates: &[DVector<f64>],
@@ -130,7 +132,8 @@ impl Model<'_> {
         Ok(all)
     }
 
-    /// The means of all members at a place, and how they change along each of these ranges; nothing for the others.
+    /// The means of all members at a place, and how they change along each of these ranges; nothing for the
+    /// others.
     pub(crate) fn with_derivatives(
         &self,
         places: &DVector<f64>,
@@ -193,20 +196,20 @@ impl Model<'_> {
     }
 }
 
-/// What the model says at a place and near it.
+/// The results of the model at a place and near it.
 #[derive(Debug)]
 pub(crate) struct Local {
     /// The means of all members.
     pub(crate) members: MemberMeans,
     /// The mean over members, smoothed along the parameters that change the vertical motion.
     pub(crate) smooth: DVector<f64>,
-    /// What the members' means change by along each range; empty where that was not asked for.
+    /// The derivatives of the members' means along each range; empty if not requested.
     pub(crate) derivatives: Vec<MemberMeans>,
-    /// What smoothing leaves, for each parameter that changes the vertical motion.
+    /// The residuals of the smoothing, for each parameter that changes the vertical motion.
     pub(crate) roughness: Vec<Roughness>,
 }
 
-/// What the parabola along one parameter leaves: motions that lock on a cycle, and luck.
+/// The residuals of the parabola along one parameter, caused by motions that lock on a cycle, and by chance.
 #[derive(Debug)]
 pub(crate) struct Roughness {
     pub(crate) parameter: usize,
@@ -238,7 +241,7 @@ impl Parabola {
         Self { powers, inverse, weights }
     }
 
-    /// What the numbers differ from it, over the root of their degrees of freedom.
+    /// The differences of the numbers from the parabola, over the root of their degrees of freedom.
     fn residuals(&self, numbers: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let smoothing = &self.powers * &self.inverse * self.powers.transpose();
         let scale = 1.0 / (numbers.len() as f64 - 3.0).sqrt();

@@ -1,4 +1,4 @@
-//! The least squares, by MINPACK's Levenberg-Marquardt.
+//! The search for the least squares, by MINPACK's Levenberg-Marquardt method.
 
 use std::cell::RefCell;
 
@@ -14,8 +14,8 @@ use crate::estimate::parameter_fit::parameter::FitParameter;
 use crate::estimate::parameter_fit::weights::Weights;
 use crate::estimate::refusal::{FitError, FitRefusal, refused};
 
-/// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a standard error changes a
-/// sum of one by 1e-3.
+/// Relative change of the sum of squares, and of the places, at which the search ends: a thirtieth of a
+/// standard error changes a sum of one by 1e-3.
 const TOLERANCE: f64 = 1.0e-3;
 
 /// How often the motors have been computed, and how often they may be.
@@ -72,13 +72,14 @@ impl Linearised {
 
 /// The least squares along the directions that are determined, from a place.
 ///
-/// The means follow friction, lag and twist along the vertical motions of that place, and the parameters that change these along
-/// their derivatives: what is searched is smooth, and no luck of one motion is chosen for its small squares.
+/// The means follow friction, lag and twist along the vertical motions of that place, and the parameters that
+/// change these along their derivatives. So the sum of squares is smooth, and the search cannot select a
+/// motion whose squares are small by luck.
 struct Search<'a> {
     model: &'a Model<'a>,
     weights: &'a Weights,
     watch: &'a Watch<'a>,
-    /// What the weighted means are compared with.
+    /// The measured values with which the weighted means are compared.
     target: DVector<f64>,
     from: &'a DVector<f64>,
     directions: &'a Directions,
@@ -101,7 +102,8 @@ impl Search<'_> {
         places
     }
 
-    /// The places on the vertical motions of the start, and what the other parameters add to the weighted means there.
+    /// The places on the vertical motions of the start, and what the other parameters add to the weighted
+    /// means there.
     fn on_orbits(&self) -> (DVector<f64>, DVector<f64>) {
         let (mut places, mut added) = (self.places(), DVector::zeros(self.target.len()));
         for (index, &from) in self.from.iter().enumerate().filter(|&(index, _)| self.changes_orbit(index)) {
@@ -111,7 +113,7 @@ impl Search<'_> {
         (places, added)
     }
 
-    /// What a computation gives, or nothing once one has failed.
+    /// The result of a computation, or `None` once one has failed.
     fn keep<T>(&self, compute: impl FnOnce() -> Result<T, Error>) -> Option<T> {
         let (evaluations, error) = &mut *self.state.borrow_mut();
         match evaluations.spend(self.watch).and_then(|()| Ok(compute()?)) {
@@ -193,7 +195,7 @@ pub(crate) fn least_squares(
         (None, TerminationReason::LostPatience | TerminationReason::Numerical(_)) => {
             refused(FitRefusal::NotConverged { evaluations: spent.spent })
         }
-        // It ends where nothing is better, whatever the reason.
+        // The search ends where it finds no improvement, whatever the reason.
         (None, _) => Ok(places),
     }
 }

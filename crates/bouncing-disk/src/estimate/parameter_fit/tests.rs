@@ -115,7 +115,8 @@ fn ninety_of_a_hundred_intervals_of_two_parameters_hold_the_truth() {
     assert!(covered.iter().all(|&count| count >= 90), "{covered:?}");
 }
 
-/// A record that began before the switch-on or after it would have another friction: one clock of three tells.
+/// A record that began before the switch-on or after it would have another friction: one clock of three
+/// tells.
 #[test]
 fn a_clock_that_is_off_is_refused() {
     for off in [-0.05, 0.05] {
@@ -231,8 +232,8 @@ fn a_restitution_is_found_with_the_error_of_its_rough_response() {
     assert!(found.high - found.low > 0.05, "{found:?}");
 }
 
-/// At these preloads P is 130 to 390, where the speeds of neighbouring amplitudes scatter more than they change. That
-/// is said: there is no interval, and the amplitude is named as undetermined.
+/// At these preloads P is 130 to 390, where the speeds of neighbouring amplitudes scatter more than they
+/// change. That is said: there is no interval, and the amplitude is named as undetermined.
 #[test]
 fn an_amplitude_that_its_rough_response_hides_is_named() {
     assert!(!is_trapped(&built()));

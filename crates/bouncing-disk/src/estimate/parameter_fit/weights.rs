@@ -5,7 +5,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use crate::error::{Error, finite};
 use crate::estimate::parameter_fit::model::{Local, Model, mean_of};
 
-/// What is left out by interpolating a computed curve, as a share of the largest mean: nothing is known better than that.
+/// The error of interpolating a computed curve, as a share of the largest mean: no mean counts as known
+/// better than this.
 const RESOLUTION: f64 = 1.0e-4;
 
 /// One block of the covariance for each preload, as its lower triangular root.
@@ -15,7 +16,8 @@ pub(crate) struct Weights {
 }
 
 impl Weights {
-    /// By the scatter of computed members, in as many runs as were measured, the errors of measurement, and what smoothing leaves.
+    /// By the scatter of computed members, in as many runs as were measured, the errors of measurement, and
+    /// what smoothing leaves.
     pub(crate) fn of(model: &Model<'_>, local: &Local) -> Result<Self, Error> {
         let members = &local.members;
         let (count, mean) = (members.nrows() as f64, mean_of(members));
@@ -28,7 +30,8 @@ impl Weights {
             let largest = windows.measured.iter().chain(mean.iter());
             let largest = largest.fold(0.0_f64, |most, mean| most.max(mean.abs()));
             let runs = transient.runs.runs().len() as f64;
-            // The inverse of an estimated covariance is too large by the first factor; the computed mean has an error, too.
+            // The inverse of an estimated covariance is too large by the first factor; the computed mean has
+            // an error, too.
             let factor =
                 (count - 1.0) / (count - size as f64 - 2.0) * (1.0 / runs + 1.0 / count) / (count - 1.0);
             let mut covariance = scatter.transpose() * &scatter * factor;

@@ -16,15 +16,15 @@ pub(crate) struct Windows {
     pub(crate) measured: Vec<f64>,
     /// Variance of their errors of measurement.
     pub(crate) error_variances: Vec<f64>,
-    /// What each interval of a computed curve contributes to each mean.
+    /// The contribution of each interval of a computed curve to each mean.
     weights: Vec<[f64; INTERVALS]>,
     /// Duration of the curve (s).
     pub(crate) duration: f64,
 }
 
 impl Windows {
-    /// Windows whose ends are the duration, half of it, a fourth, and so on, at most `most` of them. A computed curve is taken
-    /// `late` seconds after the instants that were measured.
+    /// Windows whose ends are the duration, half of it, a fourth, and so on, at most `most` of them. A
+    /// computed curve is taken `late` seconds after the instants that were measured.
     pub(crate) fn of(transient: &MeasuredTransient, most: usize, error_variance: f64, late: f64) -> Self {
         let (runs, duration) = (transient.runs.runs(), transient.duration());
         let mut ends: Vec<f64> = Vec::with_capacity(most);
@@ -85,8 +85,8 @@ fn points(run: &MeasuredRun, start: f64, end: f64) -> impl Iterator<Item = usize
         .map(|(index, _)| index)
 }
 
-/// Adds `share` of the speed at a time, given as a share of the duration: on the line between the middles of the two intervals
-/// beside it, or between the rest at time zero and the first middle.
+/// Adds `share` of the speed at a time, given as a share of the duration: on the line between the middles of
+/// the two intervals beside it, or between the rest at time zero and the first middle.
 fn interpolate(time: f64, share: f64, weights: &mut [f64; INTERVALS]) {
     let place = time * INTERVALS as f64 - 0.5;
     if place <= 0.0 {

@@ -16,22 +16,26 @@ use crate::statistics::small_sample_widening;
 /// The fewest blocks: fewer would say too little about each other.
 const LEAST_BLOCKS: usize = 8;
 
-/// About a quarter of the blocks speak of a parameter, those of the rise of the time constant, but so many count at least.
+/// About a quarter of the blocks determine a parameter, as those of the rise do the time constant; but at
+/// least so many count.
 const LEAST_SAMPLE: usize = 5;
 
 /// The most blocks: more would say hardly more about the error.
 const MOST_BLOCKS: usize = 64;
 
-/// What a block is longer than the correlation time by (docs/numerics/motors.md, "Fits with intervals").
+/// Factor by which a block is longer than the correlation time (docs/numerics/motors.md, "Fits with
+/// intervals").
 const BLOCK_TIMES: f64 = 2.5;
 
-/// Residuals below this share of the steady speed are those of the search, which ends about so near the best constant.
+/// Residuals below this share of the steady speed are those of the search, which ends about so near the best
+/// constant.
 const EXACT: f64 = 1.0e-6;
 
 /// Neighbouring blocks to either side whose noise is taken to be as large.
 const NEIGHBOURS: usize = 3;
 
-/// The largest leverage of a block that its residuals are made good for: beyond it the block alone decides a parameter.
+/// The largest leverage of a block that its residuals are made good for: beyond it the block alone decides a
+/// parameter.
 const LARGEST_LEVERAGE: f64 = 0.9;
 
 /// A curve with its residuals cut into blocks of one length, the last of which is longer.
@@ -98,7 +102,8 @@ impl Blocks {
     }
 }
 
-/// The diagonal of the matrix that takes a curve to its fit, by orthogonalising the derivatives one after another.
+/// The diagonal of the matrix that takes a curve to its fit, by orthogonalising the derivatives one after
+/// another.
 pub(crate) fn leverages(derivatives: &[Vec<f64>]) -> Vec<f64> {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut leverages = vec![0.0; derivatives.first().map_or(0, Vec::len)];

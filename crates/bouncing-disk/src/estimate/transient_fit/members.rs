@@ -17,7 +17,8 @@ pub(crate) struct Members {
 }
 
 impl Members {
-    /// Of runs whose time counts from `start`; `misfit` is what the intervals are multiplied by because of the form.
+    /// Of runs whose time counts from `start`; `misfit` is what the intervals are multiplied by because of
+    /// the form.
     pub(crate) fn new(
         runs: &[Run],
         start: f64,

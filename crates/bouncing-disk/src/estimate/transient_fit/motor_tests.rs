@@ -34,8 +34,8 @@ fn a_duration_that_is_too_short_is_refused_where_members_alone_give_nonsense() {
     assert!(matches!(refused, Err(FitError::Refused(FitRefusal::TooCoarse { .. }))), "{refused:?}");
 }
 
-/// Every duration has the same answer: the one of the longest runs of all trials together. Intervals of 95 % miss now and then, so
-/// that not each of them can hold it.
+/// Every duration has the same answer: the one of the longest runs of all trials together. Intervals of 95 %
+/// miss now and then, so that not each of them can hold it.
 #[test]
 fn fits_that_are_accepted_agree_whatever_the_duration() {
     let durations = [(0.06, 100), (0.1, 100), (0.2, 200), (0.4, 400)];
@@ -60,7 +60,8 @@ fn fits_that_are_accepted_agree_whatever_the_duration() {
     assert!(fits.iter().all(|fit| fit.steady_speed().high < STATOR_SPEED));
 }
 
-/// The truth is the fit of the mean over very many starting phases and perturbations. A trial that is refused covers nothing.
+/// The truth is the fit of the mean over very many starting phases and perturbations. A trial that is refused
+/// covers nothing.
 #[test]
 fn intervals_of_motor_transients_cover_the_fit_of_a_huge_ensemble() {
     let truth = TransientFit::new(&curves(0.1, 80, 1_600, 900_000), &FitSettings::default()).expect("fitted");

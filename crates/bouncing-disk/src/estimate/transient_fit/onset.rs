@@ -12,15 +12,17 @@ pub(crate) const LEAST_POINTS: usize = 8;
 /// Step of the trial time constants, in their logarithm.
 const STEP: f64 = 0.05;
 
-/// A beginning is left out if that lowers the logarithm of the sum of squares, over all independent rows, by more than
-/// this, half of Akaike's price of the two numbers that it adds: a cut too many costs rows, one too few the truth.
+/// The fit omits a beginning if this lowers the logarithm of the sum of squares, over all independent rows,
+/// by more than this number, half of Akaike's price of the two added parameters: a cut too many costs rows,
+/// one too few gives a bias.
 const PRICE: f64 = 2.0;
 
 /// Sums of squares below this share of those of the speeds are rounding.
 const EXACT: f64 = 1.0e-13;
 
-/// The number of rows before the rise: of all ways to cut the record, that by which one speed before the cut and
-/// a saturating exponential behind it leave the smallest squares, if it describes the record better than no cut.
+/// The number of rows before the rise: of all ways to cut the record, that by which one speed before the cut
+/// and a saturating exponential behind it leave the smallest squares, if it describes the record better than
+/// no cut.
 pub(crate) fn rows_before_rise(
     times: &[f64],
     speeds: &[f64],
@@ -35,7 +37,8 @@ pub(crate) fn rows_before_rise(
     let shortest = times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
     let shortest = shortest.max(duration / (10 * n) as f64);
     let (low, high) = (ln(shortest), ln(100.0) + ln(duration));
-    // For each cut the least squares behind it, with the logarithm of their constant, and those of the last two constants.
+    // For each cut the least squares behind it, with the logarithm of their constant, and those of the last
+    // two constants.
     let mut behind = vec![(f64::INFINITY, 0.0); most + 1];
     let mut last = vec![[f64::INFINITY; 2]; most + 1];
     for trial in 0..=((high - low) / STEP) as u32 {
@@ -93,7 +96,7 @@ pub(crate) fn rows_before_rise(
     Ok(if gain > PRICE { cut } else { 0 })
 }
 
-/// What the best exponential with this constant leaves.
+/// The residuals of the best exponential with this constant.
 fn residuals(times: &[f64], speeds: &[f64], constant: f64) -> Vec<f64> {
     let n = times.len() as f64;
     let decays: Vec<f64> = times.iter().map(|time| exp((times[0] - time) / constant)).collect();

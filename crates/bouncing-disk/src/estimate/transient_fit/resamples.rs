@@ -8,10 +8,11 @@ use crate::estimate::refusal::FitRefusal;
 use crate::estimate::transient_fit::shape_grid::{MOMENTS, Rise, ShapeGrid};
 use crate::statistics::percentile;
 
-/// The share of the resampled curves that may have no fit on the grid: less than the share beyond an end of the interval.
+/// The share of the resampled curves that may have no fit on the grid: less than the share beyond an end of
+/// the interval.
 const MOST_ASTRAY: f64 = 0.01;
 
-/// What is drawn again and again: curves of members, or blocks of residuals.
+/// The units that are resampled: curves of members, or blocks of residuals.
 pub(crate) trait Resampled {
     /// The moments of the curve itself.
     fn moments(&self) -> &[f64];

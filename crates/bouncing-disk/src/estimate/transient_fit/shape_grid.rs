@@ -9,15 +9,15 @@ use crate::estimate::fit::Start;
 /// Reach of the grid to either side, in the logarithm of the constant: a factor of five.
 const REACH: f64 = 1.6;
 
-/// Steps of the grid to either side. The parabola through three of them is off the best constant by less than 1e-4 of it,
-/// far below any interval.
+/// Steps of the grid to either side. The parabola through three of them is off the best constant by less than
+/// 1e-4 of it, far below any interval.
 const STEPS: i32 = 80;
 
 /// Constants of the grid.
 const CONSTANTS: usize = 2 * STEPS as usize + 1;
 
-/// Numbers of a curve that its fit needs: its weight, the sum of its speeds, and for each constant the sums of the
-/// shapes f, of their squares and of their products with the speeds. Those of several curves add up.
+/// Numbers of a curve that its fit needs: its weight, the sum of its speeds, and for each constant the sums
+/// of the shapes f, of their squares and of their products with the speeds. Those of several curves add up.
 pub(crate) const MOMENTS: usize = 2 + 3 * CONSTANTS;
 
 /// 1 - exp(-x).
@@ -48,8 +48,9 @@ pub(crate) struct Rise {
 
 /// Constants about that of a fit, from which the best one for the moments of a curve is chosen.
 ///
-/// For a given constant the best rise B is (f.y)/(f.f), and the sum of squares falls by G = (f.y)^2/(f.f); with any
-/// speed at the start f and y are taken from their means (docs/numerics/motors.md, "Fits with intervals").
+/// For a given constant the best rise B is (f.y)/(f.f), and the sum of squares falls by G = (f.y)^2/(f.f);
+/// with any speed at the start f and y are taken from their means (docs/numerics/motors.md, "Fits with
+/// intervals").
 pub(crate) struct ShapeGrid {
     logs: Vec<f64>,
     shape: fn(f64) -> f64,
@@ -80,7 +81,8 @@ impl ShapeGrid {
         Ok(Shapes { points: times.len(), shapes })
     }
 
-    /// The fit of the curve that has these moments; `None` where the best constant lies at an end of the grid.
+    /// The fit of the curve that has these moments; `None` where the best constant lies at an end of the
+    /// grid.
     pub(crate) fn best(&self, moments: &[f64]) -> Option<Rise> {
         let (weight, speeds) = (moments[0], moments[1]);
         let is_free = self.start == Start::AnySpeed;

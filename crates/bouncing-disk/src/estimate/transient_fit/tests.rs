@@ -78,7 +78,8 @@ fn intervals_of_synthetic_ensembles_cover_the_truth() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// Noise that is white, correlated, or grows along the curve; few rows, a short curve; whatever is known of the start.
+/// Noise that is white, correlated, or grows along the curve; few rows, a short curve; whatever is known of
+/// the start.
 #[test]
 fn intervals_of_synthetic_measurements_cover_the_truth() {
     let even = |_: f64| 1.0;
@@ -114,8 +115,8 @@ fn intervals_of_synthetic_measurements_cover_the_truth() {
     assert!(missed.is_empty(), "{missed:#?}");
 }
 
-/// A clock that is early or late, a dead time, rows before the switch-on, a start in the middle of the rise: of one run
-/// and of five.
+/// A clock that is early or late, a dead time, rows before the switch-on, a start in the middle of the rise:
+/// of one run and of five.
 #[test]
 fn the_start_of_a_record_does_not_mislead_its_fit() {
     const OWN: [f64; 2] = [21.5, 0.85];

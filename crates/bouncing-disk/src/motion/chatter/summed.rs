@@ -10,9 +10,9 @@ use crate::motion::rotary_change::RotaryChange;
 use crate::motion::rotary_change::{change_in_flight, record_flight_load};
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Pieces that a chatter can have by the signs of what friction has to spare
-/// (docs/numerics/chattering.md, "The rotary motion of a chatter"). More arise only where rounding decides at every
-/// impact whether friction holds; each of them is then twice as long as the one before.
+/// Pieces that a chatter can have by the signs of what friction has to spare (docs/numerics/chattering.md,
+/// "The rotary motion of a chatter"). More arise only where rounding decides at every impact whether friction
+/// holds; each of them is then twice as long as the one before.
 const USUAL_PIECES: u32 = 16;
 
 /// Pieces after which that has led to the end: 2^64 impacts.
@@ -75,7 +75,7 @@ struct Rotation<'a> {
     flight: PowerSeries,
     /// Angular speed of the platform less a constant.
     platform: PowerSeries,
-    /// What the slip gains until the end from the platform and the load, and in a flight (per 1 - r).
+    /// The increase of the slip by the platform and the load, until the end and in a flight (per 1 - r).
     gain: PowerSeries,
     flight_gain: PowerSeries,
     /// Angular speed of the platform at the start.
@@ -117,7 +117,7 @@ impl<'a> Rotation<'a> {
             if end == Some(self.impacts) {
                 return pieces;
             }
-            // What it does about the slip tells how the impacts after it go on.
+            // Whether this impact ends the slip decides how the impacts after it continue.
             self.strike();
             let held = self.slip == 0.0;
             let until = if held { self.first_slip() } else { self.slip_end() };
@@ -179,7 +179,7 @@ impl<'a> Rotation<'a> {
             .map(|impact| impact.saturating_sub(1).max(self.impacts))
     }
 
-    /// What friction can take from a slip with this `sign` beyond what the slip gains, until the end.
+    /// By how much friction can reduce a slip with this `sign`, less the increase of the slip, until the end.
     fn spare(&self, sign: f64) -> PowerSeries {
         self.impulses.scaled(self.system.friction()).plus(&self.gain.scaled(-sign))
     }

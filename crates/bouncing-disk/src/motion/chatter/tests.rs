@@ -9,8 +9,8 @@ use super::*;
 use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::testing::golden_spread;
 
-/// Pieces that a chatter needs, and what rounding may add next to restitution 1, where 50 impacts change a share by as much
-/// as rounding does.
+/// Pieces that a chatter needs, and what rounding may add next to restitution 1, where 50 impacts change a
+/// share by as much as rounding does.
 const MOST_PIECES: u32 = 6;
 const MOST_ROUNDED_PIECES: u32 = 32;
 
@@ -46,7 +46,8 @@ impl Case {
     }
 }
 
-/// The closure of the rotary energy is relative to the terms that balance: work, and the loss of the whole slip.
+/// The closure of the rotary energy is relative to the terms that balance: work, and the loss of the whole
+/// slip.
 #[test]
 fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
     let mut ledger = EnergyLedger::default();
@@ -76,8 +77,8 @@ fn largest_speed(system: &DimensionlessSystem, phase: Phase) -> Option<f64> {
     accepted(slow)
 }
 
-/// Chatters of every kind: with friction and twist or without, loads that friction just holds, slips from none to one that
-/// outlasts the chatter, phases up to a separation.
+/// Chatters of every kind: with friction and twist or without, loads that friction just holds, slips from
+/// none to one that outlasts the chatter, phases up to a separation.
 fn cases(restitution: f64, peak_acceleration: f64, count: u64) -> impl Iterator<Item = Case> {
     (0..count).filter_map(move |k| {
         let pick = |stride: u64| golden_spread(stride * k + stride / 3);
@@ -214,8 +215,8 @@ fn millions_of_impacts_agree_with_the_closed_form() {
     }
 }
 
-/// A load that friction just holds, in every impact and to the last bit: rounding may decide at each of them, and the pieces
-/// are few all the same.
+/// A load that friction just holds, in every impact and to the last bit: rounding may decide at each of them,
+/// and the pieces are few all the same.
 #[test]
 fn friction_at_its_limit_takes_few_pieces() {
     for restitution in [0.9, 0.999, 1.0 - 1e-7, 1.0 - f64::EPSILON / 2.0] {
@@ -280,8 +281,8 @@ fn a_slip_that_ends_in_an_impact_ends_there() {
     }
 }
 
-/// A chatter is its flights and impacts one by one, here from the first impacts of single launches: friction that slides
-/// throughout in the first impacts and stops the slip in later ones, against a load.
+/// A chatter is its flights and impacts one by one, here from the first impacts of single launches: friction
+/// that slides throughout in the first impacts and stops the slip in later ones, against a load.
 #[test]
 fn a_chatter_is_its_impacts_one_by_one() {
     let system = DimensionlessParameters {

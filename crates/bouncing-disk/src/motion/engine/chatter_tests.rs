@@ -61,7 +61,8 @@ fn attachments(
     })
 }
 
-/// Energy, momentum and states at the end of every chatter, however slow, however long, however close to a separation.
+/// Energy, momentum and states at the end of every chatter, however slow, however long, however close to a
+/// separation.
 #[test]
 fn every_attachment_closes_its_balance() {
     for restitution in [pow(2.0, -60.0), 0.5, 0.7246, 0.9, 0.99, 0.9999, 1.0 - 1e-7, 1.0 - 1e-12, LAST] {
@@ -89,8 +90,8 @@ fn every_attachment_closes_its_balance() {
     }
 }
 
-/// In the middle of a chatter the disk is above the platform by no more than the flight then has, and turns between the
-/// start and the end.
+/// In the middle of a chatter the disk is above the platform by no more than the flight then has, and turns
+/// between the start and the end.
 #[test]
 fn the_middle_of_every_chatter_is_known() {
     for restitution in [0.9, 1.0 - 1e-4, 1.0 - 1e-7, LAST] {
@@ -120,7 +121,8 @@ fn the_middle_of_every_chatter_is_known() {
     }
 }
 
-/// The launch that used to stay at the smallest number for ever, and the restitution next to 1: one event each.
+/// The launch that used to stay at the smallest number for ever, and the restitution next to 1: one event
+/// each.
 #[test]
 fn chatters_that_never_ended_are_one_event() {
     let peak = 1.000_000_267_196_965_4;

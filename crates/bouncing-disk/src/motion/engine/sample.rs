@@ -18,7 +18,7 @@ pub const MAX_SAMPLES: usize = 1 << 24;
 /// they take many minutes, and no instant is rounded by more than a millionth of a period.
 pub const MAX_SAMPLED_PERIODS: u64 = 1 << 30;
 
-/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 const FLIGHTS_OF_EVENT: u64 = 4;
 
 impl<L: RestitutionLaw> Engine<L> {

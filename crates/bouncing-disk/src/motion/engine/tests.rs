@@ -40,8 +40,9 @@ fn energy(state: &DiskState) -> (f64, f64) {
     )
 }
 
-/// Friction that all but holds the load lets the disk slide for thousands of periods, and the angle is a small difference of
-/// what the two would give alone: the balance knows its rounding, and the angle is v^2/(2 (mu - l)) as far as mu and l are known.
+/// Friction that all but holds the load lets the disk slide for thousands of periods, and the angle is a
+/// small difference of what the two would give alone: the balance knows its rounding, and the angle is v^2/(2
+/// (mu - l)) as far as mu and l are known.
 #[test]
 fn a_slip_that_friction_and_load_all_but_hold_closes_its_balance() {
     let phase = Phase::new(2.884_361_746_820_472).unwrap();
@@ -135,7 +136,8 @@ proptest! {
                 let (before, after) = (energy(&record.segment.state).0, energy(&record.before).0);
                 let scale = record.segment.state.axial_velocity.abs().max(record.before.axial_velocity.abs());
                 let height = record.segment.state.height.abs().max(record.before.height.abs());
-                // A velocity is the sum of the relative one and the platform's, and is known to their rounding.
+                // A velocity is the sum of the relative one and the platform's, and is known to their
+                // rounding.
                 let speeds = scale + system.peak_acceleration() + record.axial_impulse;
                 prop_assert!((after - before).abs() <= CLOSURE * (scale * speeds + height), "{record:?}");
                 let change = record.after.axial_velocity - record.segment.state.axial_velocity;
@@ -185,8 +187,8 @@ proptest! {
         }
     }
 
-    /// The dense motion meets the events, stays above the platform, slips the way its mode says, and sticks only
-    /// where friction can hold it.
+    /// The dense motion meets the events, stays above the platform, slips the way its mode says, and sticks
+    /// only where friction can hold it.
     #[test]
     fn dense_motion_respects_its_mode((system, start, policy) in testing::motion()) {
         let mut last = *Engine::new(system, start, policy).unwrap().state();
@@ -579,8 +581,8 @@ fn a_platform_that_falls_away_launches_the_disk_at_once() {
     assert!(engine.launches());
 }
 
-/// Long flights at 70 kHz: energy is accounted for to rounding over 1e5 events, and the angle is the integral of the
-/// angular speed.
+/// Long flights at 70 kHz: energy is accounted for to rounding over 1e5 events, and the angle is the integral
+/// of the angular speed.
 #[test]
 fn motor_flights_close_and_the_angle_does_not_drift() {
     let mut worst = (0.0_f64, 0.0_f64, 0.0_f64);

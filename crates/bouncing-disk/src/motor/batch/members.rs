@@ -29,9 +29,10 @@ pub struct TransientMember {
 }
 
 impl TransientMember {
-    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients with starting phases
-    /// spread evenly over the cycle from one that the seed chooses, and seeds counted up from `settings.seed`. Ensembles
-    /// that are to be independent of each other need seeds that lie at least `members` apart.
+    /// The members of a [`TransientEnsemble`](crate::estimate::TransientEnsemble): `members` >= 1 transients
+    /// with starting phases spread evenly over the cycle from one that the seed chooses, and seeds counted up
+    /// from `settings.seed`. Ensembles that are to be independent of each other need seeds that lie at least
+    /// `members` apart.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for no member or illegal settings; an error of the core for more than
@@ -44,7 +45,7 @@ impl TransientMember {
         settings.check_for(&system.scales())?;
         check(members > 0, "members", 0.0, "[1, 1000000]")?;
         let mut starts = room_for("members of an ensemble", members, MAX_MEMBERS)?;
-        // The memory for them is asked for where they are computed.
+        // The computation reserves the memory for them.
         within_limit("speeds of an ensemble", members.saturating_mul(settings.intervals), MAX_SPEEDS)?;
         let member = |index: usize| -> Result<Self, Error> {
             let phase = starting_phase(settings.seed, index, members)?;
@@ -63,9 +64,10 @@ impl TransientMember {
     }
 }
 
-/// The phase at which the member of this index starts: they are spread evenly over the cycle, and turned by what the
-/// seed says, as a few phases are a sample of all of them. By 1 it is half a step, off all phases that are special; other
-/// seeds move on by the golden ratio of a step, so that a few of them are spread evenly, too.
+/// The phase at which the member of this index starts: the phases are spread evenly over the cycle, and
+/// turned by an angle that the seed selects, because a few phases are a sample of all of them. The seed 1
+/// turns by half a step, away from all special phases; each further seed adds the golden ratio of a step, so
+/// that a few seeds are spread evenly, too.
 pub(crate) fn starting_phase(seed: u64, index: usize, members: usize) -> Result<Phase, Error> {
     /// 2^64 over the golden ratio.
     const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;

@@ -5,7 +5,7 @@ use bouncing_disk_core::Impact;
 use crate::motor::rotor::Bounce;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// Rotors of one row: what the widest vectors of today hold.
+/// Rotors of one row: as many as the widest vectors of today hold.
 pub(crate) const WIDTH: usize = 8;
 
 /// A number of each rotor.
@@ -21,7 +21,7 @@ pub(crate) struct RotorRows<T> {
     twist_sine: Row,
     /// Angular speed after the last impact.
     pub(crate) speed: Row,
-    /// What is added up.
+    /// The sums.
     pub(crate) tally: T,
 }
 
@@ -38,7 +38,7 @@ impl<T: Copy + Default> RotorRows<T> {
         rows
     }
 
-    /// What a flight and the impact that ends it are for one of the rotors.
+    /// Takes one of the rotors through a flight and the impact that ends it.
     #[inline(always)]
     pub(crate) fn bounce(&self, own: usize, impact: &SharedImpact) -> Bounce {
         let SharedImpact { duration, sin, cos, velocity, restitution } = *impact;

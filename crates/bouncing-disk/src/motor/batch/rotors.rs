@@ -1,4 +1,5 @@
-//! The rotary motion of many rotors from impact to impact, in lockstep: as [`Run::step`](crate::motor::rotor::transient::Run::step).
+//! The rotary motion of many rotors from impact to impact, in lockstep: as
+//! [`Run::step`](crate::motor::rotor::transient::Run::step).
 
 use bouncing_disk_core::sweep::{Flights, LaneImpacts, LaneLoop};
 
@@ -11,7 +12,7 @@ const LANES: usize = Flights::LANES;
 /// One number of every lane.
 type Row = [f64; LANES];
 
-/// What is carried along with the flights of all lanes.
+/// The state that is carried along with the flights of all lanes.
 #[derive(Debug, Clone)]
 #[repr(align(64))]
 pub(crate) struct Rotors {
@@ -31,7 +32,8 @@ pub(crate) struct Rotors {
     periods: Row,
     /// Angle turned in the last flight.
     turned: Row,
-    /// The present interval of the curve: its index and end (s), the angle turned in it, and its duration (s).
+    /// The present interval of the curve: its index and end (s), the angle turned in it, and its duration
+    /// (s).
     index: [u64; LANES],
     end: Row,
     sum: Row,
@@ -191,8 +193,8 @@ impl Rotors {
         (self.periods[lane] as u64, self.speed[lane])
     }
 
-    /// The lanes to look at after an impact, one bit for each: where an interval or the transient ends, or where the disk
-    /// may come to rest.
+    /// The lanes that need work of their own after an impact, one bit for each: where an interval or the
+    /// transient ends, or where the disk may come to rest.
     pub(crate) fn attended(&self, may_rest: &[u64; LANES]) -> u64 {
         let lanes = self.passed.iter().zip(may_rest).enumerate();
         lanes.fold(0, |all, (lane, (passed, rests))| all | ((passed | rests) & (1 << lane)))

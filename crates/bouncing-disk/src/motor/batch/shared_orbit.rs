@@ -1,10 +1,10 @@
 //! One vertical motion that carries many rotors.
 //!
-//! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase lag, twist
-//! amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and each rotor adds to an
-//! impact no more than a clamp and a few products. The rotors also share the perturbations of the relaunches:
-//! differences between them are more precise than their own values (common random numbers), and their errors
-//! are not independent. See docs/numerics/motors.md.
+//! The rotary motion never acts back on the vertical one. Motors that differ only in load, friction, phase
+//! lag, twist amplitude, radii or mass share every flight, impact and rest: the orbit is computed once, and
+//! each rotor adds to an impact no more than a clamp and a few products. The rotors also share the
+//! perturbations of the relaunches: differences between them are more precise than their own values (common
+//! random numbers), and their errors are not independent. See docs/numerics/motors.md.
 
 #[cfg(feature = "fit")]
 pub(crate) mod transients;
@@ -32,13 +32,13 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
     Ok(first)
 }
 
-/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and the same
-/// seconds.
+/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and
+/// the same seconds.
 pub(crate) fn is_shared(one: &System, other: &System) -> bool {
     vertical_key(one) == vertical_key(other)
 }
 
-/// What is the same for motors that share one vertical motion, and for these alone.
+/// The numbers that all motors on one vertical motion share; motors that differ in them cannot share it.
 pub(crate) fn vertical_key(system: &System) -> [u64; 4] {
     of_vertical_motion(system).map(|(_, value)| value.to_bits())
 }

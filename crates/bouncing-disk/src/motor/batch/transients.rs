@@ -11,16 +11,16 @@ use crate::motor::batch::members::TransientMember;
 use crate::motor::batch::rotors::{Carry, Rotors};
 use crate::motor::rotor::transient::{FLIGHTS_OF_EVENT, Run, SpeedCurve};
 
-/// With fewer transients under way they are advanced one by one: what a step of the lanes costs however few of them are in use
-/// is as much as about this many single flights (docs/numerics/lockstep.md, "Motors in lockstep").
+/// With fewer transients under way they advance one by one: a step of the lanes costs as much as about this
+/// many single flights, however few lanes are in use (docs/numerics/lockstep.md, "Motors in lockstep").
 const FEWEST: usize = 26;
 
 /// Batches of lanes of one thread.
 const BATCHES: usize = 8;
 
-/// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it, in the
-/// order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times faster where
-/// there are many.
+/// The transient of each member, or the error that [`transient`](crate::motor::transient()) returns for it,
+/// in the order of the members; bit for bit those of [`transient`](crate::motor::transient()), several times
+/// faster where there are many.
 ///
 /// With the feature `parallel` they are spread over the threads of rayon's pool. Neither their number nor the
 /// instructions of the processor change a bit. Members under [`ChatterPolicy::Cut`] are computed one by one.
@@ -75,11 +75,11 @@ fn with_instructions(
     Ok(results.into_results()?)
 }
 
-/// What became of the member of an index.
+/// The outcome of the member with an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
 
-/// The outcomes of as many workers as there are threads, each told how many lanes are its share; it does not matter which of
-/// them has a member.
+/// The outcomes of as many workers as there are threads. Each worker gets the number of its lanes; results do
+/// not depend on which worker computes a member.
 #[cfg(feature = "parallel")]
 fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
     use rayon::prelude::*;
@@ -93,7 +93,7 @@ fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome>
     work(members.min(BATCHES * Flights::LANES))
 }
 
-/// Advances members that nobody has begun until there are none left.
+/// Advances members that no other worker has begun, until none is left.
 struct Worker<'a> {
     members: &'a [TransientMember],
     next: &'a AtomicUsize,
@@ -102,7 +102,7 @@ struct Worker<'a> {
     set: InstructionSet,
     /// The transients of the first lanes, with the indices of their members.
     runs: Vec<(usize, Run)>,
-    /// Their curves, close together: a run is large, and seldom looked at.
+    /// Their curves, kept close together: a run is large, and most of it is seldom needed.
     curves: Vec<Vec<f64>>,
     outcomes: Vec<Outcome>,
     work: WorkCount<'a>,
@@ -267,7 +267,7 @@ fn fly_next(run: &mut Run, work: &mut WorkCount<'_>) -> Result<Option<Launch>, E
     Ok(None)
 }
 
-/// What is not the same for every lane after an impact; true if the transient is done.
+/// The work after an impact that differs from lane to lane; true if the transient is done.
 fn attend(
     lane: usize,
     run: &mut Run,

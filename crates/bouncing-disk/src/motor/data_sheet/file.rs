@@ -43,8 +43,8 @@ impl MotorFileError {
 }
 
 impl Motor {
-    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
-    /// units. `null` is the same as a missing field; a byte-order mark before the text is accepted.
+    /// Reads a data sheet: an object with the fields of [`MotorParameters`](crate::motor::MotorParameters),
+    /// in SI units. `null` is the same as a missing field; a byte-order mark before the text is accepted.
     ///
     /// ```
     /// use bouncing_disk::Motor;
@@ -91,8 +91,8 @@ impl Motor {
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
 
-    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::motor::MotorParameters), in SI
-    /// units. A byte-order mark before the text is accepted.
+    /// Reads a data sheet: a table with the fields of [`MotorParameters`](crate::motor::MotorParameters), in
+    /// SI units. A byte-order mark before the text is accepted.
     ///
     /// # Errors
     /// As `Motor::from_json`.
@@ -166,7 +166,8 @@ impl<'de> Visitor<'de> for Entries {
     }
 }
 
-/// The motor of a text and of the `changes`, which take the place of what the text says before anything is checked.
+/// The motor of a text and of the `changes`, which take the place of what the text says before anything is
+/// checked.
 fn motor_of(mut given: Given, changes: &[(MotorField, f64)]) -> Result<Motor, Error> {
     let mut sheet = MotorParameters::EMPTY;
     for (field, value) in &given {
@@ -286,7 +287,8 @@ mod tests {
         }
     }
 
-    /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of two.
+    /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of
+    /// two.
     #[test]
     fn changes_come_before_the_checks() {
         for (read, write) in formats() {

@@ -1,7 +1,7 @@
 //! The vertical motion of the rotor: whether it lifts off at all, and whether its flights repeat.
 //!
-//! It is judged from motions, not from formulas: from the orbit that the unperturbed model repeats, and
-//! from a perturbed one that shows whether it survives (docs/numerics/motors.md, "Regime").
+//! The verdict comes from motions, not from formulas: from the orbit that the unperturbed model repeats, and
+//! from a perturbed motion that shows whether this orbit survives (docs/numerics/motors.md, "Regime").
 
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
@@ -29,7 +29,7 @@ const MOST_IMPACTS: u64 = 10 * FOLLOWED_IMPACTS;
 /// See [`MOST_IMPACTS`].
 const FEW_RESTS: u64 = 16;
 
-/// Impacts in which a motion that does not rest settles before it is looked at.
+/// Impacts in which a motion that does not rest settles before it is examined.
 const SETTLING_IMPACTS: usize = 100_000;
 
 /// Size of the relaunch perturbation (units of g/omega): that of `TransientSettings`.
@@ -52,7 +52,7 @@ pub enum MotorRegime {
         /// Periods of the stator in a round.
         platform_periods: u64,
     },
-    /// The rotor comes to rest after few flights, and a perturbed one repeats the same round: a trap, in
+    /// The rotor comes to rest after few flights, and a perturbed one repeats the same cycle: a trap, in
     /// which the speed rises along a ramp.
     LowPeriodChattering(ChatteringCycle),
     /// The rotor comes to rest now and then, after many flights, or after a number of flights that a small
@@ -78,8 +78,8 @@ pub enum MotorRegime {
 }
 
 impl MotorRegime {
-    /// Whether the motion repeats a short round, so that its speed has next to no statistical error, however far it lies from
-    /// those of its neighbours.
+    /// Whether the motion repeats a short cycle. Its speed then has next to no statistical error, however far
+    /// it is from the speeds of neighbouring motors.
     #[must_use]
     pub const fn is_locked(&self) -> bool {
         matches!(self, Self::NoLiftOff | Self::Periodic { .. } | Self::LowPeriodChattering(_))
@@ -106,7 +106,7 @@ impl Display for MotorRegime {
     }
 }
 
-/// What a perturbed motion was seen to do.
+/// The observed statistics of a perturbed motion.
 #[derive(Debug, Clone, Copy, Default)]
 struct Seen {
     long_flights: u64,
@@ -213,8 +213,8 @@ fn survives(cycle: ChatteringCycle, seen: &Seen) -> bool {
     cycle.long_flights <= LOCKED_FLIGHTS && seen.periods_between_rests().is_some_and(near)
 }
 
-/// What the unperturbed motion from rest has settled on. It is followed without its rotation, which never
-/// acts on it.
+/// The motion on which the unperturbed motion from rest settles. It is followed without its rotation, which
+/// never acts on it.
 fn settled(
     system: &DimensionlessSystem,
     transient_impacts: usize,

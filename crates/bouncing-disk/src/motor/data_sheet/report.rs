@@ -1,4 +1,4 @@
-//! Whether a data sheet makes sense: what follows from it, and what the motor does.
+//! A check of a data sheet: its derived quantities, and the behaviour of the motor.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -10,8 +10,8 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
 
-/// What follows from a data sheet, and what the motor does ([`Motor::report`]). It prints as several
-/// lines.
+/// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as
+/// several lines.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct MotorReport {

@@ -1,4 +1,4 @@
-//! The data sheet: what is legal, what is told, and what follows.
+//! The data sheet: its legal values, its warnings, and the derived quantities.
 
 use std::f64::consts::{PI, TAU};
 use std::mem::discriminant;

@@ -1,9 +1,8 @@
-//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short round of
-//! flights and rest. Its speed there is that of the round: from zero (the holes of Fig. 11) to more than
-//! beside the traps.
+//! Low-period traps: values of preload, amplitude or frequency at which the rotor repeats a short cycle of
+//! flights and rest. Its speed there is that of the cycle: from zero (the holes of Fig. 11) to more than the
+//! speed beside the trap.
 //!
-//! It is judged from the vertical motion, which alone decides (docs/numerics/design.md, "Low-period
-//! traps").
+//! The vertical motion alone decides (docs/numerics/design.md, "Low-period traps").
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,11 +14,11 @@ use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::toss::chattering_cycle::{ChatteringCycle, LOCKED_FLIGHTS, LOCKED_WITHIN, LONG_FLIGHT};
 
-/// Perturbed relaunches of a rotor whose unperturbed round is short.
+/// Perturbed relaunches of a rotor whose unperturbed cycle is short.
 const RELAUNCHES: u32 = 64;
 
-/// Impacts after which an excursion is given up: of the unperturbed one, which is short or none, and of a
-/// perturbed one.
+/// Impacts after which an excursion is abandoned: the unperturbed one, which must be short, and a perturbed
+/// one.
 const MOST_IMPACTS: u64 = 400;
 const MOST_PERTURBED_IMPACTS: u64 = 4_000;
 
@@ -105,7 +104,7 @@ impl TrapVerdict {
 /// Flights that a summed chatter costs.
 const FLIGHTS_OF_EXCURSION: u64 = 4;
 
-/// From a separation to the next one, or to where it was given up.
+/// The way from a separation to the next one, or to where it was abandoned.
 #[derive(Debug, Clone, Copy)]
 struct Excursion {
     /// Radians.
@@ -115,8 +114,8 @@ struct Excursion {
 }
 
 impl Excursion {
-    /// Of a rotor that leaves with this relative speed, given up after so many impacts or more long flights;
-    /// `None` if the platform never falls away.
+    /// The excursion of a rotor that leaves with this relative speed, abandoned after so many impacts or more
+    /// long flights; `None` if the platform never falls away.
     fn of(
         map: &ImpactMap,
         speed: f64,
@@ -153,8 +152,8 @@ impl Excursion {
     }
 }
 
-/// The unperturbed round, if it is short. Every rest ends with the same separation, so that one excursion is
-/// the round.
+/// The unperturbed cycle, if it is short. Every rest ends with the same separation, so one excursion is the
+/// whole cycle.
 fn short_cycle(map: &ImpactMap, work: &mut WorkCount<'_>) -> Result<Option<ChatteringCycle>, Error> {
     let excursion = Excursion::of(map, 0.0, (MOST_IMPACTS, LOCKED_FLIGHTS), work)?;
     Ok(excursion.and_then(|excursion| excursion.cycle))
@@ -191,7 +190,7 @@ pub fn low_period_traps(
 ) -> Result<Vec<TrapVerdict>, Error> {
     let watch = Watch::begin(observer, 0, preloads.len() as u64)?;
     let mut work = watch.work();
-    // All are built before any is judged, so that an illegal one is told at once.
+    // Build all of them before judging any, so that an illegal one is an error at once.
     let motors = preloads
         .iter()
         .map(|&preload| -> Result<Motor, Error> {

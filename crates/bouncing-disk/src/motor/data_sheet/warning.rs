@@ -9,7 +9,7 @@ use crate::motor::data_sheet::motor_field::{Field, MotorField};
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;
 
-/// A bound on the change of the preload above this is told.
+/// A bound on the change of the preload above this gives a warning.
 const LARGEST_CHANGE: f64 = 0.01;
 
 /// A value that is legal but unlikely to be intended, or violates an assumption of the model

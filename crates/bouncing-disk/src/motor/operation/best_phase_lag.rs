@@ -13,7 +13,7 @@ use crate::motor::operation::settings::OperatingSettings;
 /// Lags around the whole circle.
 const COARSE: usize = 32;
 
-/// Lags on either side of the best of these, as far as the second next of them.
+/// Lags on either side of the best of these, up to its second neighbour.
 const FINE: usize = 16;
 
 /// The phase lag at which a motor turns fastest forwards, under its load.
@@ -95,8 +95,8 @@ fn fastest(results: &Operations) -> Option<(usize, Estimate)> {
         .max_by(|one, other| one.1.value.total_cmp(&other.1.value))
 }
 
-/// Top (offset and height) of the least-squares parabola through values at offsets that are symmetric about zero; where
-/// it has none, the largest value.
+/// Top (offset and height) of the least-squares parabola through values at offsets that are symmetric about
+/// zero; where it has none, the largest value.
 fn top(offsets: &[f64], value: impl Fn(usize) -> f64) -> (f64, f64) {
     let count = offsets.len() as f64;
     let square = offsets.iter().map(|x| x * x).sum::<f64>() / count;

@@ -4,7 +4,7 @@ use bouncing_disk_core::sweep::LaneLoop;
 
 use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 
-/// What the rotors of a row have turned, got and lost since the window began.
+/// The angles, gains and losses of the rotors of a row since the window began.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Energies {
     /// Angle turned in flights.

@@ -30,13 +30,15 @@ pub const MAX_OPERATED_ROTORS: usize = 1 << 16;
 const LEAST_IMPACTS: u64 = 50;
 const LEAST_PERIODS: f64 = 10.0;
 
-/// A round runs for at most so many times what all before took together, whatever it hopes for.
+/// A round is at most so many times as long as all rounds before it together, whatever the estimate.
 const GROWTH: f64 = 3.0;
 
-/// What a hoped-for number of windows is increased by, so that another round is seldom needed.
+/// The factor by which the estimated number of windows is increased, so that a further round is seldom
+/// needed.
 const MARGIN: f64 = 1.15;
 
-/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten operations.
+/// Relative rounding of a load that was computed from the largest torque of friction in other units: some ten
+/// operations.
 const LOAD_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// A motor whose disk stores more than this share of the power put in has not settled.
@@ -48,7 +50,7 @@ pub(crate) struct LoadedMotor {
     pub(crate) system: System,
     /// Mass m (kg).
     pub(crate) mass: f64,
-    /// Load torque T_L (N m): what the system's load is made from, as it was given.
+    /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
 }
 
@@ -70,7 +72,8 @@ impl LoadedMotor {
         self.system.dimensionless().load()
     }
 
-    /// Whether a mean speed is one: beyond four of its standard errors, and beyond what rounding leaves.
+    /// Whether a mean speed differs from zero: by more than four of its standard errors, and by more than
+    /// rounding.
     pub(crate) fn turns(&self, speed: Estimate) -> bool {
         let rounding = 1e-6 * self.system.platform().peak_angular_speed();
         speed.value.abs() > (4.0 * speed.standard_error).max(rounding)
@@ -82,9 +85,9 @@ impl LoadedMotor {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
-    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or equal to it but for
-    /// the rounding of the torques in other units. On average the normal force is the weight under preload, so that friction
-    /// gives no more, whatever the motion.
+    /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
+    /// equal to it but for the rounding of the torques in other units. On average the normal force is the
+    /// weight under preload, so that friction gives no more, whatever the motion.
     fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
         system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
@@ -102,22 +105,22 @@ impl LoadedMotor {
     }
 }
 
-/// The mean speeds of all rotors and members, and what is said of them.
+/// The mean speeds of all rotors and members, and the operations that follow from them.
 #[derive(Debug)]
 pub(crate) struct Operations {
     /// In the order of the motors.
     pub(crate) operations: Vec<Operation>,
-    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of rotors from far below
-    /// and from far above; none for a runaway.
+    /// `speeds[rotor][member]`, mean angular speeds (rad/s) after the start-up, in the middle of those of
+    /// rotors from far below and from far above; none for a runaway.
     pub(crate) speeds: Vec<Vec<f64>>,
-    /// Those of rotors from far above: the difference bounds what is left of the start-up.
+    /// Those of rotors from far above: the difference bounds the remainder of the start-up.
     pub(crate) speeds_from_above: Vec<Vec<f64>>,
     /// How long each member was followed, in units of the shortest run.
     pub(crate) length: f64,
 }
 
-/// The steady operation of motors that share one vertical motion. The errors are relative to the largest speed of those
-/// without load; where none is, the first motor without its load runs along.
+/// The steady operation of motors that share one vertical motion. The errors are relative to the largest
+/// speed of those without load; if all have one, the first motor is also computed without its load.
 pub(crate) fn operate(
     motors: &[LoadedMotor],
     settings: &OperatingSettings,
@@ -127,8 +130,8 @@ pub(crate) fn operate(
     operate_for(None, motors, settings, observer)
 }
 
-/// [`operate`] with members that are followed for just this length, however well the speeds are known then; of settings that may
-/// have fewer members than are legal.
+/// [`operate`] with members that are followed for exactly this length, however well the speeds are then
+/// known; the settings may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
     length: Option<f64>,
     motors: &[LoadedMotor],
@@ -171,7 +174,7 @@ pub(crate) fn operate_for(
     }
     .into_iter();
     for motor in motors {
-        // There is one for each that does not run away.
+        // Each motor that does not run away has a result.
         let (operation, speeds, above) = if motor.runs_away() { None } else { known.next() }
             .unwrap_or_else(|| (motor.runaway(), Vec::new(), Vec::new()));
         results.operations.push(operation);
@@ -187,7 +190,8 @@ type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 /// An ensemble under way.
 struct Run {
     motors: Vec<LoadedMotor>,
-    /// How many of them were asked for: each is carried twice, from far below and far above all steady speeds.
+    /// How many of them the caller requested: each of these is carried twice, from far below and from far
+    /// above all steady speeds.
     asked: usize,
     members: Vec<(Member, Vec<Window>)>,
     /// Duration of a window (rad) and its least impacts.
@@ -195,7 +199,7 @@ struct Run {
     least_impacts: u64,
     /// Most impacts of a window.
     most_impacts: u64,
-    /// What each rotor lacks, and the error that is asked for (rad/s).
+    /// What each rotor still lacks, and the requested error (rad/s).
     shortfalls: Vec<Option<Shortfall>>,
     wanted: f64,
 }
@@ -211,7 +215,8 @@ impl Run {
         let members = (0..settings.members)
             .map(|index| Ok((Member::new(&systems, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
-        // The time in which friction gives the platform's largest speed, in radians; that of the slowest rotor.
+        // The time in which friction gives the platform's largest speed, in radians; that of the slowest
+        // rotor.
         let rise = systems.iter().filter(|system| system.friction() > 0.0);
         let rise = rise.map(|system| system.twist_speed() / system.friction()).fold(0.0, f64::max);
         let duration = length * (rise.min(f64::MAX) / WINDOWS_OF_RISE).max(LEAST_PERIODS * TAU);
@@ -311,13 +316,14 @@ impl Run {
         self.most_impacts = self.most_impacts.saturating_mul(2);
     }
 
-    /// The rotor of a motor that started from far above; for one that was not asked for, its only one.
+    /// The rotor of a motor that started from far above; for a motor that the caller did not request, its
+    /// only rotor.
     fn rotor_from_above(&self, motor: usize) -> usize {
         if motor < self.asked { self.motors.len() + motor } else { motor }
     }
 
-    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two rotors, and of the
-    /// one from far above.
+    /// Mean speeds (rad/s) in the windows after the start-up, of each member: in the middle of a motor's two
+    /// rotors, and of the one from far above.
     fn speeds(&self, motor: usize) -> [Vec<Vec<f64>>; 2] {
         let unit = self.motors[motor].system.scales().angular_speed;
         let after = left_out(self.windows());
@@ -337,7 +343,7 @@ impl Run {
         };
         let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
         let scale = unloaded.map(|(motor, [speeds, _])| {
-            // A motor without twist has no speed but that at which a load makes it creep.
+            // A motor without twist moves only if a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;
             mean(speeds).abs().max(0.01 * motor.system.platform().peak_angular_speed().max(creep))
         });
@@ -350,8 +356,8 @@ impl Run {
             .collect();
     }
 
-    /// What the disk still stores, if it is too much of what is put in: that of a disk that settles falls as one over the time
-    /// for which it is followed.
+    /// The energy that the disk still stores, if it is too large a part of the supplied energy. For a disk
+    /// that settles this part falls as one over the time for which it is followed.
     fn unbalanced(&self, motor: usize) -> Option<Shortfall> {
         let units = Units::of(&self.motors[motor]);
         let sum = self.total(motor, left_out(self.windows())..self.windows());
@@ -476,8 +482,8 @@ impl Sum {
         self.rotor.add(&window.rotors[rotor]);
     }
 
-    /// The energy that came in; where less came in than the disks of all members have at their start, that: there are only
-    /// roundings then.
+    /// The energy that came in; where less came in than the disks of all members have at their start, that:
+    /// there are only roundings then.
     fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let system = motor.system.dimensionless();
         let axial = self.axial.normal_work + self.axial.perturbation_work;
@@ -490,7 +496,7 @@ impl Sum {
         put_in.max(members as f64 * moving)
     }
 
-    /// What the energy balance leaves, relative to the energy that came in.
+    /// The residual of the energy balance, relative to the supplied energy.
     fn energy_residual(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;

@@ -26,8 +26,8 @@ use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::parameters::dimensionless::DimensionlessSystem;
 
-/// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and what friction
-/// brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
+/// An angular speed above which no rotor under a braking load stays, nor comes to: that of the platform, and
+/// what friction brakes in a period. Without friction a rotor keeps its speed, and starts at rest.
 pub(crate) fn far_above(system: &DimensionlessSystem) -> f64 {
     let friction = system.friction();
     if friction > 0.0 { system.twist_speed() + TAU * friction } else { 0.0 }
@@ -43,9 +43,9 @@ pub(crate) enum Member {
 }
 
 impl Member {
-    /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have two rotors,
-    /// one from far below all steady speeds and one, behind those of all systems, from as far above; the others start
-    /// at rest.
+    /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
+    /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
+    /// above; the others start at rest.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
         bracketed: usize,
@@ -186,7 +186,8 @@ impl Bouncing {
         Ok(std::mem::take(&mut self.window))
     }
 
-    /// Two rotors that have met stay together for ever: where all have, one of each is carried on and counts twice.
+    /// Two rotors that have met stay together for ever: where all have, one of each is carried on and counts
+    /// twice.
     fn join(&mut self) {
         let systems = self.engines.len() - self.bracketed;
         let speeds = self.speeds();

@@ -1,7 +1,8 @@
-//! Rotors on a platform that never falls away: they stick and slide, each by itself, and nothing is chaotic.
+//! Rotors on a platform that never falls away: they stick and slide, each by itself, without chaos.
 //!
-//! The steady motion is computed at once, not waited for: it repeats from period to period, with a speed that the map
-//! of a period leaves as it is (docs/numerics/motors.md, "A motor that is never thrown").
+//! The steady motion is computed directly, without following a run-up: it repeats from period to period, and
+//! its speed is the fixed point of the map over a period (docs/numerics/motors.md, "A motor that is never
+//! thrown").
 
 use std::f64::consts::TAU;
 
@@ -21,8 +22,8 @@ use crate::parameters::dimensionless::DimensionlessSystem;
 /// Halvings that find the steady speed: to 1e-18 of the range in which it lies.
 const HALVINGS: u32 = 60;
 
-/// Periods of the steady motion that are computed for its energies, so that the rounding of the speed at both ends is small
-/// beside them.
+/// Periods of the steady motion that are computed for its energies: enough for these to be large compared
+/// with the rounding of the speed at both ends.
 const PERIODS: u64 = 16;
 
 /// Rotors that lie on the platform for ever.
@@ -30,7 +31,7 @@ const PERIODS: u64 = 16;
 pub(crate) struct Lying {
     engines: Vec<Engine>,
     phase: Phase,
-    /// [`PERIODS`] that all rotors repeat; computed when they are first asked for.
+    /// [`PERIODS`] that all rotors repeat; computed when first needed.
     round: Option<Window>,
 }
 
@@ -92,8 +93,8 @@ impl Lying {
     }
 }
 
-/// The angular speed at a phase to which a rotor from rest tends. What a period gains falls with the speed at its
-/// beginning, so that its sign changes once.
+/// The angular speed at a phase to which a rotor from rest tends. The gain of a period falls with the speed
+/// at its beginning, so its sign changes once.
 fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
     let mut gain = |speed: f64| Ok::<_, Error>(motion(system, phase, speed, 1, work)?.2 - speed);
     let first = gain(0.0)?;
@@ -111,7 +112,8 @@ fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount
     Ok(near)
 }
 
-/// Some periods of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at the end.
+/// Some periods of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at the
+/// end.
 fn motion(
     system: &DimensionlessSystem,
     phase: Phase,

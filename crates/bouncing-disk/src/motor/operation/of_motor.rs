@@ -1,4 +1,5 @@
-//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load, best phase lag.
+//! A designer's questions about a motor in steady operation: operating point, torque-speed curve, stall load,
+//! best phase lag.
 
 use bouncing_disk_core::{Observer, Progress, Unobserved};
 
@@ -41,9 +42,9 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for more than
-    /// [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor that is
-    /// not known well enough when all impacts are spent is not an error but [`Operation::Unsettled`].
+    /// [`Error::OutOfRange`] for illegal settings and a load that is not finite; an error of the core for
+    /// more than [`MAX_OPERATED_ROTORS`] rotors of all members together; the errors of the flights. A motor
+    /// that is not known well enough when all impacts are spent is not an error but [`Operation::Unsettled`].
     pub fn operating_point(
         &self,
         load_torque: f64,
@@ -56,8 +57,9 @@ impl Motor {
     }
 
     /// The motor in steady operation under each of these load torques (N m), in their order, on one vertical
-    /// motion, so that a curve costs little more than a point unless loads settle slowly. The points share their perturbations: the
-    /// curve is smooth, and the difference of two points is more precise than either.
+    /// motion, so that a curve costs little more than a point unless loads settle slowly. The points share
+    /// their perturbations: the curve is smooth, and the difference of two points is more precise than
+    /// either.
     ///
     /// The items of `observer` are the impacts that may be spent.
     ///
@@ -100,8 +102,8 @@ impl Motor {
     /// The items of `observer` are the impacts that its two searches may spend.
     ///
     /// # Errors
-    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without load,
-    /// [`Error::NotSettled`] if a speed by which it is judged still drifts after the allowed impacts.
+    /// Those of [`Self::operating_point`]; [`Error::DoesNotTurn`] for a motor that does not turn without
+    /// load, [`Error::NotSettled`] if a speed by which it is judged still drifts after the allowed impacts.
     pub fn stall_load(
         &self,
         settings: &OperatingSettings,

@@ -25,13 +25,14 @@ impl Estimate {
         Ok(Self { value, standard_error: not_negative("standard_error", standard_error)? })
     }
 
-    /// What is in the middle of runs from two sides, with its distance to one of them as the bound of its bias.
+    /// The mean of runs from two sides, with its distance from one of them as a bound on its bias.
     pub(crate) fn bounded_by(self, one: Self) -> Self {
         let bias = (one.value - self.value).abs();
         Self { standard_error: self.standard_error + bias / NORMAL_975, ..self }
     }
 
-    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not positive.
+    /// The ratio of two means, with the error of their ratio to first order; `None` where the divisor is not
+    /// positive.
     pub(crate) fn of_ratio(dividends: &[f64], divisors: &[f64]) -> Option<Self> {
         let divisor = mean(divisors);
         let value = mean(dividends) / divisor;
@@ -81,7 +82,7 @@ pub struct OperatingPoint {
     pub energy_residual: f64,
     /// Averaged time, of all members together (s).
     pub averaged_time: f64,
-    /// Time left out as the start-up, of each member (s).
+    /// Time of each member that is omitted as start-up (s).
     pub start_up: f64,
     /// Impacts of all members together, without those of summed chattering sequences and of the start-up.
     pub impacts: u64,
@@ -111,7 +112,7 @@ pub enum Shortfall {
     },
     /// The disk still stores energy: the input power is not equal to output and losses.
     PowerBalance {
-        /// The power that is stored (W); negative where it is given back.
+        /// The power that is stored (W); negative if the disk returns it.
         stored_power: f64,
         /// The power that is put in (W).
         input_power: f64,
@@ -126,7 +127,8 @@ pub enum Shortfall {
 pub enum Operation {
     /// It turns steadily, known to the requested accuracy.
     Steady(OperatingPoint),
-    /// It was not followed long enough for this: what is known, and what it lacks.
+    /// The motor was not followed for long enough: the operating point as far as it is known, and what it
+    /// lacks.
     Unsettled(OperatingPoint, Shortfall),
     /// The load overpowers the motor: it is accelerated for ever, and has no mean speed.
     Runaway {

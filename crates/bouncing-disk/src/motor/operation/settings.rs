@@ -1,10 +1,11 @@
-//! The accuracy and the largest cost of a steady operation.
+//! Settings of a steady operation: how accurate the mean speed must be, and how much it may cost.
 
 use bouncing_disk_core::read_checked;
 
 use crate::error::{Error, check};
 
-/// Least and most vertical motions of an ensemble. A standard error of fewer than four members is itself hardly known.
+/// Least and most members of an ensemble, each with a vertical motion of its own. With fewer than four the
+/// standard error would itself be too uncertain.
 const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 
 /// How a steady operation is computed.
@@ -12,19 +13,24 @@ const MEMBERS: std::ops::RangeInclusive<usize> = 4..=4096;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "UncheckedSettings"))]
 pub struct OperatingSettings {
-    /// The requested standard error of the mean speed, relative to the speed without load, in [1e-6, 0.5];
-    /// for motors on one vertical motion, relative to the largest speed of those without load, or that of the
-    /// first; for slower motors, relative to a hundredth of the platform's largest angular speed, or of the
-    /// change by friction in a radian of phase. Default 0.01.
+    /// The requested standard error of the mean speed, as a share of the motor's speed without load, in
+    /// [1e-6, 0.5]. Default 0.01.
+    ///
+    /// Motors that are computed together on one vertical motion have one reference speed: the largest speed
+    /// of those without load, or, if all have a load, the speed of the first one without its load. The
+    /// reference is never below a hundredth of the platform's largest angular speed, nor below a hundredth of
+    /// the change of speed that friction makes in a radian of phase; otherwise a motor that hardly turns
+    /// would never be finished.
     pub relative_error: f64,
-    /// Vertical motions to average over, in [4, 4096]. Default 16.
+    /// Members of the ensemble, each with a vertical motion of its own, in [4, 4096]. Default 16.
     pub members: usize,
-    /// Most impacts that all members together may take (periods, for a rotor that never bounces; each member
-    /// always takes a dozen): if they are spent before the error is reached, the result is
-    /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). In [1, 1e15]. Default 20 million, a few seconds.
+    /// Most impacts of all members together, in [1, 1e15]; for a rotor that never bounces, most periods. If
+    /// they are used up before the requested error is reached, the result is
+    /// [`Operation::Unsettled`](crate::motor::Operation::Unsettled). Each member takes at least a dozen in
+    /// any case. Default 20 million, which takes a few seconds.
     pub most_impacts: u64,
     /// Size of the relaunch perturbation in units of g/omega, in (0, 1]. It cannot be zero: without it the
-    /// motor locks on a cycle chosen by rounding, whose speed may be wrong by a third. Default 1e-3.
+    /// motor locks on a cycle selected by rounding, whose speed may be wrong by a third. Default 1e-3.
     pub relaunch_perturbation: f64,
     /// Seed of the perturbations. Default 1.
     pub seed: u64,

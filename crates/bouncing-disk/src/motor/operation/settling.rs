@@ -5,19 +5,20 @@ use bouncing_disk_core::numerics::statistics::{NORMAL_975, mean};
 
 use crate::motor::operation::point::{Estimate, Shortfall, error_of_mean};
 
-/// A drift counts as one beyond so many of its standard errors, however loose the error is that was asked for: of a vertical
-/// motion that still changes no bound tells. A drift has about twice the standard error of the mean. With 15 degrees of
-/// freedom chance gives one of these in 20 judgements; a motor is then only followed for longer.
+/// A drift is significant beyond so many of its standard errors, however large the requested error: no bound
+/// covers a vertical motion that still changes. A drift has about twice the standard error of the mean. With
+/// 15 degrees of freedom chance gives a significant drift in one of 20 tests; the motor is then only followed
+/// for longer.
 const DRIFT: f64 = NORMAL_975;
 
-/// Motors that lock on one motion have next to no scatter, and what is left of a start-up decays for as long as one
-/// waits. This share of the error that was asked for is too little to wait for.
+/// Motors that lock on one motion have next to no scatter, and the remainder of their start-up decays for
+/// ever. A drift below this share of the requested error is ignored.
 const NEGLIGIBLE: f64 = 1e-3;
 
-/// Parts of the windows: the first is always left out, as the start-up.
+/// Parts of the windows: the first is always omitted as start-up.
 const PARTS: usize = 3;
 
-/// Windows that are left out of so many.
+/// The number of windows, of so many, that are omitted.
 pub(crate) const fn left_out(windows: usize) -> usize {
     windows / PARTS
 }
@@ -25,17 +26,17 @@ pub(crate) const fn left_out(windows: usize) -> usize {
 /// Mean speeds of windows in order of time, `[member][window]` without the start-up.
 pub(crate) type Speeds = [Vec<f64>];
 
-/// The mean speed in the middle of rotors that started from far below and far above on the same vertical motions, with a bound of
-/// its bias by those from above: a rotor never overtakes another one, and steady ones are between them. `None` if it is
-/// not finite.
+/// The mean speed in the middle of rotors that started from far below and far above on the same vertical
+/// motions, with a bound of its bias by those from above: a rotor never overtakes another one, and steady
+/// ones are between them. `None` if it is not finite.
 fn steady_speed(middle: &Speeds, above: &Speeds) -> Option<Estimate> {
     let of =
         |speeds: &Speeds| Estimate::of(&speeds.iter().map(|windows| mean(windows)).collect::<Vec<_>>()).ok();
     Some(of(middle)?.bounded_by(of(above)?))
 }
 
-/// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more of this a bound of
-/// the start-up than scatter.
+/// Judges the mean speed of windows: `None` if it is steady, its standard error at most `wanted`, and no more
+/// of this a bound of the start-up than scatter.
 pub(crate) fn shortfall(middle: &Speeds, above: &Speeds, wanted: f64) -> Option<Shortfall> {
     let drifts: Vec<f64> = middle
         .iter()
@@ -99,11 +100,12 @@ mod tests {
         for wanted in [0.1, 100.0] {
             assert!(matches!(alone(&speeds, wanted), Some(Shortfall::Drift { .. })), "{wanted}");
         }
-        // One that is lost in the scatter is none.
+        // A drift that is lost in the scatter is not significant.
         assert_eq!(alone(&noisy(16, 12, |window| 1e-4 * window), 0.1), None);
     }
 
-    /// What is left of the start is in no scatter: it is waited for, and what is not is part of the error.
+    /// The scatter does not contain the remainder of the start-up: a large one is awaited, a small one added
+    /// to the error.
     #[test]
     fn what_depends_on_the_start_is_no_part_of_a_steady_mean() {
         let (below, above) = (noisy(16, 12, |_| 5.0), noisy(16, 12, |_| 5.3));

@@ -1,8 +1,8 @@
 //! The spread of a speed or a stall load over the tolerances of the inputs.
 //!
 //! Preload and amplitude of a motor are known to about a per cent, and its response to them is rough: it is
-//! trapped at one value and free at the next. Draws show this, derivatives do not (docs/numerics/motors.md,
-//! "What the tolerances of the inputs make of it").
+//! trapped at one value and free at the next. Random draws show this, derivatives do not
+//! (docs/numerics/motors.md, "The spread over the tolerances of the inputs").
 
 use std::f64::consts::LN_10;
 
@@ -18,32 +18,35 @@ use crate::motor::operation::point::Estimate;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::stall_share;
 
-/// Members of a draw, each followed as long as one of the motor itself: the fewest that have a scatter. It is pooled over all
-/// draws, and what is stopped by no error of its own has one without bias.
+/// Members of a drawn motor: the fewest that have a scatter, which is then pooled over all draws. Each member
+/// runs as long as one of the motor itself. No run ends because its own error looks small, so the errors are
+/// unbiased.
 const MEMBERS_OF_DRAW: usize = 2;
 
-/// Loads of a draw between none and the largest mean torque of friction.
+/// Steps of the load from zero to the largest mean torque of friction, for the stall of a drawn motor.
 const STALL_STEPS: usize = 16;
 
-/// Loads of the motor itself, as shares of that torque: a run in which it is steady under these is long enough for its stall.
+/// Loads as shares of that torque. A run in which the motor itself becomes steady under them is long enough
+/// to find the stall of a drawn one.
 const STEADY_UNDER: [f64; 3] = [-0.5, 0.0, 0.5];
 
-/// The streams of random numbers of the draws lie behind those of any members.
+/// Number of the first stream of random numbers of the draws: beyond the streams of any members.
 const FIRST_STREAM: u64 = 1 << 32;
 
 /// How well the inputs of a motor are known, and how many motors are drawn within these tolerances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct InputTolerance {
-    /// Relative tolerance of the preload, in [0, 0.5]: the draws lie evenly within it on either side. Default 0.01.
+    /// Relative tolerance of the preload, in [0, 0.5]: the draws lie evenly within it on either side. Default
+    /// 0.01.
     pub preload: f64,
     /// Relative tolerance of the axial amplitude, in [0, 0.5], likewise. Default 0.01.
     pub amplitude: f64,
-    /// Decades over which the size of the relaunch perturbation is drawn, evenly in its logarithm and centred on that of
-    /// the settings, in [0, 6]: its true size is unknown. Default 1.
+    /// Decades over which the size of the relaunch perturbation is drawn, evenly in its logarithm and centred
+    /// on that of the settings, in [0, 6]: its true size is unknown. Default 1.
     pub perturbation_decades: f64,
-    /// Motors that are drawn, in [8, 10000]. Default 39, whose range contains a further one with a chance of
-    /// 38 in 40.
+    /// Motors that are drawn, in [8, 10000]. Default 39: a further draw then lies in their range with a
+    /// probability of 38/40.
     pub draws: usize,
 }
 
@@ -93,37 +96,40 @@ impl InputTolerance {
     }
 }
 
-/// The spread of a number over motors whose inputs differ by no more than their tolerances: a designer can
-/// rely on it, while the standard error holds only at exactly the given inputs.
+/// The spread of a speed or a stall load over motors whose inputs differ by no more than their tolerances. A
+/// designer can rely on this spread; the standard error of a single motor holds only at exactly the given
+/// inputs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct InputSpread {
     /// The mean over the draws, with its standard error.
     pub mean: Estimate,
-    /// The standard deviation over the draws without their statistical errors (subtracted in quadrature), and
-    /// its own standard error. It is zero if those errors explain all of it.
+    /// The standard deviation over the draws, from which their statistical errors are subtracted in
+    /// quadrature, with its own standard error. It is zero if those errors explain all of the scatter.
     pub standard_deviation: Estimate,
-    /// The least and the largest of the draws, their distances from the mean reduced by the statistical
-    /// error. A further draw lies within with the chance (n - 1)/(n + 1) for n draws, 95 % for 39.
+    /// The smallest and the largest value of the draws, drawn in towards the mean to take away the widening
+    /// by statistical errors. With n draws, a further one lies between them with the probability (n - 1)/(n +
+    /// 1), 95 % for 39.
     pub from_to: [f64; 2],
-    /// Draws that have the number.
+    /// Draws that have a value, over which these statistics are taken.
     pub draws: usize,
-    /// Draws without it: the load overpowers the motor.
+    /// Draws that have no value, because the load overpowers the motor.
     pub without: usize,
-    /// Draws in which the rest of the start-up exceeds the standard deviation: taken as they were.
+    /// Of the draws with a value, those whose runs may still contain more of the start-up than the standard
+    /// deviation. They are included unchanged.
     pub unsettled: usize,
-    /// Draws, of all, that are in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
+    /// Of all draws, those in a low-period trap ([`TrapVerdict`](crate::motor::TrapVerdict)).
     pub trapped: usize,
 }
 
-/// A number of a motor that was drawn.
+/// The speed or stall load of a drawn motor.
 #[derive(Debug, Clone, Copy)]
 struct Drawn {
     value: f64,
     /// The variance of its statistical error.
     variance: f64,
-    /// What is left of the start-up, at most.
+    /// Bound on the remainder of the start-up.
     start_up: f64,
 }
 
@@ -165,7 +171,8 @@ impl InputSpread {
         let least = (variance - uncertain).max(0.0).sqrt();
         let standard_error = (most - deviation).max(deviation - least);
         let observed = standard_deviation(&values);
-        // As far as the deviation may be, not as it is: nothing shrinks to a point that was only not resolved.
+        // The largest deviation within its error, not the deviation itself: an unresolved spread must not
+        // shrink to a point.
         let real = if observed > 0.0 { (most / observed).min(1.0) } else { 0.0 };
         let at = |value: f64| centre.value + real * (value - centre.value);
         let least = values.iter().copied().fold(f64::INFINITY, f64::min);
@@ -204,8 +211,8 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// Those of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor that leaves its legal
-    /// ranges within them.
+    /// Those of [`Self::torque_speed_curve`]; [`Error::OutOfRange`] for the tolerances, and for a motor that
+    /// leaves its legal ranges within them.
     pub fn speed_spreads(
         &self,
         load_torques: &[f64],
@@ -267,8 +274,8 @@ impl Motor {
         InputSpread::of(&draws, trapped)
     }
 
-    /// Operates each motor that is drawn under loads, as long as this one has to be under the first ones, and counts those in
-    /// a trap.
+    /// Operates each motor that is drawn under loads, as long as this one has to be under the first ones, and
+    /// counts those in a trap.
     fn draw(
         &self,
         settings: &OperatingSettings,

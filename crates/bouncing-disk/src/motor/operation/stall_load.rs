@@ -8,13 +8,16 @@ use crate::motor::operation::ensemble::{LoadedMotor, operate};
 use crate::motor::operation::point::{Estimate, Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Loads between none and the largest mean torque of friction, and between the two that the first search leaves.
+/// Steps of the load from zero to the largest mean torque of friction, and between the two loads that the
+/// first search leaves.
 const STEPS: usize = 16;
 
-/// No load nearer to the largest torque is tried: what friction has left there settles a speed too slowly.
+/// The largest load tried, as a share of the largest torque: closer to it the remaining friction settles a
+/// speed too slowly.
 const NEAREST: f64 = 1.0 - 1.0 / 64.0;
 
-/// A stall load below this part of the largest torque is none: the ripple of a speed within a period leaves as much.
+/// A stall load below this part of the largest torque counts as zero: the ripple of a speed within a period
+/// is as large.
 const LEAST: f64 = 1e-5;
 
 /// The width of an even distribution over its standard deviation, the root of 12.
@@ -24,8 +27,8 @@ const EVEN: f64 = 3.464_101_615_137_754_5;
 const SIGNIFICANT: f64 = 3.0;
 
 /// The load torque at which the mean speed of a motor vanishes: the true stall, not the paper's alpha_ss/t_c
-/// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an estimate from the
-/// transient without load.
+/// ([`ExponentialFit::stall_acceleration`](crate::estimate::ExponentialFit::stall_acceleration)), which is an
+/// estimate from the transient without load.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct StallLoad {
@@ -35,15 +38,15 @@ pub struct StallLoad {
     pub torque: Estimate,
     /// The torque as a share of mu m g a_e, the largest mean torque of friction; in [-1, 1].
     pub share: f64,
-    /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its speed, and
-    /// under the second it is surely driven back. The second is mu m g a_e if no smaller one surely does
-    /// this.
+    /// Two load torques (N m): under the first the motor surely turns on, beyond three standard errors of its
+    /// speed, and under the second it is surely driven back. The second is mu m g a_e if no smaller one
+    /// surely does this.
     pub bracket: [f64; 2],
     /// The mean speed without load (rad/s).
     pub no_load_speed: Estimate,
 }
 
-/// The stall load of a motor; the load it has is not looked at.
+/// The stall load of a motor, whatever the load of its data sheet.
 pub(crate) fn stall_load(
     motor: &LoadedMotor,
     settings: &OperatingSettings,
@@ -91,8 +94,8 @@ pub(crate) fn stall_load(
         no_load_speed: unloaded,
     };
     if above.is_none() && high > NEAREST {
-        // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that still
-        // gains speed at the last load turns all the same.
+        // No load that was tried surely drives it back, and beyond the largest torque each does. A motor that
+        // still gains speed at the last load turns all the same.
         if let Operation::Unsettled(point, Shortfall::Drift { drift, .. }) = &second.operations[below]
             && sign * drift < 0.0
         {
@@ -106,7 +109,8 @@ pub(crate) fn stall_load(
     let above = above.unwrap_or(fine.len() - 1);
     let (below, above) = (below.min(above.saturating_sub(1)), above.max(1));
     check_settled(&second.operations[below..=above])?;
-    // Each member crosses zero for itself, on the straight line through its own speeds: they share their perturbations.
+    // Each member crosses zero for itself, on the straight line through its own speeds: they share their
+    // perturbations.
     let members = second.speeds[below].len();
     let crossings: Vec<f64> = (0..members)
         .map(|member| crossing(&fine, |k| sign * second.speeds[k][member], (below, above)))
@@ -122,8 +126,9 @@ pub(crate) fn stall_load(
     Ok(found(share, [fine[below], fine[above]]))
 }
 
-/// The error of the straight line between two neighbouring loads, as a share of their distance: from next to none, where the
-/// speeds beside them go on in the line, to that of an even distribution between them, where a locked motor jumps.
+/// The error of the straight line between two neighbouring loads, as a share of their distance: nearly zero
+/// if the speeds beside them continue the line, that of a uniform distribution between them if a locked motor
+/// jumps.
 fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     let bends = [below.checked_sub(1), Some(below)].into_iter().flatten().filter(|first| first + 2 < loads);
     let bend = bends.map(|first| (value(first) - 2.0 * value(first + 1) + value(first + 2)).abs());
@@ -131,8 +136,9 @@ fn unresolved(value: impl Fn(usize) -> f64, loads: usize, below: usize) -> f64 {
     (bend.fold(0.0, f64::max) / jump).min(1.0) / EVEN
 }
 
-/// The load between the shares of the largest torque at which speeds vanish that fall over them, and the error of the straight
-/// line there; where they do not vanish, in the middle of what is left up to the largest torque.
+/// The load between the shares of the largest torque at which speeds vanish that fall over them, and the
+/// error of the straight line there; where they do not vanish, in the middle of what is left up to the
+/// largest torque.
 pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64, f64) {
     let above = (0..shares.len()).find(|&k| speed(k) <= 0.0);
     match above {
@@ -149,8 +155,8 @@ pub(crate) fn stall_share(shares: &[f64], speed: impl Fn(usize) -> f64) -> (f64,
     }
 }
 
-/// Refuses speeds that still drift: what is left of a start-up is in no standard error, and a load that is found by them would
-/// have one that is too small.
+/// Refuses speeds that still drift: no standard error contains the remainder of a start-up, so that of a load
+/// from such speeds would be too small.
 fn check_settled(operations: &[Operation]) -> Result<(), Error> {
     let drifting = operations.iter().find_map(|operation| match operation {
         Operation::Unsettled(point, Shortfall::Drift { .. }) => Some(point.speed),
@@ -164,7 +170,7 @@ fn check_settled(operations: &[Operation]) -> Result<(), Error> {
 
 const NO_SPEED: Estimate = Estimate { value: 0.0, standard_error: f64::INFINITY };
 
-/// The speed; a motor that runs away has none, and no load here makes one do that.
+/// The speed of a steady motor; no load here makes a motor run away.
 fn speed_of(operation: &Operation) -> Estimate {
     operation.point().map_or(NO_SPEED, |point| point.speed)
 }

@@ -13,8 +13,8 @@ use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Traps that are narrower, relative to the preload, are not reported unless requested: a motor whose preload
-/// is known to 1 % is in one with a chance of less than one in 40.
+/// The least relative width of a trap that is reported by default. A motor whose preload is known to 1 % is
+/// in a given narrower trap with a probability below 1 in 40.
 pub const LEAST_TRAP_WIDTH: f64 = 5.0e-4;
 
 /// Most steps of a scan.
@@ -33,46 +33,49 @@ const PLACES: [f64; 3] = [0.1, 0.5, 0.9];
 pub struct TrapRange {
     /// The range, as accelerations (m/s^2).
     pub preload_from_to: [f64; 2],
-    /// Its width relative to the preload. If the preload of a motor is known to t on either side and the trap
-    /// lies well within that, the motor is trapped with a chance of this width over 2 t.
+    /// The width w of the range relative to the preload. If the preload of a motor is known to within a
+    /// relative tolerance t on either side, and the trap lies inside this interval, the motor is trapped with
+    /// the probability w/(2 t).
     pub relative_width: f64,
-    /// The range of the axial forcing parameter Gamma.
+    /// The same range in the axial forcing parameter Gamma.
     pub forcing_from_to: [f64; 2],
-    /// What the rotor does in the middle of it.
+    /// The motion of the rotor in the middle of the range.
     pub verdict: TrapVerdict,
-    /// The operation at the lower edge, in the middle and at the upper edge (a tenth of the width inside),
-    /// under the load of the data sheet: most traps hardly slow a motor, some stop it.
+    /// The operation near the lower edge, in the middle and near the upper edge of the range (a tenth of the
+    /// width inside the edges), under the load of the data sheet. Most traps hardly slow a motor, some stop
+    /// it.
     pub operations: [Operation; 3],
 }
 
 /// The low-period trap that is nearest to a motor.
 ///
-/// Only Gamma and the restitution decide, so that a change of preload, of amplitude or of frequency
-/// reaches the same trap: the near edge is given for each of them, with the others kept.
+/// A trap is a range of Gamma, at the motor's restitution. The motor gets into it by a change of preload, of
+/// amplitude or of frequency; the fields give the near edge of the trap for each of them, the others
+/// unchanged.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct NearestTrap {
-    /// Distance of the near edge: the relative change of amplitude or preload that reaches it, the smaller of
-    /// the two in size; zero for a motor in the trap.
+    /// The relative change of preload or of amplitude, whichever is smaller, that takes the motor to the near
+    /// edge; zero for a motor in the trap.
     pub relative_distance: f64,
-    /// Preload (m/s^2) of the near edge; that of the motor, if it is in the trap.
+    /// Preload (m/s^2) at the near edge; that of the motor, if it is in the trap.
     pub preload_acceleration: f64,
-    /// Amplitude (m) of the near edge.
+    /// Amplitude (m) at the near edge.
     pub amplitude: f64,
-    /// Drive frequency (Hz) of the near edge.
+    /// Drive frequency (Hz) at the near edge.
     pub drive_frequency: f64,
-    /// The range of Gamma of the trap, as far as it was scanned.
+    /// The range of Gamma of the trap, as far as the scan reached.
     pub forcing_from_to: [f64; 2],
-    /// What the rotor does in the middle of it.
+    /// The motion of the rotor in the middle of this range.
     pub verdict: TrapVerdict,
-    /// Step of the scan in Gamma: traps narrower than two steps may have been missed.
+    /// Step of the scan in Gamma: it may have missed traps narrower than two steps.
     pub forcing_step: f64,
 }
 
 impl Motor {
-    /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and are at least
-    /// `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They come in rising
-    /// order, each with its speed inside, computed to the accuracy of `settings`.
+    /// The ranges between two preloads (accelerations in m/s^2, the first one lower) that trap the motor and
+    /// are at least `least_relative_width` wide, in (0, 0.1]; [`LEAST_TRAP_WIDTH`] is a good choice. They
+    /// come in rising order, each with its speed inside, computed to the accuracy of `settings`.
     ///
     /// The items of `observer` are the steps of the scan, then the ranges.
     ///
@@ -83,15 +86,16 @@ impl Motor {
     ///
     /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
     /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
-    /// // It turns at 21 rad/s besides.
+    /// // Outside of the traps it turns at 21 rad/s.
     /// assert!(!traps.is_empty());
     /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an error of the core for a
-    /// scan of more than ten million steps, of half a width each; those of [`Motor::operating_point`].
+    /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an
+    /// error of the core for a scan of more than ten million steps, of half a width each; those of
+    /// [`Motor::operating_point`].
     pub fn trap_ranges(
         &self,
         [low, high]: [f64; 2],
@@ -140,10 +144,9 @@ impl Motor {
         Ok(all)
     }
 
-    /// The low-period trap of at least [`LEAST_TRAP_WIDTH`] that is nearest to the motor, if there is one within a relative
-    /// change of its preload or amplitude of `relative_range`, in (0, 1]. Its regime tells whether a motor
-    /// itself is locked, however narrow its trap
-    /// ([`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked)).
+    /// The nearest low-period trap that is at least [`LEAST_TRAP_WIDTH`] wide, if one lies within a relative
+    /// change of preload or amplitude of `relative_range`, in (0, 1]. Whether the motor itself is locked, in
+    /// however narrow a trap, [`MotorRegime::is_locked`](crate::motor::MotorRegime::is_locked) says.
     ///
     /// The items of `observer` are the steps of the scan.
     ///
@@ -192,10 +195,10 @@ impl Scan<'_> {
         TrapVerdict::of(&map, self.motor.preload_acceleration() / factor, work)
     }
 
-    /// The traps between two offsets that are at least two steps wide, those that reach beyond them cut off there. Each place
-    /// of a comb of steps is judged, so that none is missed but one with a hole at a place of the comb.
+    /// The traps between two offsets that are at least two steps wide, cut off at these offsets. The scan
+    /// judges evenly spaced places, one step apart, so it misses only a trap with a hole at one of them.
     fn ranges(&self, from: f64, to: f64, observer: &dyn Observer) -> Result<Vec<[f64; 2]>, Error> {
-        // The stator that never throws has no trap, however hard it is shaken within the range.
+        // A stator at rest has no trap.
         if self.motor.system().peak_acceleration() <= 0.0 {
             return Ok(Vec::new());
         }
@@ -227,7 +230,7 @@ impl Scan<'_> {
         Ok(found)
     }
 
-    /// The last offset in the trap, between one in it and one that is not.
+    /// The edge of a trap between an offset inside and one outside: the last offset inside.
     fn edge(&self, mut inside: f64, mut outside: f64, work: &mut WorkCount<'_>) -> Result<f64, Error> {
         for _ in 0..HALVINGS {
             let middle = 0.5 * (inside + outside);

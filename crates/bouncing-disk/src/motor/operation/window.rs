@@ -1,6 +1,6 @@
 //! The motion of rotors in a window of time, dimensionless.
 
-/// What a rotor did in a window of time, without units.
+/// The motion of a rotor in a window of time, without units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct RotorWindow {
     /// Angle turned.
@@ -14,14 +14,14 @@ pub(crate) struct RotorWindow {
     pub(crate) kinetic_change: f64,
 }
 
-/// What all rotors share in a window of time, without units.
+/// The vertical motion that all rotors share in a window of time, without units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct AxialWindow {
     /// Duration (rad).
     pub(crate) duration: f64,
     /// Work of the platform by normal forces.
     pub(crate) normal_work: f64,
-    /// What the perturbations of the relaunches have given.
+    /// The work of the perturbations of the relaunches.
     pub(crate) perturbation_work: f64,
     pub(crate) restitution_loss: f64,
     /// Change of the kinetic and potential energy.

@@ -13,16 +13,17 @@ use crate::motor::rotor::{Rotor, RotorStep};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
-/// Most periods of the platform that a transient may last: beyond 2^53 a double does not count them one by one.
+/// Most periods of the platform that a transient may last: beyond 2^53 a double does not count them one by
+/// one.
 const MAX_PERIODS: f64 = 9_007_199_254_740_992.0;
 
-/// Shortest interval of a curve (rad): what a phase is rounded by.
+/// Shortest interval of a curve (rad): the rounding of a phase.
 const SHORTEST_INTERVAL: f64 = 1.0e-15;
 
 /// Most intervals of a curve.
 pub(crate) const MAX_INTERVALS: usize = 1_000_000;
 
-/// What an event counts as for an observer, in flights: one that ends a chatter takes longer than a flight.
+/// The work of an event, in flights: one that ends a chatter takes longer than a flight.
 pub(crate) const FLIGHTS_OF_EVENT: u64 = 4;
 
 /// Events after which the work is counted.
@@ -35,8 +36,8 @@ const EVENTS_BETWEEN_COUNTS: u64 = 64;
 pub struct TransientSettings {
     /// Duration (s), positive: at most 2^53 periods of the platform. Default 3.
     pub duration: f64,
-    /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than 1e-15 rad of the
-    /// platform's motion. Default 600.
+    /// Number of equal intervals over which the speed is averaged, in [3, 1000000]. None may be shorter than
+    /// 1e-15 rad of the platform's motion. Default 600.
     pub intervals: usize,
     /// Size of the relaunch perturbation in units of g/omega, in [0, 1e100]: each separation from rest gets a
     /// relative velocity drawn evenly from [0, size). Zero gives the cycle chosen by rounding. Default 1e-3.
@@ -134,7 +135,8 @@ impl SpeedCurve {
     /// Mean speed (rad/s) over the last `fraction` in (0, 1] of the curve, at least over its last point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not finite.
+    /// [`Error::OutOfRange`] for another fraction, for a curve without speeds, and for speeds that are not
+    /// finite.
     pub fn mean_over_last(&self, fraction: f64) -> Result<f64, Error> {
         let points = self.speeds.len();
         check(fraction > 0.0 && fraction <= 1.0, "fraction of the curve", fraction, "(0, 1]")?;
@@ -183,8 +185,8 @@ pub(crate) fn check_rows(times: &[f64], speeds: &[f64]) -> Result<(), Error> {
 /// The items of `observer` are the intervals of the curve.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the core where there is no
-/// memory for the curve; the errors of the flights.
+/// [`Error::OutOfRange`] for illegal settings, and for a speed that a double cannot hold; an error of the
+/// core where there is no memory for the curve; the errors of the flights.
 pub fn transient(
     system: &System,
     phase: Phase,
@@ -275,8 +277,8 @@ impl Run {
         Ok(())
     }
 
-    /// Adds the rest of the present interval of a rotor that stays on the stator and changes its mode no more: it turns to and
-    /// fro with the stator, or slides on.
+    /// Adds the rest of the present interval of a rotor that stays on the stator and changes its mode no
+    /// more: it turns to and fro with the stator, or slides on.
     fn add_interval_of_contact(&mut self) {
         let now = self.rotor.time();
         let began = seconds(now.periods as f64, now.phase.angle() - self.start, self.unit.time);
@@ -353,8 +355,8 @@ impl Bins {
         Ok(Self { turned, width, present })
     }
 
-    /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last interval
-    /// is dropped.
+    /// Adds the `angle` turned from the time reached until `to`, evenly in time; what lies beyond the last
+    /// interval is dropped.
     #[inline]
     pub(crate) fn add(&mut self, to: f64, angle: f64) {
         if to <= self.present.end {
@@ -560,8 +562,8 @@ mod tests {
         }
     }
 
-    /// A rotor that never leaves the stator and sticks to it turns to and fro, and one whose load exceeds the friction
-    /// slides ever faster: neither keeps the speed of the last event.
+    /// A rotor that never leaves the stator and sticks to it turns to and fro, and one whose load exceeds the
+    /// friction slides ever faster: neither keeps the speed of the last event.
     #[test]
     fn a_rotor_on_a_calm_stator_sticks_or_slides_on() {
         let motor = |friction: f64, load_acceleration: f64| {

@@ -78,7 +78,7 @@ impl Motor {
         }
     }
 
-    /// The quantity at points of a sample: what shares a vertical motion is computed on one.
+    /// The quantity at points of a sample; points that share a vertical motion are computed on one.
     fn values(
         &self,
         quantity: SensitivityQuantity,

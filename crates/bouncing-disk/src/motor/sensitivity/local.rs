@@ -1,5 +1,5 @@
-//! Local sensitivities: the power of a parameter with which the steady speed or the stall torque changes
-//! (Fig. 13).
+//! Local sensitivities: the exponent of the power law by which the steady speed or the stall torque depends
+//! on a parameter, for small changes (Fig. 13).
 
 use bouncing_disk_core::numerics::elementary::{exp, hypot, ln};
 use bouncing_disk_core::numerics::random::SplitMix64;
@@ -15,15 +15,15 @@ use crate::motor::operation::stall_load::crossing;
 use crate::motor::sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 use crate::statistics::student_quantile;
 
-/// Steps of the central differences, in the logarithm of a parameter, in radians of the phase lag, or in mu m
-/// g a_e of the load: with those up and down as many rotors as a row has.
+/// Steps of the central differences: changes of the logarithm of a parameter, of the phase lag in radians, or
+/// of the load in units of mu m g a_e. Up and down they make eight rotors, one full row.
 const STEPS: [f64; 4] = [0.16, 0.12, 0.08, 0.04];
 
-/// Loads around the stall load at which the speeds of each motor are known, as shares of mu m g a_e: the
-/// stall load of each member is read off a straight line through them.
+/// Loads relative to the stall load, as shares of mu m g a_e, at which the speeds are computed. The stall
+/// load of each member is the zero of a straight line through its speeds.
 const SHARES: [f64; 5] = [-0.06, -0.03, 0.0, 0.03, 0.06];
 
-/// Least motors that a regression needs.
+/// The fewest motors for a regression.
 const LEAST_POINTS: usize = 5;
 
 /// How local sensitivities are computed.
@@ -32,10 +32,10 @@ const LEAST_POINTS: usize = 5;
 pub struct SensitivitySettings {
     /// How each motor is operated.
     pub operating: OperatingSettings,
-    /// Half the range, in the logarithm of a parameter of the vertical motion, over which motors are drawn,
-    /// in (0, 2]. Default 0.2: from 82 % to 122 % of it.
+    /// For a parameter of the vertical motion: half the range of its logarithm over which motors are drawn,
+    /// in (0, 2]. Default 0.2, which is from 82 % to 122 % of the motor's own value.
     pub half_range: f64,
-    /// Motors that are drawn over it, in [5, 10000]. Default 24.
+    /// The number of motors that are drawn over this range, in [5, 10000]. Default 24.
     pub points: usize,
 }
 
@@ -56,7 +56,7 @@ impl SensitivitySettings {
     }
 }
 
-/// How a sensitivity was found.
+/// How a sensitivity was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -64,40 +64,40 @@ impl SensitivitySettings {
 pub enum SensitivityMethod {
     /// By central differences of rotors on the same vertical motions.
     SharedMotion {
-        /// The standard error that the members give.
+        /// The standard error from the scatter of the members.
         scatter: f64,
-        /// The error in the slope beyond the cubic through the differences: zero where the scatter explains
-        /// it.
+        /// The error of fitting a cubic to the differences, estimated by adding a term of fifth order. It is
+        /// zero if the scatter alone explains the change of the slope.
         curvature: f64,
     },
-    /// By a straight line through motors with different vertical motions, drawn over the range of the
-    /// settings.
+    /// By a straight line through motors with different vertical motions, which are drawn over the range of
+    /// the settings.
     Regression {
         /// Motors on the line.
         points: usize,
-        /// Motors left out because they are in a low-period trap.
+        /// Motors omitted because they are in a low-period trap.
         traps: usize,
         /// Standard deviation of the motors about the line, relative to their mean.
         scatter: f64,
     },
 }
 
-/// How a quantity depends on a parameter next to a motor.
+/// How a quantity depends on a parameter, for small changes of a motor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct LocalSensitivity {
     /// The parameter.
     pub parameter: SensitivityParameter,
     /// d ln(quantity)/d ln(parameter); for the phase lag, d ln(quantity)/d theta (1/rad); for the load
-    /// torque, d ln(quantity) over its change in units of mu m g a_e.
+    /// torque, the derivative of ln(quantity) by the torque in units of mu m g a_e.
     pub derivative: Estimate,
-    /// How it was found.
+    /// How it was computed.
     pub method: SensitivityMethod,
 }
 
 impl Motor {
-    /// How the steady speed or the stall torque depends on these parameters next to the motor, in their
-    /// order.
+    /// How the steady speed or the stall torque depends on these parameters for small changes of the motor,
+    /// in the order of the parameters.
     ///
     /// The items of `observer` are ensembles of motors that share a vertical motion.
     ///
@@ -117,10 +117,10 @@ impl Motor {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings, and for a parameter that is zero and has no logarithm or
-    /// leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn, [`Error::Overpowered`] where
-    /// a load is more than friction can hold, [`Error::TooFewMotors`] where traps leave too few of them;
-    /// those of [`Motor::operating_point`].
+    /// [`Error::OutOfRange`] for illegal settings, for a parameter of zero, which has no logarithm, and for
+    /// one that leaves its range; [`Error::DoesNotTurn`] for a motor that does not turn,
+    /// [`Error::Overpowered`] for a load larger than friction can hold, [`Error::TooFewMotors`] if too few
+    /// motors are outside of traps; those of [`Motor::operating_point`].
     pub fn local_sensitivities(
         &self,
         quantity: SensitivityQuantity,
@@ -241,8 +241,8 @@ fn by_differences(
     Ok(results)
 }
 
-/// The weights with which values at the steps give the slope at zero of the odd polynomial of so many terms that fits them with
-/// the least squares: its terms are made orthogonal one by one.
+/// The weights with which values at the steps give the slope at zero of the odd polynomial of so many terms
+/// that fits them with the least squares: its terms are made orthogonal one by one.
 fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     let dot = |one: &[f64; STEPS.len()], other: &[f64; STEPS.len()]| {
         one.iter().zip(other).map(|(one, other)| one * other).sum::<f64>()
@@ -264,8 +264,8 @@ fn slope_weights(terms: usize) -> [f64; STEPS.len()] {
     weights
 }
 
-/// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far below and far above
-/// all steady speeds, and of those from above.
+/// The quantity of each motor and member, all on the same vertical motions: in the middle of rotors from far
+/// below and far above all steady speeds, and of those from above.
 fn member_values(
     motors: &[Motor],
     nominal: &Motor,

@@ -29,7 +29,7 @@ pub struct ElementaryEffects {
 
 /// The elementary effects of a function of some arguments over their ranges, in their order.
 ///
-/// `function` is given the points of a trajectory, on each of which one more argument has been changed by 4/7
+/// `function` gets the points of a trajectory, on each of which one more argument has been changed by 4/7
 /// of its range, and returns their values. The starting points and the order are drawn independently for each
 /// trajectory, so that resampling trajectories gives the standard errors.
 ///

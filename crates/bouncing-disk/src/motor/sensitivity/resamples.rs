@@ -9,8 +9,7 @@ use crate::statistics::drawn_index;
 /// Resamples: the standard deviation of so many values is known to 4 %.
 const RESAMPLES: usize = 300;
 
-/// The standard errors of `N` statistics of `rows` rows. `statistics` is given the numbers of the rows that
-/// are drawn.
+/// The standard errors of `N` statistics of `rows` rows. `statistics` gets the numbers of the drawn rows.
 pub(crate) fn standard_errors<const N: usize>(
     rows: usize,
     seed: u64,

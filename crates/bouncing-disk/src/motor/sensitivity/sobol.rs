@@ -80,7 +80,7 @@ pub(crate) fn evaluated(
 /// The Sobol' indices of a function of independent arguments, each spread evenly over its range, in their
 /// order.
 ///
-/// `function` is given a batch of points, each with its arguments in the order of the ranges, and returns
+/// `function` gets a batch of points, each with its arguments in the order of the ranges, and returns
 /// their values. A batch is a row of the sample: two random points A and B, and A with each argument in turn
 /// from B. The estimators are Jansen's; rows are drawn independently, so that resampling them gives the
 /// standard errors.

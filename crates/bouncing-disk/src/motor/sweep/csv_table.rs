@@ -6,14 +6,14 @@ use crate::motor::sweep::quantity::SweepQuantity;
 use crate::motor::sweep::result::MotorSweepResult;
 
 impl MotorSweepResult {
-    /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has units in the
-    /// names; numbers are written so that reading them back is exact.
+    /// The cells as comma-separated text: a header, then one line for each cell, row by row. The header has
+    /// units in the names; numbers are written so that reading them back is exact.
     ///
-    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`, `unsettled` or
-    /// `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
-    /// [`SweepQuantity`] followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other numbers of an
-    /// [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing values are
-    /// empty.
+    /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`,
+    /// `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
+    /// [`SweepQuantity`] followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other
+    /// numbers of an [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing
+    /// values are empty.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());

@@ -8,12 +8,12 @@ use crate::motor::batch::shared_orbit::vertical_key;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::settings::OperatingSettings;
 
-/// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost when a run is
-/// stopped.
+/// Most cells of a group. Far fewer would not use a vertical motion well; with far more, much would be lost
+/// when a run is stopped.
 const MOST_CELLS: usize = 256;
 
-/// Most rotors of a group on all of its vertical motions together: each has some hundred windows of 40 bytes, so that a
-/// group needs some 100 MB at most.
+/// Most rotors of a group on all of its vertical motions together: each has some hundred windows of 40 bytes,
+/// so that a group needs some 100 MB at most.
 const MOST_ROTORS: usize = 1 << 14;
 
 /// Most cells of a group, so that its memory is bounded for any number of vertical motions.
@@ -53,7 +53,7 @@ mod tests {
         let motors = amplitudes.iter().enumerate().map(|(index, &amplitude)| {
             motor.with(|sheet| {
                 sheet.amplitude = amplitude;
-                // What the vertical motion does not depend on.
+                // The vertical motion does not depend on these fields.
                 sheet.load_torque = 1e-9 * index as f64;
             })
         });

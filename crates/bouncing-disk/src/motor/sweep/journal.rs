@@ -64,7 +64,7 @@ impl MotorSweep {
         let writer = Mutex::new(Writer { journal, failure: None });
         let outcome = run.advance_recording(
             self,
-            // What cannot be written need not be computed.
+            // A result that cannot be written need not be computed.
             &|progress: Progress| {
                 let failed = locked(&writer).failure.is_some();
                 if failed { ControlFlow::Break(()) } else { observer.observe(progress) }

@@ -46,7 +46,8 @@ impl MotorSweepResult {
         &self.axes
     }
 
-    /// The operation of each cell, row by row: the first axis is that of the rows, and a single axis has one cell in each.
+    /// The operation of each cell, row by row: the first axis is that of the rows, and a single axis has one
+    /// cell in each.
     #[must_use]
     pub fn cells(&self) -> &[Operation] {
         &self.cells
@@ -60,8 +61,8 @@ impl MotorSweepResult {
         })
     }
 
-    /// The rows of a map: for each value of the first axis the operations along the second one; with a single axis, one
-    /// operation in each row.
+    /// The rows of a map: for each value of the first axis the operations along the second one; with a single
+    /// axis, one operation in each row.
     pub fn rows(&self) -> impl Iterator<Item = &[Operation]> {
         let columns = self.axes.get(1).map_or(1, |axis| axis.values.len());
         self.cells.chunks(columns.max(1))

@@ -78,8 +78,8 @@ impl MotorSweepRun {
     }
 
     /// [`Self::advance`] that passes on the operations of each group as soon as it is finished, to be stored.
-    /// `record` is given the index of the group; it is called by the threads that do the work, several at a time and in no
-    /// certain order.
+    /// `record` gets the index of the group; the threads that do the work call it, several at a
+    /// time and in no certain order.
     ///
     /// # Errors
     /// Those of [`Self::advance`].
@@ -178,8 +178,8 @@ impl MotorSweepRun {
     /// The result of the sweep.
     ///
     /// # Errors
-    /// Those of [`Self::cells`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if a group is not
-    /// finished: [`Self::is_done`] tells before.
+    /// Those of [`Self::cells`]; an error of the core ([`Stopped`](bouncing_disk_core::Error::Stopped)) if a
+    /// group is not finished, which [`Self::is_done`] shows.
     pub fn into_result(self, sweep: &MotorSweep) -> Result<MotorSweepResult, Error> {
         let cells: Option<Vec<Operation>> = self.cells(sweep)?.into_iter().collect();
         let cells = cells.ok_or_else(|| self.stopped(sweep))?;
@@ -202,7 +202,7 @@ impl MotorSweep {
     }
 }
 
-/// What became of a group.
+/// The outcome of a group.
 type Outcome = (usize, Result<Vec<Operation>, Error>);
 
 fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {
@@ -218,12 +218,13 @@ fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<
     operations(&motors, sweep.settings(), &ask)
 }
 
-/// Groups under way for each thread that their members alone would leave idle: members end at different times.
+/// Groups under way for each thread that their members alone would leave idle: members end at different
+/// times.
 #[cfg(feature = "parallel")]
 const GROUPS_PER_SHARE: usize = 4;
 
-/// The outcomes of as many workers as keep the threads busy. The members of a group are spread over the threads
-/// themselves; the fewer groups are under way, the less is lost by a stop.
+/// The outcomes of as many workers as keep the threads busy. The members of a group are spread over the
+/// threads themselves; the fewer groups are under way, the less is lost by a stop.
 #[cfg(feature = "parallel")]
 fn workers(groups: usize, members: usize, work: impl Fn() -> Vec<Outcome> + Sync) -> Vec<Outcome> {
     use rayon::prelude::*;

@@ -41,7 +41,8 @@ pub(crate) fn mixed() -> MotorSweep {
     sweep(&[axis(MotorField::Amplitude, &amplitudes), loads(&[0.0, 0.5, 1.2])]).expect("legal")
 }
 
-/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, wherever the load's axis is.
+/// Each row of a map of amplitude and load is the torque-speed curve of its amplitude, wherever the load's
+/// axis is.
 #[test]
 fn the_rows_of_a_map_are_curves() {
     let (amplitudes, shares) = ([1e-8, 1.7e-8], [0.0, 0.3, 0.6, -0.2, 1.1]);

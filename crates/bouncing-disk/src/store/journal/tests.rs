@@ -287,7 +287,8 @@ fn a_sweep_that_is_stopped_goes_on_from_its_journal() {
             Journal::<Vec<ImpactState>>::open(&scratch.0, &key, orbits.len()).expect("opens");
         let before = finished.done();
         let mut run = SweepRun::from(finished);
-        // Stopped before anything is finished, then later and later: orbits in lockstep may finish all at once.
+        // Stopped before anything is finished, then later and later: orbits in lockstep may finish all at
+        // once.
         let calls = std::sync::atomic::AtomicU64::new(2 + 9 * stops);
         let observer = |_: Progress| match calls.fetch_sub(1, std::sync::atomic::Ordering::Relaxed) {
             0 | 1 => ControlFlow::Break(()),
@@ -322,8 +323,8 @@ fn parameters_that_look_alike_are_others() {
     assert!(error.to_string().ends_with("is null, but absent is requested"), "{error}");
 }
 
-/// While a process is being started it holds a copy of every open file: the lock of a journal that is closed must not
-/// live on in it.
+/// While a process is being started it holds a copy of every open file: the lock of a journal that is closed
+/// must not live on in it.
 #[test]
 fn a_journal_can_be_opened_again_while_processes_start() {
     let scratch = Scratch::new("spawning");

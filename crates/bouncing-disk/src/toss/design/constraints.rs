@@ -16,7 +16,7 @@ use crate::toss::single::InitialSpin;
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum TossObjective {
-    /// The airborne rotary speed (rad/s), in whichever direction.
+    /// The airborne rotary speed (rad/s), in either direction.
     #[default]
     AirborneSpeed,
     /// The efficiency eta of Sec. III A.
@@ -114,8 +114,8 @@ impl TossConstraints {
         self.dough.preload_acceleration
     }
 
-    /// The amplitude angles (rad) with which the dough leaves the hand, and no higher than it may
-    /// (docs/numerics/design.md, "The hand motions that are allowed"); `None` where it never leaves.
+    /// The amplitude angles (rad) at which the dough leaves the hand and flies no higher than allowed
+    /// (docs/numerics/design.md, "The hand motions that are allowed"); `None` if it never leaves.
     pub(crate) fn amplitude_angles(&self, angular_frequency: f64) -> Option<[f64; 2]> {
         let (omega, g) = (angular_frequency, self.gravity());
         let lift_off = g / (self.stroke * omega * omega);
@@ -132,16 +132,18 @@ impl TossConstraints {
     }
 }
 
-/// How an optimum is certified: by the grid from which it was found.
+/// How far the grid of the search certifies an optimum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TossCertificate {
-    /// Hand motions on the grid.
+    /// The number of hand motions on the grid.
     pub grid_points: usize,
-    /// The best of them: the refined optimum is not below it.
+    /// The best value on the grid; that of the refined optimum is at least as good.
     pub best_on_grid: f64,
-    /// Bound on how far the objective could exceed the optimum, farther from it than the next points of
-    /// the grid, if between two points it nowhere changes faster than from one to the other, or from
-    /// either to the next one beyond: zero if the optimum is certain under this premise.
+    /// By how much a better motion that the grid missed could exceed the optimum, at most. The bound assumes
+    /// that between two neighbouring points of the grid the objective changes no faster than between these
+    /// two, or between either and its next neighbour. It does not include the surroundings of the optimum
+    /// itself, up to the next points of the grid. Zero means that the optimum is certain under this
+    /// assumption.
     pub hidden_gain: f64,
 }

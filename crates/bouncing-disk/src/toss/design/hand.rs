@@ -14,7 +14,7 @@ use crate::toss::single::{InitialSpin, TossPerformance, single_toss};
 /// of them.
 const FRICTIONS: usize = 5;
 
-/// What a hand can choose.
+/// The parameters that a hand can choose.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Hand {
     pub(super) angular_frequency: f64,
@@ -69,9 +69,9 @@ pub(super) fn of_toss(objective: TossObjective, toss: &TossPerformance, forwards
     }
 }
 
-/// The objective over a range of friction; a dough that never leaves has none of it. Forwards is what the
-/// dough turns at the middle of the range: a friction that turns it the other way counts against the hand
-/// motion.
+/// The objective over a range of friction; for a dough that never leaves it is zero. Forwards is the
+/// direction in which the dough turns at the middle of the range: a friction that turns it the other way
+/// counts against the hand motion.
 pub(super) fn over_frictions(
     constraints: &TossConstraints,
     hand: Stroke,

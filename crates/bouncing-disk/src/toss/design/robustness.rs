@@ -7,7 +7,7 @@ use crate::toss::design::TossDesign;
 use crate::toss::design::constraints::TossConstraints;
 use crate::toss::design::hand::{Evaluation, Hand, flight_height, over_frictions, toss, value_of};
 
-/// Coefficients of friction at which the range is looked at: odd.
+/// Number of coefficients of friction at which the range is evaluated; odd.
 const FRICTIONS: usize = 129;
 
 /// Inputs whose last digit may be in doubt.

@@ -24,13 +24,13 @@ const SECTIONS: usize = 16;
 const MOST_BOXES: usize = 40;
 const CLIMBED: f64 = 1e-10;
 
-/// Stages that an observer hears of: the grid, and each refinement.
+/// Stages that are reported to an observer: the grid, and each refinement.
 pub(super) const STAGES: u64 = 1 + (PEAKS + BRACKETS.len() - 1) as u64;
 
 /// Work of one evaluation, in flights.
 const FLIGHTS_OF_EVALUATION: u64 = 64;
 
-/// What the search has found.
+/// The result of the search.
 pub(super) struct Found {
     pub(super) hand: Hand,
     pub(super) certificate: TossCertificate,
@@ -179,9 +179,8 @@ impl Grid {
         peaks
     }
 
-    /// What could be hidden above `best` between points that are not next to it, if between two points the
-    /// objective changes nowhere faster than it does from one to the other, or from either to the next one
-    /// beyond.
+    /// By how much the objective could exceed `best` between points that are not next to it, if between two
+    /// points it changes no faster than from one to the other, or from either to its next neighbour.
     fn hidden_gain(&self, best: &Place) -> f64 {
         let mut gain = 0.0_f64;
         for (index, value) in self.values.iter().enumerate() {
@@ -287,7 +286,7 @@ mod tests {
         // 0.45.
         let gain = row(&[0.0, 1.0, 0.0, 0.0, 0.9, 0.9, 0.0, 0.0, 0.0]).hidden_gain(&best(0.125));
         assert!((gain - 0.35).abs() < 1e-15, "{gain}");
-        // A ramp hides nothing, nor does what lies far below; what is next to the optimum has been searched.
+        // A ramp hides nothing, nor do values far below; the surroundings of the optimum have been searched.
         for values in [[0.0, 0.2, 0.4, 0.6, 0.8, 1.0], [0.0, 0.1, 0.0, 0.1, 0.0, 1.0]] {
             assert!(row(&values).hidden_gain(&best(1.0)).abs() <= 0.0, "{values:?}");
         }

@@ -105,8 +105,8 @@ fn observers_hear_of_all_rows_and_often() {
     }
 }
 
-/// More known impacts than a batch is compared with at once: the first orbit that catches a start has it, and an
-/// observer is asked in between. Stopped at each of the calls, a run comes to the same labels.
+/// More known impacts than a batch is compared with at once: the first orbit that catches a start has it, and
+/// an observer is asked in between. Stopped at each of the calls, a run comes to the same labels.
 #[test]
 fn many_known_orbits_are_compared_in_parts() {
     let (map, settings) = (map(), BasinSettings { max_impacts: 60, ..BasinSettings::default() });

@@ -297,8 +297,8 @@ fn a_search_of_many_short_rows_can_be_stopped() {
     assert_eq!(calls.asked(), 10);
 }
 
-/// Every row that was still to come counted thousands of flights before it asked: a stop of a large search took half a
-/// minute.
+/// Every row that was still to come counted thousands of flights before it asked: a stop of a large search
+/// took half a minute.
 #[test]
 fn no_row_begins_after_a_stop() {
     let (map, search) = (map(0.5, 0.5), OrbitSearch::new(1, 1).expect("legal"));

@@ -1,4 +1,5 @@
-//! The impact of disks that rise above the crests: [`Vibration::impact_from_above`](crate::Vibration), many at a time.
+//! The impact of disks that rise above the crests: [`Vibration::impact_from_above`](crate::Vibration), many
+//! at a time.
 
 use core::f64::consts::TAU;
 
@@ -78,8 +79,8 @@ impl Work {
     }
 }
 
-/// Flights: two evaluations of the gap, a third one if many lanes need it, and the last step. Lanes that need more are left
-/// to the search.
+/// Flights: two evaluations of the gap, a third one if many lanes need it, and the last step. Lanes that need
+/// more are left to the search.
 pub(super) struct Fly<'a, P, W> {
     pub(super) width: W,
     pub(super) platforms: P,
@@ -119,8 +120,8 @@ impl<P: PlatformLanes, W: Width> WithSimd for Fly<'_, P, W> {
     }
 }
 
-/// Gap and derivatives at the height of the crests, with the pair there known: [`taylor`] at the time zero, where products
-/// with the time vanish.
+/// Gap and derivatives at the height of the crests, with the pair there known: [`taylor`] at the time zero,
+/// where products with the time vanish.
 #[inline(always)]
 fn first_taylor<P: PlatformLanes>(platforms: P, arcs: &Arcs, work: &Work, k: usize) -> GapTaylor {
     let (platform, third) = (work.platform[k], work.third[k]);
@@ -218,7 +219,8 @@ fn other_first_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Ar
     }
 }
 
-/// The step after the second evaluation, where the root is not near: that of the search if it stays in the window.
+/// The step after the second evaluation, where the root is not near: that of the search if it stays in the
+/// window.
 #[inline(always)]
 fn second_step<P: PlatformLanes>(width: impl Width, platforms: P, arcs: &Arcs, work: &mut Work) {
     work.second = work.time;

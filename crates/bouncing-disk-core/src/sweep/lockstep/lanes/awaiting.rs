@@ -80,7 +80,8 @@ pub(super) struct FallingPlatform {
     pub(super) open: Mask,
 }
 
-/// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must be searched.
+/// The windows of arcs, as `impact_from_above` and `bracket_behind_crest` find them, except where a dip must
+/// be searched.
 pub(super) struct Windows<'a> {
     pub(super) width: Sixteens,
     pub(super) awaiting: &'a AwaitingSearch,

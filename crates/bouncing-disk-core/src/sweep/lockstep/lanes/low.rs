@@ -1,5 +1,5 @@
-//! Impacts before the first crest: `Vibration::bracket_before_crest_of_launch`, and the form of the gap for the search
-//! in its window, many at a time.
+//! Impacts before the first crest: `Vibration::bracket_before_crest_of_launch`, and the form of the gap for
+//! the search in its window, many at a time.
 
 use core::f64::consts::TAU;
 
@@ -144,11 +144,12 @@ impl<P: PlatformLanes> WithSimd for Windows<'_, P> {
     }
 }
 
-/// Evaluations in which it is decided whether a launch dips below the platform; few need more.
+/// Evaluations that decide whether a launch dips below the platform; few launches need more.
 const DIP_EVALUATIONS: usize = 3;
 
-/// The first steps of `GapForm::dip` for launches whose windows are those of a dip: whether one of them is below the platform
-/// beyond doubt (open, the window then ends there), or the tangent at one of them shows that there is no dip.
+/// The first steps of `GapForm::dip` for launches whose windows are those of a dip: whether one of them is
+/// below the platform beyond doubt (open, the window then ends there), or the tangent at one of them shows
+/// that there is no dip.
 pub(super) struct Dips<'a> {
     pub(super) width: Sixteens,
     pub(super) low: &'a mut Low,
@@ -184,7 +185,7 @@ impl WithSimd for Dips<'_> {
                 let newton = t - slope / times.taylor(k).curvature;
                 let inside = mask(newton > shorter_lo) & mask(newton < shorter_hi);
                 let next = if inside != 0 { newton } else { 0.5 * (shorter_lo + shorter_hi) };
-                // What is below the platform by less than the rounding, or in too short a window, is left to one flight.
+                // The solver of one flight decides a dip by less than the rounding, or in too short a window.
                 let on = undecided & mask(gap > 0.0) & !clears & mask(shorter_hi - shorter_lo > 1.0e-9);
                 times.lo[k] = shorter_lo;
                 times.hi[k] = shorter_hi;
@@ -246,7 +247,8 @@ mod tests {
     use crate::flight::platform::vibration::Vibration;
     use crate::sweep::lockstep::lanes::{Dispatch, InstructionSet};
 
-    /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one flight decides.
+    /// Launches about as fast as the platform at its fastest: what is decided of their windows is what one
+    /// flight decides.
     #[test]
     fn windows_are_those_of_single_flights() {
         let vibration = Vibration::new(2.0).expect("legal");

@@ -4,7 +4,7 @@ use super::{ROW, Row};
 use crate::flight::platform::vibration::Crests;
 use crate::flight::platform::vibration::Vibration;
 
-/// What the flights above one platform need to know of it (see [`Vibration`]).
+/// The numbers of a platform that flights above it need (see [`Vibration`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Platform {
     pub(super) peak: f64,

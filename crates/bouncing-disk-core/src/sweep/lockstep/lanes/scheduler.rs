@@ -15,7 +15,7 @@ use crate::sweep::lockstep::lanes::{
     Arcs, Batch, Dispatch, Ground, Impacts, InstructionSet, LANES, Lanes, Rows, Who, Whole, lanes_of,
 };
 
-/// What flights are computed for.
+/// The purpose of the flights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Purpose {
     /// Orbits of impact maps: every launch follows the impact before with the restitution of its lane, and
@@ -93,8 +93,8 @@ impl FlightScheduler {
         self.dispatch
     }
 
-    /// Computes the impacts of the first `lanes` launches of the batches together; `failed` is told of each lane that has
-    /// none, and whose impact is then meaningless.
+    /// Computes the impacts of the first `lanes` launches of the batches together, and calls `failed` for
+    /// each lane without an impact; the result of such a lane is meaningless.
     pub(crate) fn fly(&mut self, batches: &mut [Batch], lanes: usize, mut failed: impl FnMut(usize, Error)) {
         self.hard.clear();
         let shared = shared_platform(batches);
@@ -122,7 +122,8 @@ impl FlightScheduler {
         self.assert_clocks(batches, lanes);
     }
 
-    /// Asserts that the velocities at both ends of the flights agree with their turns and durations. Debug builds only.
+    /// Asserts that the velocities at both ends of the flights agree with their turns and durations. Debug
+    /// builds only.
     #[cfg(debug_assertions)]
     fn assert_clocks(&self, batches: &[Batch], lanes: usize) {
         if !self.timed {
@@ -152,7 +153,8 @@ impl FlightScheduler {
         }
     }
 
-    /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the queues.
+    /// Computes the impacts of one batch where all lanes rise above the crests, else adds its lanes to the
+    /// queues.
     fn fly_batch(&mut self, batches: &mut [Batch], number: usize, lanes: usize, shared: Option<Platform>) {
         let Self { dispatch, timed, kinds, work, .. } = self;
         let timed = *timed;
@@ -235,8 +237,8 @@ impl FlightScheduler {
         }
     }
 
-    /// Adds lanes of a batch that rise above the crests to their queue; those that do not come down within the longest
-    /// flight are hard.
+    /// Adds lanes of a batch that rise above the crests to their queue; those that do not come down within
+    /// the longest flight are hard.
     #[inline(always)]
     fn queue_above(
         &mut self,
@@ -368,7 +370,7 @@ impl<Rows> Queue<Rows> {
         k
     }
 
-    /// Takes flights of a batch from `lanes` until there are none or no more room; `set` is given the place of each.
+    /// Takes flights of a batch from `lanes` until none is left or no room; `set` gets the place of each.
     #[inline(always)]
     pub(super) fn fill(
         &mut self,

@@ -85,7 +85,8 @@ impl Times {
     }
 }
 
-/// Evaluations, each but the first after a step where the root is not near, and another such step if `steps_on`.
+/// Evaluations, each but the first after a step where the root is not near, and another such step if
+/// `steps_on`.
 pub(super) struct Advance<'a, F> {
     pub(super) width: Sixteens,
     pub(super) forms: &'a mut F,
@@ -199,7 +200,8 @@ impl<F: Forms> Search<F> {
         Self { forms, times: Times::new(), who: [Who::NONE; LANES], evaluations: [0; LANES], active: 0, near }
     }
 
-    /// Takes in number `k` of some flights with their windows after so many evaluations; there must be room for it.
+    /// Takes in number `k` of some flights with their windows after so many evaluations; there must be room
+    /// for it.
     #[inline(always)]
     pub(super) fn add(&mut self, who: Who, forms: &F, times: &Times, k: usize, evaluations: u8) {
         let slot = self.active % LANES;
@@ -214,7 +216,8 @@ impl<F: Forms> Search<F> {
         self.active == LANES
     }
 
-    /// Goes on until at most `left` flights remain; `landed` takes impacts, `hard` flights that need more steps.
+    /// Goes on until at most `left` flights remain; `landed` takes impacts, `hard` flights that need more
+    /// steps.
     pub(super) fn go_on(
         &mut self,
         dispatch: Dispatch,

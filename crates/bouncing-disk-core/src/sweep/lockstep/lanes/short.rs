@@ -1,6 +1,7 @@
 //! Flights that land within half a radian: `Vibration::short_flight`, many at a time.
 //!
-//! Slow launches are few among ordinary ones and all of a chattering disk's, so they are collected.
+//! Slow launches are rare among ordinary ones, and all launches of a chattering disk are slow, so they are
+//! collected.
 
 use core::f64::consts::{PI, TAU};
 
@@ -163,7 +164,7 @@ fn impact(width: impl Width, short: &Short, impacts: &mut Impacts) {
     }
 }
 
-/// What became of a slow launch.
+/// The outcome of a slow launch.
 pub(super) enum Fate {
     Landed,
     /// It flies on as if it had been launched faster.
@@ -219,7 +220,7 @@ impl Short {
         self.separation[k] = platform.separation_angle;
     }
 
-    /// What became of the flight of number `k`.
+    /// The outcome of flight number `k`.
     #[inline(always)]
     pub(super) fn fate(&self, k: usize) -> Fate {
         if self.landed[k] == 0 { self.fate_in_flight(k) } else { Fate::Landed }
@@ -231,7 +232,8 @@ impl Short {
         let (end_ratio, end_velocity) = form.at(within_short(self.end[k]));
         // A launch from rest is legal only where the platform falls away, and then it moves off.
         let away = self.pulled[k] == 0;
-        // As `short_bracket`: no root in the pieces up to half a radian, and no dip, or none below the tangents.
+        // As `short_bracket`: no root in the pieces up to half a radian, and no dip, or none below the
+        // tangents.
         let end = within_short(self.end[k]);
         let lowest = CrestForm::lowest_of_tangents(
             end_ratio * end,

@@ -46,7 +46,8 @@ fn runs_follow_each_other_or_alternate() {
     assert_eq!(runs.runs()[0].speeds, [4.0, 5.0, 6.0]);
 }
 
-/// What an oscilloscope, a tacho and a spreadsheet of another country write: the units are in the file or given.
+/// What an oscilloscope, a tacho and a spreadsheet of another country write: the units are in the file or
+/// given.
 #[test]
 fn values_are_read_as_instruments_write_them() {
     let expected = read(PLAIN).expect("well formed");
@@ -73,8 +74,8 @@ fn values_are_read_as_instruments_write_them() {
     assert!((run.speeds[2] - std::f64::consts::TAU).abs() < 1e-15);
     let units = CsvColumns { time_unit: ms, speed_unit: rpm, ..CsvColumns::default() };
     assert_eq!(of(&PLAIN.replace("_s,", ","), &units).expect_err("rad_s is not rpm").to_string(), {
-        "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal are rad/s, rpm, rev/s, deg/s, in the \
-         name, in the row below it, or as an option (--speed-unit), and the same in all places"
+        "\"demo.csv\", line 1, field 2: the unit of the speed is \"rad_s\" here; legal are rad/s, rpm, rev/s, deg/s. State it in \
+         the name of the column, in the row below it, or when you read the file, and everywhere the same"
     });
     assert!(fault("t,n\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"\" here"));
     assert!(fault("t (h),n (rpm)\n0,0\n1,1\n2,2\n").contains("the unit of the time is \"h\" here"));
@@ -102,7 +103,7 @@ fn a_wrong_header_is_named() {
         fault("time_s,speeed\n0,0\n"),
         format!(
             "\"demo.csv\", line 1, field 2: the column \"speeed\" is unknown; legal are {legal}. Remove the column, put \
-             a # before a line of remarks, or name the columns to read (--time-column, --speed-column)"
+             a # before a line of remarks, or name the columns of times and speeds when you read the file"
         )
     );
     assert_eq!(
@@ -111,8 +112,15 @@ fn a_wrong_header_is_named() {
     );
     assert!(fault("speed_rad_s\n0\n").contains("the column \"time_s\" is missing"));
     assert!(fault("time_s,speed_rad_s,time_s\n").contains("field 3: the column \"time_s\" occurs twice"));
-    // Numbers without a header.
-    assert!(fault("0,1\n1,2\n").contains("line 1, field 1: the column \"0\" is unknown"));
+    // Numbers without a header, whether or not the caller names the columns.
+    let named = CsvColumns { time: Some("CH1".into()), speed: Some("CH2".into()), ..CsvColumns::default() };
+    for columns in [CsvColumns::default(), named] {
+        for text in ["0,1\n1,2\n", "# mine\n0\n", "0,5;1\n"] {
+            let fault = MeasuredSpeeds::from_csv_reader("demo.csv", text.as_bytes(), &columns);
+            let fault = fault.expect_err("no header").to_string();
+            assert!(fault.contains(": the header line is missing, because this line has numbers"), "{fault}");
+        }
+    }
     // The text of a file is shown without doing anything.
     assert!(fault("time_s,\u{1b}[2J\n").contains("\"\\u{1b}[2J\""));
     assert!(fault(format!("time_s,{}\n", "x".repeat(5_000))).len() < 500);

@@ -42,7 +42,7 @@ pub(crate) fn shared_transients(
     let perturbation = (settings.relaunch_perturbation, settings.seed);
     let vertical = VerticalMotion::from_rest(first.dimensionless(), phase, settings.policy, perturbation)?;
     let Some(vertical) = vertical else {
-        // Nothing is shared by rotors that never leave the platform.
+        // Rotors that never leave the platform share no vertical motion.
         return systems.iter().map(|system| SpeedCurve::alone(system, phase, settings, work)).collect();
     };
     let mut run = SharedRun::new(systems, phase, settings, vertical, set)?;
@@ -99,7 +99,7 @@ struct SharedRun {
     carried: Vec<Carried>,
     rows: Vec<RotorRows<Turned>>,
     runner: LaneRunner,
-    /// The present interval of all curves; what is turned in it is in the rows.
+    /// The present interval of all curves; the rows hold the angles turned in it.
     interval: Interval,
     /// Duration of an interval (s).
     width: f64,

@@ -21,8 +21,8 @@ pub(crate) struct VerticalMotion {
 }
 
 impl VerticalMotion {
-    /// The motion that follows the first separation of a disk which lies on the platform at `phase`; a platform that
-    /// falls away there lets it go at once. `None` if it never falls away.
+    /// The motion that follows the first separation of a disk which lies on the platform at `phase`; a
+    /// platform that falls away there lets it go at once. `None` if it never falls away.
     ///
     /// # Errors
     /// Those of the core's launches.

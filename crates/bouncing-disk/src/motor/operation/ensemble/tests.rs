@@ -51,7 +51,8 @@ fn energy_is_balanced() {
         motors.push(loaded(&slippery, 0.0));
         for operation in operated(&motors, &settings) {
             let point = operation.point().expect("none runs away");
-            // Each impact, or event of a contact, rounds the energy of the rotor once, at worst always to one side.
+            // Each impact, or event of a contact, rounds the energy of the rotor once, at worst always to one
+            // side.
             let events = point.impacts.max(50_000);
             let rounding = events as f64 * f64::EPSILON;
             assert!(point.energy_residual < rounding, "{operation:?}");
@@ -314,9 +315,10 @@ mod searches {
             let stall = stall_load(&motor, &settings, &Unobserved).expect("it turns");
             assert!(sign * stall.torque.value > 0.0, "{stall:?}");
             assert!((stall.share * motor.largest_torque() / stall.torque.value - 1.0).abs() < 1e-12);
-            // With the members that found it the speed there vanishes: their noise is the same, and only the lengths of
-            // the runs and the curvature of the speed between the ends differ. Two runs of which one is the first
-            // half of the other differ by 0.7 of the error of the shorter one in the root mean square.
+            // With the members that found it the speed there vanishes: their noise is the same, and only the
+            // lengths of the runs and the curvature of the speed between the ends differ. Two runs of which
+            // one is the first half of the other differ by 0.7 of the error of the shorter one in the root
+            // mean square.
             let [low, high] = stall.bracket;
             let loads = [low, stall.torque.value, high];
             let motors: Vec<LoadedMotor> =
@@ -343,8 +345,8 @@ mod searches {
         }
     }
 
-    /// The many small impacts of a motor at 1 nm are not enough to be rid of the start-up: the loads that its speeds seem to
-    /// vanish at had errors of a ten-thousandth.
+    /// The many small impacts of a motor at 1 nm are not enough to be rid of the start-up: the loads that its
+    /// speeds seem to vanish at had errors of a ten-thousandth.
     #[test]
     fn a_stall_is_refused_where_speeds_still_drift() {
         let motor = loaded(&motor(1e-9, 0.0), 0.0);
@@ -389,9 +391,9 @@ mod searches {
     }
 }
 
-/// However loose the error is that is asked for, the one that is stated is true: the speeds differ from those of long
-/// runs with other seeds by as much as both errors say. A start-up that was taken for steady made them five errors too
-/// small.
+/// However loose the error is that is asked for, the one that is stated is true: the speeds differ from those
+/// of long runs with other seeds by as much as both errors say. A start-up that was taken for steady made
+/// them five errors too small.
 #[test]
 fn stated_errors_hold_where_loose_ones_are_asked_for() {
     let mut random = SplitMix64::new(7);
@@ -412,7 +414,8 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
         };
         let (loose, long) = (speed(0.5, seed), speed(0.005, 100 + seed));
         let error = hypot(loose.standard_error, long.standard_error);
-        // Of a motor that locks on one motion, and is known to far better than was asked for, nothing is said.
+        // Of a motor that locks on one motion, and is known to far better than was asked for, nothing is
+        // said.
         if error > 1e-4 * long.value.abs() {
             let errors = (loose.value - long.value) / error;
             assert!(errors.abs() < 4.0, "{system:?} {loose:?} {long:?}");
@@ -422,9 +425,10 @@ fn stated_errors_hold_where_loose_ones_are_asked_for() {
     assert!(squares.len() >= 6 && mean(&squares) < 2.5, "{squares:?}");
 }
 
-/// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest torque:
-/// 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. As the load slows the rise, a
-/// quarter of the time that it takes without one left speeds down to 4.9 that were stated to 0.09.
+/// The motor of Table III with a lag of 0.5 and a preload for a forcing of 3, under half of the largest
+/// torque: 5.482(12) rad/s by `experiments/judge`, which shares nothing with this crate. As the load slows
+/// the rise, a quarter of the time that it takes without one left speeds down to 4.9 that were stated to
+/// 0.09.
 #[test]
 fn speeds_under_a_load_that_slows_the_rise_have_true_errors() {
     let peak = System::motor().peak_acceleration() * System::motor().disk().preload_acceleration();

@@ -5,7 +5,8 @@ fn quick() -> OperatingSettings {
     OperatingSettings { relative_error: 0.1, members: 4, ..OperatingSettings::default() }
 }
 
-/// Draws of a known spread and of known errors: the stated spread holds the true one, or is off by twice its error at most.
+/// Draws of a known spread and of known errors: the stated spread holds the true one, or is off by twice its
+/// error at most.
 #[test]
 fn the_spread_of_known_draws_is_found() {
     let normal = |random: &mut SplitMix64| (0..12).map(|_| random.unit()).sum::<f64>() - 6.0;
@@ -73,8 +74,8 @@ fn small_motor(preload: f64) -> Motor {
         .expect("legal")
 }
 
-/// At 6 N it locks: its speed is known to next to nothing, and lies elsewhere for its neighbours. At 2 N its stall load is
-/// practically the largest torque.
+/// At 6 N it locks: its speed is known to next to nothing, and lies elsewhere for its neighbours. At 2 N its
+/// stall load is practically the largest torque.
 #[test]
 fn a_locked_motor_has_a_spread_and_a_stall_at_the_limit_an_error() {
     let motor = small_motor(6.0);
@@ -111,15 +112,17 @@ fn tolerances_that_are_none_are_refused() {
     assert!(motor.speed_spreads(&[0.0], &quick(), &usual, &stop).is_err());
 }
 
-/// What never leaves the stator has an exact operation at once, which rests on friction and lag: none without lag.
+/// What never leaves the stator has an exact operation at once, which rests on friction and lag: none without
+/// lag.
 #[test]
 fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let began = std::time::Instant::now();
     let settings = OperatingSettings::default();
     let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 4e-11).expect("legal");
     assert!(matches!(still.stall_load(&settings, &Unobserved), Err(Error::DoesNotTurn { .. })));
-    // The rotor slides, and is dragged by where the stator presses harder: S(x) of a normal force 1 - P sin tau, whose half
-    // where cos(tau + theta) > x is, with c = acos x, (c + P sin c sin theta)/pi; it balances at 1/2.
+    // The rotor slides, and is dragged by where the stator presses harder: S(x) of a normal force 1 - P sin
+    // tau, whose half where cos(tau + theta) > x is, with c = acos x, (c + P sin c sin theta)/pi; it balances
+    // at 1/2.
     let lag: f64 = 0.9;
     let motor = still.with(|sheet| sheet.phase_lag = lag).expect("legal");
     let point =
@@ -141,8 +144,8 @@ fn a_motor_that_is_never_thrown_is_answered_at_once() {
     // S(0) of the same normal force.
     let share = 2.0 * peak * bouncing_disk_core::numerics::elementary::sin(lag) / std::f64::consts::PI;
     assert!((stall.share - share).abs() < 2e-3, "{stall:?} {share}");
-    // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a deviation of
-    // 1 %/sqrt(3).
+    // In units of torque it is proportional to the amplitude alone, of which 1 % on either side has a
+    // deviation of 1 %/sqrt(3).
     let tolerance = InputTolerance { draws: 12, ..InputTolerance::default() };
     let spread =
         motor.stall_spread(&settings, &tolerance, &Unobserved).expect("no failure").expect("each turns");

@@ -29,8 +29,8 @@ impl Drop for Scratch {
     }
 }
 
-/// Stops a run at its first, second, fourth ... question; each time the file ends in half a line, and another number of threads
-/// goes on.
+/// Stops a run at its first, second, fourth ... question; each time the file ends in half a line, and another
+/// number of threads goes on.
 #[test]
 fn a_sweep_that_is_killed_again_and_again_ends_as_that_of_one_call() {
     let (scratch, sweep) = (Scratch::new("killed"), mixed());

@@ -56,8 +56,8 @@ fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSetting
     }
 }
 
-/// Rows that are full, half full, and of one rotor; platforms that throw the rotor far, hardly and never; both ends of
-/// a chatter; starts that lie, that fly at once, and on the seams between the two.
+/// Rows that are full, half full, and of one rotor; platforms that throw the rotor far, hardly and never;
+/// both ends of a chatter; starts that lie, that fly at once, and on the seams between the two.
 #[test]
 fn each_curve_is_that_of_the_motor_alone() {
     for (amplitude, duration) in [(1e-8, 0.3), (5e-11, 0.02), (1e-12, 0.01)] {
@@ -100,8 +100,8 @@ fn curves_of_any_length_are_those_of_the_motor_alone() {
     }
 }
 
-/// The least loads, frictions and twists that are numbers; loads that equal the friction, and miss it by a rounding;
-/// starts in roundings about the phase at which the platform falls away, and about a whole turn.
+/// The least loads, frictions and twists that are numbers; loads that equal the friction, and miss it by a
+/// rounding; starts in roundings about the phase at which the platform falls away, and about a whole turn.
 #[test]
 fn curves_on_the_seams_are_those_of_the_motor_alone() {
     let base = motor(1e-8, 0.0);
