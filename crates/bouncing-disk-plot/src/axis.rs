@@ -55,8 +55,7 @@ impl Axis {
         Self { logarithmic: true, ..Self::linear(first, last) }
     }
 
-    /// A linear axis that holds all finite values with a little room on both sides, with three to five
-    /// labels.
+    /// A linear axis that holds all finite values, with a margin on both sides and three to five labels.
     pub(crate) fn around(values: impl IntoIterator<Item = f64>) -> Self {
         let (low, high) = Self::ends_around(values);
         Self::spanned(low, high)

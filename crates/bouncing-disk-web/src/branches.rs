@@ -24,16 +24,14 @@ const MOST_POINTS: usize = 2_000;
 /// Points of a branch in the window: enough for a curve on a screen.
 const POINTS: usize = 100;
 
-/// How far above its birth a pair is picked up, relative: nearer first, but for those that an earlier impact
-/// forestalls there.
+/// How far above its birth a pair is picked up, relative: nearer first, unless an earlier impact forestalls it.
 const ABOVE_BIRTH: [f64; 4] = [1e-3, 0.1, 0.5, 2.0];
 
 /// A branch is followed to a multiple of its forcing, then its lengths are counted in the forcing that it has
 /// there: those of a nearly elastic disk go over many decades.
 const STRIDE: f64 = 2.0;
 
-/// Branches are followed so far beyond the first doubling of the pair that they come from: all doublings lie
-/// there.
+/// Branches are followed so far beyond the first doubling of their pair: all doublings lie there.
 const BEYOND_DOUBLING: f64 = 2.0;
 
 /// How many branches there are in a window, and their bifurcations with the first impact of the orbit there. Numbers: rows
@@ -91,8 +89,7 @@ struct Found {
 }
 
 impl Found {
-    /// The branches through one that has just been born, both ways, and those that double from it one after
-    /// the other.
+    /// The branches through one that has just been born, both ways, and those that double from it in turn.
     fn family(&mut self, map: &ImpactMap, orbit: &PeriodicOrbit, birth: f64) -> Result<(), Refusal> {
         let forcing = map.vibration().axial_forcing();
         let (low, doubling) = (0.5 * birth, ImpactMap::first_doubling_forcing(map.restitution()));

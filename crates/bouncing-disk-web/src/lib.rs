@@ -2,8 +2,7 @@
 //!
 //! The page (`page/`) runs this crate as WebAssembly in workers. It has no physics and no numerics of its
 //! own: each request is one call of the library, whose results it passes on in SI units. The same request is
-//! answered natively by the same code with the same bits (`examples/respond.rs`), which the tests of the page
-//! compare.
+//! answered natively by the same code with the same bits (`examples/respond.rs`): the page's tests compare them.
 //!
 //! ```
 //! use bouncing_disk_web::Explorer;

@@ -45,8 +45,7 @@ pub(crate) fn answer(
     let snapshots = engine.clone().sample(span, samples as usize, &Unobserved)?;
     let mut records = Vec::new();
     let mut ledger = EnergyLedger::default();
-    // The event after the end, and what follows the last one where nothing more happens, are not finished
-    // then.
+    // The event after the end, and what follows the last one where nothing more happens, are unfinished.
     let unfinished = loop {
         match engine.advance()? {
             Some(record) if record.time.order(&end).is_gt() => {

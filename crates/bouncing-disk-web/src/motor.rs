@@ -25,8 +25,7 @@ const TRAP_RANGE: f64 = 0.02;
 
 /// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
 /// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
-/// relative change of the preload or the amplitude that reaches it, and from where to where in the forcing it
-/// reaches.
+/// relative change of the preload or the amplitude that reaches it, and its range of the forcing.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report(&Unobserved)?;

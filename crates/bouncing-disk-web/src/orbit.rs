@@ -13,8 +13,7 @@ use crate::reply::{Refusal, Reply};
 use crate::request::{ImpactStart, map};
 
 /// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing
-/// turns; the peak acceleration is in units of the preload. A platform that `bounces` falls away from a disk
-/// at rest on it.
+/// turns; the peak acceleration is in units of the preload. A platform that `bounces` leaves a disk at rest.
 pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
     Reply::short(&json!({
         "axial_forcing": system.axial_forcing(),

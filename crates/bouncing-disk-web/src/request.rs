@@ -81,8 +81,7 @@ pub(crate) enum Request {
         restitution: f64,
         start: ImpactStart,
     },
-    /// The branches of one impact every few periods with their doublings, stable and unstable, as far as they
-    /// lie in a range.
+    /// The branches of one impact every few periods in a range, stable and unstable, with their doublings.
     Branches {
         restitution: f64,
         axial_forcing: [f64; 2],

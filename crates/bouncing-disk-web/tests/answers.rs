@@ -259,8 +259,7 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     assert_eq!(refused(&huge)["quantity"], "recorded");
 }
 
-/// The two spins of an orbit of two impacts that slides in both, at an angular forcing of 100: some hundred
-/// impacts more than 300 bring them about.
+/// The two spins of an orbit of two impacts that slides in both, at Gamma_T = 100, need some 400 impacts.
 #[test]
 fn columns_are_followed_until_they_have_settled() {
     let unit = number(&answered(&check(pizza())).0, "angular_forcing");
@@ -388,8 +387,7 @@ fn the_same_branches_are_seen_whichever_window_looks_at_them() {
             }
         }
     }
-    // Two impacts that attract, one orbit of one impact that does not, and the saddle of the pair: right
-    // through.
+    // Throughout: two impacts that attract, one orbit of one impact that does not, the saddle of the pair.
     let (_, _, lines) = branches_in(0.5, [0.49, 0.53]);
     let through = |line: &&Vec<[f64; 6]>| {
         let (first, last) = (line.first().expect("a row"), line.last().expect("a row"));

@@ -83,8 +83,7 @@ impl OrbitDiagram<'_> {
         };
         let panel = |column: usize, letter: &str, y: Axis| {
             let of = |impact: &(f64, f64, f64)| (impact.0, if column == 0 { impact.1 } else { impact.2 });
-            // Above the frame: no corner is free for certain. There stands the power of ten of large speeds,
-            // too.
+            // Above the frame, beside the power of ten of large speeds: a corner may not be free.
             let left = if column == 1 && fastest >= 1e3 { 0.2 } else { 0.0 };
             let mut panel = Panel::new(grid.cell(0, column))
                 .x(Axis::linear(self.axial_forcings.0, self.axial_forcings.1).label(r"$\Gamma$"))

@@ -1,5 +1,4 @@
-//! Maps of equal cells, and the key of their colours: basins of attraction, regimes, a quantity over two
-//! parameters.
+//! Maps of equal cells and the key of their colours: basins, regimes, a quantity over two parameters.
 
 use super::impact_plane::{IMPACT_PHASE, IMPACT_SPEED, crosses};
 use super::torque_speed::Quantity;
@@ -13,8 +12,7 @@ use crate::panel::Panel;
 use crate::raster::Raster;
 use crate::ticks::Ticks;
 
-/// A key: below each other, in their order, squares of these colours of a palette with their words at the
-/// right.
+/// A key: squares of these colours of a palette below each other, with their words at the right.
 pub fn key<L: Into<Label>>(
     area: Rect,
     palette: &[Colour],
