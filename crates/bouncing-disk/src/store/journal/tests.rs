@@ -202,8 +202,11 @@ fn a_changed_line_is_named() {
         text.lines().filter(|line| !line.contains("\"index\":2,")).map(|line| format!("{line}\n")).collect();
     scratch.write(others);
     assert_eq!(open(&scratch).expect("opens").1.done(), 3);
-    // Results of another kind.
+    // More items than there are: the last that exists is 2.
     scratch.write(&text);
+    let error = Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), 3).expect_err("four items");
+    assert_eq!(error.to_string(), "item 3 does not exist: there are 3 items");
+    // Results of another kind.
     let error = Journal::<String>::open(&scratch.0, &key(0.1), 100).expect_err("lists");
     assert!(matches!(error, StorageError::Result { line: 2, .. }), "{error:?}");
 }
