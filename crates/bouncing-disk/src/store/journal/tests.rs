@@ -202,10 +202,15 @@ fn a_changed_line_is_named() {
         text.lines().filter(|line| !line.contains("\"index\":2,")).map(|line| format!("{line}\n")).collect();
     scratch.write(others);
     assert_eq!(open(&scratch).expect("opens").1.done(), 3);
-    // More items than there are: the last that exists is 2.
+    // An item beyond those of the header: the last that exists is 2.
+    let fewer = || Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), 3);
+    scratch.write("");
+    drop(fewer().expect("opens"));
+    let header = String::from_utf8(scratch.bytes()).expect("text");
+    let (_, lines) = text.split_once('\n').expect("a header");
+    scratch.write(header + lines);
+    assert_eq!(fewer().expect_err("four items").to_string(), "item 3 does not exist: there are 3 items");
     scratch.write(&text);
-    let error = Journal::<Vec<f64>>::open(&scratch.0, &key(0.1), 3).expect_err("four items");
-    assert_eq!(error.to_string(), "item 3 does not exist: there are 3 items");
     // Results of another kind.
     let error = Journal::<String>::open(&scratch.0, &key(0.1), 100).expect_err("lists");
     assert!(matches!(error, StorageError::Result { line: 2, .. }), "{error:?}");
