@@ -66,8 +66,9 @@ impl Experiment for Table3 {
         let stall = |case: &MotorCase| {
             Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
         };
+        let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
         let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
-        let speeds = [speed(&as_printed, quality)?, speed(&as_frequency, quality)?];
+        let speeds = [speed(&as_printed, quality, None)?, speed(&as_frequency, quality, Some(tolerance))?];
         Ok(Table3Data {
             inputs: inputs(&cases)?,
             printed_inputs: paper::printed_inputs(),
@@ -102,8 +103,8 @@ impl Experiment for Table3 {
                 Label::new(&row.label),
                 Label::plain(&row.unit),
                 Label::plain(""),
-                Label::plain(&shown(row.values[0])),
-                Label::plain(&shown(row.values[1])),
+                Label::plain(&row.values[0].map_or_else(String::new, shown)),
+                Label::plain(&row.values[1].map_or_else(String::new, shown)),
                 Label::new(&row.origin),
             ]
         });
@@ -202,8 +203,9 @@ pub struct Table3Data {
 struct Speed {
     speed_rad_per_s: f64,
     standard_error_rad_per_s: f64,
-    over_inputs_rad_per_s: OverInputs,
-    stall_over_inputs_rad_per_s2: OverInputs,
+    /// Of the reading that the motors of this work have.
+    over_inputs_rad_per_s: Option<OverInputs>,
+    stall_over_inputs_rad_per_s2: Option<OverInputs>,
 }
 
 /// A number of motors that are drawn: preload and amplitude within a tolerance, the relaunch perturbation
@@ -235,7 +237,7 @@ struct Input {
 struct Following {
     label: String,
     unit: String,
-    values: [f64; 2],
+    values: [Option<f64>; 2],
     origin: String,
 }
 
@@ -269,12 +271,15 @@ struct Drop {
 /// Seed of the drops whose height and gravity round to the printed ones.
 const DROP_SEED: u64 = 95;
 
-/// The steady speed of a motor, and the spreads over its inputs.
-fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
+/// The steady speed of a motor, and with a tolerance the spreads over its inputs.
+fn speed(
+    case: &MotorCase,
+    quality: Quality,
+    tolerance: Option<InputTolerance>,
+) -> Result<Speed, ExperimentError> {
     let motor = Motor::paper_70_khz()
         .with(|sheet| sheet.preload_acceleration = Some(case.preload_acceleration_m_per_s2))?;
     let settings = OperatingSettings { members: quality.choose(4, 16), ..OperatingSettings::default() };
-    let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
     let over_inputs = |spread: Option<InputSpread>, unit: f64| {
         let quantity = || "spread over the inputs".to_owned();
         let InputSpread { from_to, draws, trapped, .. } =
@@ -282,17 +287,20 @@ fn speed(case: &MotorCase, quality: Quality) -> Result<Speed, ExperimentError> {
         Ok::<_, ExperimentError>(OverInputs { from_to: from_to.map(|end| end / unit), draws, trapped })
     };
     let Estimate { value, standard_error } = motor.no_load_speed(&settings)?;
-    let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved)?;
-    let inertia = motor.mass() * case.gyration_radius_m * case.gyration_radius_m;
-    Ok(Speed {
+    let mut speed = Speed {
         speed_rad_per_s: value,
         standard_error_rad_per_s: standard_error,
-        over_inputs_rad_per_s: over_inputs(speeds.into_iter().next().flatten(), 1.0)?,
-        stall_over_inputs_rad_per_s2: over_inputs(
-            motor.stall_spread(&settings, &tolerance, &Unobserved)?,
-            inertia,
-        )?,
-    })
+        over_inputs_rad_per_s: None,
+        stall_over_inputs_rad_per_s2: None,
+    };
+    if let Some(tolerance) = tolerance {
+        let speeds = motor.speed_spreads(&[0.0], &settings, &tolerance, &Unobserved)?;
+        let stall = motor.stall_spread(&settings, &tolerance, &Unobserved)?;
+        let inertia = motor.mass() * case.gyration_radius_m * case.gyration_radius_m;
+        speed.over_inputs_rad_per_s = Some(over_inputs(speeds.into_iter().next().flatten(), 1.0)?);
+        speed.stall_over_inputs_rad_per_s2 = Some(over_inputs(stall, inertia)?);
+    }
+    Ok(speed)
 }
 
 /// The radius of gyration of a solid ball about a diameter, m.
@@ -362,11 +370,17 @@ fn derived(
 ) -> Result<Vec<Following>, ExperimentError> {
     let [printed, frequency] = cases;
     let systems = [printed.system()?, frequency.system()?];
-    let row = |label: &str, unit: &str, origin: &str, values: [f64; 2]| Following {
+    let row_of = |label: &str, unit: &str, origin: &str, values: [Option<f64>; 2]| Following {
         label: label.to_owned(),
         unit: unit.to_owned(),
         values,
         origin: origin.to_owned(),
+    };
+    let row = |label: &str, unit: &str, origin: &str, values: [f64; 2]| {
+        row_of(label, unit, origin, values.map(Some))
+    };
+    let end = |label: &str, unit: &str, of: fn(&Speed) -> Option<OverInputs>, end: usize| {
+        row_of(label, unit, WITHIN, [0, 1].map(|index| of(&speeds[index]).map(|spread| spread.from_to[end])))
     };
     let omega = systems.map(|system| system.platform().angular_frequency());
     let forcing = systems.map(|system| system.angular_forcing().unwrap_or(f64::INFINITY));
@@ -425,16 +439,16 @@ fn derived(
             "the paper's estimate of it",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
         ),
-        row("least stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[0])),
-        row("largest stall", "rad/s²", WITHIN, speeds.map(|of| of.stall_over_inputs_rad_per_s2.from_to[1])),
+        end("least stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 0),
+        end("largest stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 1),
         row(
             r"$\dot{\alpha}_{ss}$",
             "rad/s",
             "mean over time, without load",
             speeds.map(|of| of.speed_rad_per_s),
         ),
-        row("least speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[0])),
-        row("largest speed", "rad/s", WITHIN, speeds.map(|of| of.over_inputs_rad_per_s.from_to[1])),
+        end("least speed", "rad/s", |of| of.over_inputs_rad_per_s, 0),
+        end("largest speed", "rad/s", |of| of.over_inputs_rad_per_s, 1),
     ])
 }
 

@@ -116,6 +116,7 @@ test(TITLE, { skip: !native }, async (t) => {
       const all = name.startsWith("fig10 (c)");
       await page.waitForFunction(isAnswered, all, { timeout: PATIENCE }).catch(() => assert.fail(`${name} waits`));
       for (const { request, answer } of await page.evaluate(() => window.heard.splice(0))) {
+        assert.match(answer, /^answered/, `${name}: ${request}`);
         assert.equal(heard.get(request) ?? answer, answer, `two answers to ${request}`);
         if (!heard.has(request)) answers.ask(request);
         heard.set(request, answer);

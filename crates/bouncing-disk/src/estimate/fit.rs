@@ -193,23 +193,27 @@ impl Saturation {
         work: &mut WorkCount<'_>,
     ) -> Result<Self, Error> {
         let n = times.len();
-        let mean_of = |values: &mut dyn Iterator<Item = f64>| match start {
+        let mean_of = |values: &[f64]| match start {
             Start::FromRest => 0.0,
-            Start::AnySpeed => values.sum::<f64>() / n as f64,
+            Start::AnySpeed => values.iter().sum::<f64>() / n as f64,
         };
-        let mean_speed = mean_of(&mut speeds.iter().copied());
+        let mean_speed = mean_of(speeds);
+        let mut shapes = vec![0.0; n];
         // The best speeds for a given constant, and the residual that they leave.
-        let at = |constant: f64| {
-            let mean_shape = mean_of(&mut times.iter().map(|&time| shape(time / constant)));
-            let (mut shapes, mut products) = (0.0, 0.0);
-            for (&time, &speed) in times.iter().zip(speeds) {
-                let y = shape(time / constant) - mean_shape;
-                shapes += y * y;
+        let mut at = |constant: f64| {
+            for (value, &time) in shapes.iter_mut().zip(times) {
+                *value = shape(time / constant);
+            }
+            let mean_shape = mean_of(&shapes);
+            let (mut squares, mut products) = (0.0, 0.0);
+            for (&value, &speed) in shapes.iter().zip(speeds) {
+                let y = value - mean_shape;
+                squares += y * y;
                 products += y * (speed - mean_speed);
             }
-            let rise = if shapes > 0.0 { products / shapes } else { 0.0 };
-            let sum = times.iter().zip(speeds).fold(0.0, |sum, (&time, &speed)| {
-                let difference = speed - mean_speed - rise * (shape(time / constant) - mean_shape);
+            let rise = if squares > 0.0 { products / squares } else { 0.0 };
+            let sum = shapes.iter().zip(speeds).fold(0.0, |sum, (&value, &speed)| {
+                let difference = speed - mean_speed - rise * (value - mean_shape);
                 sum + difference * difference
             });
             let start_speed = mean_speed - rise * mean_shape;
@@ -232,7 +236,8 @@ impl Saturation {
             }
         }
         let centre = low + step * f64::from(best.1);
-        let log = golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, cost)?;
+        let log =
+            golden_section((centre - step).max(low), (centre + step).min(high), GOLDEN_STEPS, &mut cost)?;
         Ok(at(exp(log)))
     }
 }
