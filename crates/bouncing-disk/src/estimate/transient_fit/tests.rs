@@ -91,7 +91,7 @@ fn intervals_of_synthetic_measurements_cover_the_truth() {
         (0.0, 24, 2.4, &even),
         (0.0, 400, 4.0, &even),
         (0.6, 300, 4.0, &even),
-        (0.9, 2_500, 4.0, &even),
+        (0.9, 1_200, 4.0, &even),
         (0.0, 100, 4.0, &grows),
         (0.0, 100, 4.0, &falls),
     ];

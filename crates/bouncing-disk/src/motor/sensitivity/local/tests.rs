@@ -101,13 +101,14 @@ fn the_speed_is_fitted_over_a_range_of_the_vertical_motion() {
 #[test]
 fn the_stall_is_fitted_over_a_range_of_preloads() {
     let motor = Motor::paper_70_khz();
-    // A wider range makes up for rougher stalls, which cost a quarter.
-    let operating = OperatingSettings { relative_error: 0.1, ..quick().operating };
-    let settings = SensitivitySettings { operating, half_range: 0.5, ..quick() };
+    // A wide range makes up for rough stalls, which cost little.
+    let operating = OperatingSettings { relative_error: 0.1, members: 4, ..quick().operating };
+    let settings = SensitivitySettings { operating, half_range: 0.7, ..quick() };
     let stall = motor
         .local_sensitivities(SensitivityQuantity::StallTorque, &[P::Preload], &settings, &Unobserved)
         .expect("turns")[0];
-    assert!((stall.derivative.value - 1.0).abs() < 0.1 + 3.0 * stall.derivative.standard_error, "{stall:?}");
+    let Estimate { value, standard_error } = stall.derivative;
+    assert!((value - 1.0).abs() < 3.0 * standard_error && standard_error < 0.15, "{stall:?}");
 }
 
 #[test]
