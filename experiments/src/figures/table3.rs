@@ -66,7 +66,7 @@ impl Experiment for Table3 {
         let stall = |case: &MotorCase| {
             Stall::of(case, quality.choose(4, 16), TransientSettings::default().relaunch_perturbation)
         };
-        let tolerance = InputTolerance { draws: quality.choose(8, 19), ..InputTolerance::default() };
+        let tolerance = InputTolerance { draws: quality.choose(8, 39), ..InputTolerance::default() };
         let stalls = [stall(&as_printed)?, stall(&as_frequency)?];
         let speeds = [speed(&as_printed, quality, None)?, speed(&as_frequency, quality, Some(tolerance))?];
         Ok(Table3Data {
