@@ -29,7 +29,6 @@ const FIELDS = {
   normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
   angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
 }; // prettier-ignore
-// One reader of numbers serves all fields: all of these in one of them, one in each.
 for (const text of ["", "inf", "1e400", "1,5", "1 5", "0x1p3"]) FIELDS.restitution[text] = NO_NUMBER;
 for (const expected of Object.values(FIELDS)) expected.NaN = NO_NUMBER;
 
