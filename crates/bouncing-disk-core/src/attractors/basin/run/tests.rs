@@ -121,17 +121,17 @@ fn many_known_orbits_are_compared_in_parts() {
         known.extend([some.clone(), more.clone()]);
         let own = Label::try_from(many).expect("few");
         let observer = StopAfter::calls(u64::MAX);
-        let at_once = map.basins(grid(12, 8), &known, settings, &observer).expect("no failure");
+        let at_once = map.basins(grid(20, 10), &known, settings, &observer).expect("no failure");
         let caught = (at_once.fraction(FIRST_ORBIT + own), at_once.fraction(FIRST_ORBIT + own + 1));
         assert!(caught.0 > 0.01 && caught.1 > 0.01, "{caught:?}");
-        let few = map.basins(grid(12, 8), &known[many..], settings, &Unobserved).expect("no failure");
+        let few = map.basins(grid(20, 10), &known[many..], settings, &Unobserved).expect("no failure");
         let labels = few.labels().iter().map(|&label| if label < FIRST_ORBIT { label } else { label + own });
         assert_eq!(at_once.labels(), labels.collect::<Vec<_>>());
         // One batch is enough to be asked between the parts: one part is of 4,096 impacts.
         let cell = StopAfter::calls(u64::MAX);
         map.basins(grid(1, 1), &known, settings, &cell).expect("no failure");
         assert!(many == 1 || cell.asked() > many as u64, "{}", cell.asked());
-        let run = BasinRun::new(map, grid(12, 8), &known, settings).expect("few cells");
+        let run = BasinRun::new(map, grid(20, 10), &known, settings).expect("few cells");
         let (basins, stops) = in_parts(run, 1, |stops| 1 + 4 * stops);
         assert_eq!(basins, at_once);
         assert!(stops >= 2, "{stops}");
