@@ -379,7 +379,7 @@ fn derived(
     let row = |label: &str, unit: &str, origin: &str, values: [f64; 2]| {
         row_of(label, unit, origin, values.map(Some))
     };
-    let end = |label: &str, unit: &str, of: fn(&Speed) -> Option<OverInputs>, end: usize| {
+    let spread_end = |label: &str, unit: &str, of: fn(&Speed) -> Option<OverInputs>, end: usize| {
         row_of(label, unit, WITHIN, [0, 1].map(|index| of(&speeds[index]).map(|spread| spread.from_to[end])))
     };
     let omega = systems.map(|system| system.platform().angular_frequency());
@@ -439,16 +439,16 @@ fn derived(
             "the paper's estimate of it",
             stalls.map(|stall| stall.estimate_rad_per_s2.mean),
         ),
-        end("least stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 0),
-        end("largest stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 1),
+        spread_end("least stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 0),
+        spread_end("largest stall", "rad/s²", |of| of.stall_over_inputs_rad_per_s2, 1),
         row(
             r"$\dot{\alpha}_{ss}$",
             "rad/s",
             "mean over time, without load",
             speeds.map(|of| of.speed_rad_per_s),
         ),
-        end("least speed", "rad/s", |of| of.over_inputs_rad_per_s, 0),
-        end("largest speed", "rad/s", |of| of.over_inputs_rad_per_s, 1),
+        spread_end("least speed", "rad/s", |of| of.over_inputs_rad_per_s, 0),
+        spread_end("largest speed", "rad/s", |of| of.over_inputs_rad_per_s, 1),
     ])
 }
 
@@ -507,13 +507,14 @@ fn ball_drop(section: &SectionFive) -> Result<Drop, ExperimentError> {
     })
 }
 
-/// Four digits, with a power of ten where the number is large or small.
+/// Four digits and a true minus sign, with a power of ten where the number is large or small.
 fn shown(value: f64) -> String {
     if value.abs() > 0.0 && !(1e-2..1e4).contains(&value.abs()) {
         let text = format!("{value:.3e}");
         let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
         let digits = digits.trim_end_matches('0').trim_end_matches('.');
         let power: String = power.chars().map(superscript).collect();
+        let digits = digits.replace('-', "−");
         if digits == "1" { format!("10{power}") } else { format!("{digits} × 10{power}") }
     } else {
         let decimals = if value.abs() >= 100.0 {
@@ -524,7 +525,7 @@ fn shown(value: f64) -> String {
             3
         };
         let text = format!("{value:.decimals$}");
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        text.trim_end_matches('0').trim_end_matches('.').replace('-', "−")
     }
 }
 

@@ -5,7 +5,7 @@ import { isCalm, settled, stateOf, type, valueOf, whenText, onPage } from "./bro
 
 const NO_NUMBER = /is not a number; write it like 0\.5/;
 const TAKEN = null;
-/** What each field does with what is typed. A lag and a phase are angles, of which there are all. */
+/** What each field does with a text; those that are no numbers are tried in a number and an angle. All angles are taken. */
 const POSITIVE = { 0: /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
 const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
 const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
@@ -29,7 +29,7 @@ const FIELDS = {
   normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
   angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
 }; // prettier-ignore
-for (const text of ["", "inf", "1e400", "1,5", "1 5", "0x1p3"]) FIELDS.restitution[text] = NO_NUMBER;
+for (const t of ["", "inf", "1e400", "1,5", "1 5", "0x1p3"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;
 for (const expected of Object.values(FIELDS)) expected.NaN = NO_NUMBER;
 
 onPage("the list of fields is that of the page", "#view=toss", async (page) => {
