@@ -5,7 +5,7 @@ import { isCalm, settled, stateOf, type, valueOf, whenText, onPage } from "./bro
 
 const NO_NUMBER = /is not a number; write it like 0\.5/;
 const TAKEN = null;
-/** What each field does with a text; those that are no numbers are tried in a number and an angle. All angles are taken. */
+/** What each field does with a text; those that are no numbers are tried in one number and one angle. */
 const POSITIVE = { 0: /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
 const ATLEAST0 = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": /\[0, inf\)/, "-1": /\[0, inf\)/ };
 const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TAKEN };
