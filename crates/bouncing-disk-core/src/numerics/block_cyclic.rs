@@ -125,6 +125,8 @@ fn back_substituted(rows: &[Row; 2], at: usize, right: DVec2) -> DVec2 {
 
 #[cfg(test)]
 mod tests {
+    use faer::linalg::solvers::Solve;
+
     use super::*;
     use crate::numerics::random::SplitMix64;
 
@@ -162,6 +164,29 @@ mod tests {
                     assert_eq!(x.len(), n);
                     let left = residual(&blocks, &right, &x);
                     assert!(left < 1e-13, "n {n}, size {size}, seed {seed}: {left:e}");
+                }
+            }
+        }
+    }
+
+    /// The whole as one dense matrix, by faer's LU factorisation with exchanges of rows.
+    #[test]
+    fn a_dense_solve_agrees() {
+        for n in [1, 2, 3, 7, 30] {
+            for seed in 0..20 {
+                let (blocks, right) = random_system(n, 1.5, seed);
+                let matrix = faer::Mat::from_fn(2 * n, 2 * n, |row, column| {
+                    let (block, unknown) = (row / 2, column / 2);
+                    let own = if unknown == block { blocks[block].col(column % 2)[row % 2] } else { 0.0 };
+                    own - f64::from(u8::from(unknown == (block + 1) % n && row % 2 == column % 2))
+                });
+                let dense = matrix
+                    .partial_piv_lu()
+                    .solve(faer::Mat::from_fn(2 * n, 1, |row, _| right[row / 2][row % 2]));
+                let size = dense.norm_max();
+                for (i, x) in solve_block_cyclic(&blocks, &right).into_iter().enumerate() {
+                    let apart = (x - DVec2::new(dense[(2 * i, 0)], dense[(2 * i + 1, 0)])).length();
+                    assert!(apart < 1e-11 * size, "n {n}, seed {seed}: {apart:e} of {size}");
                 }
             }
         }
