@@ -472,7 +472,7 @@ fn the_form_of_a_run_up_is_said_and_one_without_a_time_constant_is_told_as_such(
 
 #[test]
 fn a_motor_that_does_not_turn_has_no_stall_load_and_one_that_runs_away_no_speed() {
-    let plain = json!({ "call": "motor_stall", "sheet": sheet(), "relative_error": 0.1, "seed": 1 });
+    let plain = json!({ "call": "motor_stall", "sheet": sheet(), "relative_error": 0.3, "seed": 1 });
     let (stall, _) = answered(&plain);
     assert!(number(&stall, "torque") > 0.0 && number(&stall, "no_load_speed") > 0.0);
     // Without any twist of the stator.

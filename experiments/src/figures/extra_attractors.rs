@@ -106,7 +106,7 @@ impl Experiment for ExtraAttractors {
     fn compute(quality: Quality, progress: &dyn Progress) -> Result<ExtraAttractorsData, ExperimentError> {
         let (starts, impacts) = quality.choose((256, (1_000, 20_000)), (2_048, (2_000, 100_000)));
         let search = AttractorSearch::default().with_starts(starts)?.with_impacts(impacts.0, impacts.1)?;
-        let (columns, cells) = quality.choose((36, 150), (180, 600));
+        let (columns, cells) = quality.choose((18, 100), (180, 600));
         progress.start(2 * columns as u64, "forcings");
         let mut sweeps = Vec::new();
         for ([from, to], restitution) in

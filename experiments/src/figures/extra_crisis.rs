@@ -91,7 +91,7 @@ impl Experiment for ExtraCrisis {
         let (stable, unstable) =
             (grown(ManifoldKind::Stable, stable)?, grown(ManifoldKind::Unstable, unstable)?);
         progress.advance(1);
-        let (orbits, most_impacts, halvings) = quality.choose((60, 2_000_000, 12), (300, 20_000_000, 14));
+        let (orbits, most_impacts, halvings) = quality.choose((40, 2_000_000, 12), (300, 20_000_000, 14));
         let beyond: Vec<f64> =
             std::iter::successors(Some(FARTHEST), |last| Some(0.5 * last)).take(halvings + 1).collect();
         let lives = crisis.lives(&beyond, orbits, most_impacts, &Unobserved)?;

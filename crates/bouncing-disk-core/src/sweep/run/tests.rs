@@ -63,7 +63,7 @@ fn in_parts<T: Storable + Send>(
 fn a_run_that_is_stopped_ends_in_the_results_of_one_call() {
     for count in [5, 11, 300, 1_500] {
         let orbits = orbits(count);
-        let impacts = if count < 12 { 40_000 } else { 900 };
+        let impacts = if count < 12 { 12_000 } else { 300 };
         let lives = survival_times(&orbits, impacts, &Unobserved).expect("no failure");
         let columns = orbit_diagram(&orbits, impacts - 100, 100, &Unobserved).expect("no failure");
         let counted = |events: &mut usize, _: &SweepEvent| {
