@@ -6,7 +6,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::mem;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use bouncing_disk::core::sweep::{orbit_diagram, survival_times};
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Unobserved, Vibration};
@@ -196,12 +196,20 @@ fn the_programs_of_the_tutorial_are_the_examples() {
 fn the_examples_print_what_the_tutorial_says() {
     let this = std::env::current_exe().expect("known");
     let folder = this.parent().and_then(Path::parent).expect("a target folder").join("examples");
-    for (program, printed) in blocks("rust").iter().zip(&blocks("text")) {
-        let name = examples().into_iter().find(|name| shown(name) == *program).expect("an example");
-        let path = folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
-        let output = Command::new(&path)
-            .output()
-            .unwrap_or_else(|error| panic!("{path:?}: {error} (cargo test -p bouncing-disk builds it)"));
+    // All are begun before the first is awaited, since each keeps one processor busy.
+    let begun: Vec<_> = blocks("rust")
+        .iter()
+        .map(|program| {
+            let name = examples().into_iter().find(|name| shown(name) == *program).expect("an example");
+            let path = folder.join(format!("{name}{}", std::env::consts::EXE_SUFFIX));
+            let process = Command::new(&path).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+            let process = process
+                .unwrap_or_else(|error| panic!("{path:?}: {error} (cargo test -p bouncing-disk builds it)"));
+            (name, process)
+        })
+        .collect();
+    for ((name, process), printed) in begun.into_iter().zip(&blocks("text")) {
+        let output = process.wait_with_output().expect("ends");
         assert!(output.status.success(), "{name}: {}", String::from_utf8_lossy(&output.stderr));
         let output = String::from_utf8_lossy(&output.stdout).replace("\r\n", "\n");
         assert_eq!(output, *printed, "{name}");

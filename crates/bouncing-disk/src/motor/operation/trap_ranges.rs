@@ -85,7 +85,7 @@ impl Motor {
     /// use bouncing_disk::motor::{LEAST_TRAP_WIDTH, OperatingSettings};
     ///
     /// let settings = OperatingSettings { relative_error: 0.05, members: 4, ..OperatingSettings::default() };
-    /// let traps = Motor::paper_70_khz().trap_ranges([9.5, 10.2], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
+    /// let traps = Motor::paper_70_khz().trap_ranges([9.8, 9.9], LEAST_TRAP_WIDTH, &settings, &Unobserved)?;
     /// // Outside of the traps it turns at 21 rad/s.
     /// assert!(!traps.is_empty());
     /// assert!(traps.iter().all(|trap| trap.operations[1].point().is_some_and(|point| point.speed.value < 30.0)));
