@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::common::{Folder, errors};
 
 /// Some seconds of chaos in many rows.
-const LONG: &str = "verdicts -G 0.55:0.56:300 --impacts 90000 --threads 1";
+const LONG: &str = "verdicts -G 0.55:0.56:300 --impacts 50000 --threads 1";
 
 fn signal(child: &Child, name: &str) {
     let sent = Command::new("kill").args([&format!("-{name}"), &child.id().to_string()]).status().unwrap();
@@ -58,8 +58,8 @@ fn an_interrupted_run_goes_on_to_the_same_bytes() {
     folder.done(&format!("{LONG} --out whole.json"));
     assert!(folder.read("map.json") == folder.read("whole.json"));
     // Another computation does not go on from there.
-    let text = folder.refused("verdicts -G 0.55:0.56:300 --impacts 90001 --journal rows.journal", 2);
-    assert!(text.contains("is the journal of another computation") && text.contains("90000"), "{text}");
+    let text = folder.refused("verdicts -G 0.55:0.56:300 --impacts 50001 --journal rows.journal", 2);
+    assert!(text.contains("is the journal of another computation") && text.contains("50000"), "{text}");
 }
 
 #[test]
