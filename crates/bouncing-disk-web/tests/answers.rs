@@ -358,7 +358,7 @@ fn branches_go_through_the_doublings_of_the_cascade() {
 
 #[test]
 fn a_window_may_begin_at_any_forcing() {
-    for restitution in [0.0, 0.1, 0.5, 0.9, 0.999999] {
+    for restitution in [0.0, 0.5, 0.999999] {
         for window in [[60.0, 60.1], [1e-3, 1e-2], [99.0, 100.0], [0.45, 0.45 + 1e-12], [0.7, 0.7 + 1e-12]] {
             for row in branches_in(restitution, window).2.iter().flatten() {
                 assert!((window[0]..=window[1]).contains(&row[0]), "{restitution} {window:?}: {row:?}");

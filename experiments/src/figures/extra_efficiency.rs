@@ -78,7 +78,7 @@ impl Experiment for ExtraEfficiency {
             ..OperatingSettings::default()
         };
         progress.start(2, "ensembles");
-        let (columns, rows, fine) = quality.choose((17_u32, 8_u32, 12_u32), (73, 41, 48));
+        let (columns, rows, fine) = quality.choose((13_u32, 6_u32, 12_u32), (73, 41, 48));
         let lag = |k: u32| FARTHEST_LAG * (2.0 * f64::from(k) / f64::from(columns - 1) - 1.0);
         let share = |k: u32, count: u32| LAST_SHARE * f64::from(k) / f64::from(count);
         let phase_lags_rad: Vec<f64> = (0..columns).map(lag).collect();
