@@ -97,7 +97,7 @@ fn product(entry: &RegisteredExperiment) -> Map<String, Value> {
 fn check(id: &str) {
     let entries = registry::all();
     let entry = registry::select(&entries, &[id.to_owned()]).unwrap_or_else(|error| panic!("{error}"))[0];
-    // The snapshot was stored, and drafts are checked against their digests, with as many threads as there are processors.
+    // The snapshot was stored with as many threads as there are processors: other bits with more of them are seen.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(7).build().expect("threads");
     let mut product = pool.install(|| product(entry));
     let data = product["data"].take();

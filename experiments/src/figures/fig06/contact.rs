@@ -289,7 +289,17 @@ pub(super) fn torque_ratios() -> Result<Vec<TorqueRatio>, ExperimentError> {
 mod tests {
     use super::*;
 
-    /// Against faer's QR decomposition: independent and dependent rows, and those of the paper's motor.
+    #[test]
+    fn pivots_count_independent_rows() {
+        let rows = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0], vec![0.0; 3]];
+        // The longest row is the third, of length sqrt(29). Of the second row 9/sqrt(29) lies along it.
+        let pivots = pivots(rows);
+        let second = (9.0 - 81.0 / 29.0_f64).sqrt() / 29.0_f64.sqrt();
+        assert!((pivots[1] - second).abs() <= 0.5e-6, "{pivots:?} {second}");
+        assert!(pivots[0] >= 1.0 && pivots[2..].iter().all(|pivot| *pivot <= 0.0), "{pivots:?}");
+    }
+
+    /// Against faer: dependent rows, and independent ones.
     #[test]
     fn pivots_are_those_of_a_qr_decomposition_with_exchanges() {
         let plain = vec![vec![1.0, 0.0, 2.0], vec![0.0, 3.0, 0.0], vec![2.0, 3.0, 4.0]];
@@ -301,7 +311,9 @@ mod tests {
             let decomposition = matrix.col_piv_qr();
             let triangle = decomposition.thin_R();
             let expected = (0..rows.len()).map(|index| (triangle[(index, index)] / triangle[(0, 0)]).abs());
-            for (pivot, expected) in pivots(rows).into_iter().zip(expected) {
+            let pivots = pivots(rows);
+            assert_eq!(pivots.len(), expected.len());
+            for (pivot, expected) in pivots.into_iter().zip(expected) {
                 assert!((pivot - expected).abs() <= 0.51e-6, "{pivot} {expected}");
             }
         }
