@@ -88,7 +88,7 @@ pub enum ExperimentError {
     Data(#[from] FiniteError),
     /// Stored data do not have the form this version reads.
     #[error("the stored data do not fit this version")]
-    Stored(#[source] serde_path_to_error::Error<serde_json::Error>),
+    Stored(#[source] serde_json::Error),
     /// The origin of a file cannot be stored, or is of a newer format.
     #[error(transparent)]
     Provenance(Box<StorageError>),
@@ -275,7 +275,7 @@ pub struct RegisteredExperiment {
     /// See [`Experiment::CHATTER_POLICY`].
     pub chatter_policy: Option<ChatterPolicy>,
     compute: fn(Quality, &Measurements, &dyn Progress) -> Result<Made, ExperimentError>,
-    read: fn(Value) -> Result<Made, ExperimentError>,
+    read: fn(&[u8]) -> Result<Stored, ExperimentError>,
 }
 
 /// The type-erased form of the experiment `E`.
@@ -297,8 +297,10 @@ pub fn entry<E: Experiment>() -> RegisteredExperiment {
             }
             Ok(Made { warnings, ..Made::of::<E>(&data)? })
         },
-        read: |stored| {
-            Made::of::<E>(&serde_path_to_error::deserialize(stored).map_err(ExperimentError::Stored)?)
+        read: |bytes| {
+            let record: Record<E::Data> = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
+            let made = Made { warnings: record.warnings, ..Made::of::<E>(&record.data)? };
+            Ok((made, record.quality, record.provenance))
         },
     }
 }
@@ -306,9 +308,12 @@ pub fn entry<E: Experiment>() -> RegisteredExperiment {
 /// The name and content of a file.
 pub type File = (String, Vec<u8>);
 
+/// What is made from stored data, and their quality and origin.
+pub type Stored = (Made, Quality, Provenance);
+
 /// The contents of `ID.json`.
 #[derive(Serialize, Deserialize)]
-struct Record {
+struct Record<Data> {
     /// The first part of a file of any format version to be read.
     provenance: Provenance,
     id: String,
@@ -319,7 +324,7 @@ struct Record {
     /// Faults of the user's measurements that are therefore not shown.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
-    data: Value,
+    data: Data,
 }
 
 impl RegisteredExperiment {
@@ -376,14 +381,12 @@ impl RegisteredExperiment {
     }
 
     /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
-    pub fn read(&self, bytes: &[u8]) -> Result<(Made, Quality, Provenance), ExperimentError> {
-        let record: Value = json::read(bytes).map_err(ExperimentError::Stored)?;
+    pub fn read(&self, bytes: &[u8]) -> Result<Stored, ExperimentError> {
+        let stored: Value = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
         // Before anything else: a newer one may have any other form.
-        let stored = record.get("provenance");
-        provenance::refuse_newer(provenance::FIGURE, stored, &format!("{}.json", self.id))?;
-        let record: Record = serde_path_to_error::deserialize(record).map_err(ExperimentError::Stored)?;
-        let made = Made { warnings: record.warnings, ..(self.read)(record.data)? };
-        Ok((made, record.quality, record.provenance))
+        let origin = stored.get("provenance");
+        provenance::refuse_newer(provenance::FIGURE, origin, &format!("{}.json", self.id))?;
+        (self.read)(bytes)
     }
 }
 
@@ -436,7 +439,10 @@ mod tests {
         let text = chain(&error);
         assert!(text.starts_with("the data cannot be stored: speed_m_per_s[1] is NaN"), "{text}");
         for (stored, expected) in [
-            (r#"{"id": 3}"#, "the stored data do not fit this version: id: invalid type: integer"),
+            (
+                r#"{"id": 3}"#,
+                "the stored data do not fit this version: invalid type: integer `3`, expected a string at line 1",
+            ),
             (
                 r#"{"id": 3, "provenance": {"program": "bouncing-disk-experiments", "version": "7.0.0",
                     "format": "bouncing-disk figure", "format_version": 2}}"#,

@@ -7,6 +7,7 @@
 
 use core::ops::ControlFlow;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::Mutex;
 
 use crate::numerics::error::Error;
 
@@ -242,6 +243,42 @@ impl<'w> WorkCount<'w> {
     }
 }
 
+/// The results of `of` for the indices from 0 to `count`, in this order: with the feature `parallel` over the
+/// threads of rayon's pool, each index on its own.
+///
+/// A thread that waits for results takes part in the work; calls may be nested.
+pub fn in_parallel<R: Send>(count: usize, of: impl Fn(usize) -> R + Sync) -> Vec<R> {
+    let results: Vec<Mutex<Option<R>>> = (0..count).map(|_| Mutex::new(None)).collect();
+    for_each_index(count, &|index| {
+        let result = of(index);
+        // Nobody else has it.
+        if let Ok(mut place) = results[index].lock() {
+            *place = Some(result);
+        }
+    });
+    results.into_iter().filter_map(|result| result.into_inner().ok().flatten()).collect()
+}
+
+/// How many indices [`in_parallel`] works on at the same time.
+#[must_use]
+pub fn threads() -> usize {
+    #[cfg(feature = "parallel")]
+    return rayon::current_num_threads();
+    #[cfg(not(feature = "parallel"))]
+    1
+}
+
+// Without a parameter of type: what rayon needs is compiled once and not for every call.
+fn for_each_index(count: usize, work: &(dyn Fn(usize) + Sync)) {
+    #[cfg(feature = "parallel")]
+    {
+        use rayon::prelude::*;
+        (0..count).into_par_iter().with_max_len(1).for_each(work);
+    }
+    #[cfg(not(feature = "parallel"))]
+    (0..count).for_each(work);
+}
+
 /// A function with which each part of a long call counts its flights, in steps of its own; an error ends the
 /// call.
 pub(crate) type Tick<'t> = &'t mut dyn FnMut(u64) -> Result<(), Error>;
@@ -294,6 +331,15 @@ pub(crate) mod testing {
 mod tests {
     use super::*;
     use crate::run::testing::StopAfter;
+
+    #[test]
+    fn what_is_computed_side_by_side_comes_in_order() {
+        let of = |row: usize| in_parallel(row, |column| 100 * row + column);
+        let rows: Vec<Vec<usize>> =
+            (0..40).map(|row| (0..row).map(|column| 100 * row + column).collect()).collect();
+        assert_eq!(in_parallel(40, of), rows);
+        assert!(threads() > 0);
+    }
 
     #[test]
     fn an_observer_is_asked_first_and_then_after_so_many_flights() {

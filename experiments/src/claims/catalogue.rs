@@ -14,7 +14,6 @@ use serde::{Deserialize, Serialize};
 
 use super::judging::Kind;
 use super::printed::PrintedNumber;
-use crate::json;
 
 /// The kind of thing that a claim is about. Only [`Paper`](Self::Paper) counts for or against the paper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -85,7 +84,7 @@ pub enum CatalogueError {
         /// The file.
         file: &'static str,
         /// The report of the parser.
-        cause: Arc<serde_path_to_error::Error<serde_json::Error>>,
+        cause: Arc<serde_json::Error>,
     },
     /// There is no such entry.
     #[error("data/paper has no entry \"{key}\"")]
@@ -132,7 +131,7 @@ struct File {
 
 fn read(name: &str, file: &'static str, text: &str) -> Result<Vec<PrintedEntry>, CatalogueError> {
     let content: File =
-        json::read(text.as_bytes()).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
+        serde_json::from_str(text).map_err(|cause| CatalogueError::File { file, cause: Arc::new(cause) })?;
     let entries = content.values.into_iter();
     Ok(entries.map(|(entry, own)| PrintedEntry { key: format!("{name}.{entry}"), ..own }).collect())
 }
@@ -241,6 +240,6 @@ mod tests {
     fn a_file_of_another_form_is_named() {
         let text = r#"{"place": "", "title": "", "values": {"a": {"figure": "fig01", "plaice": ""}}}"#;
         let error = read("section9", "section9.json", text).expect_err("misspelt");
-        assert!(error.to_string().contains("section9.json") && error.to_string().contains("values.a.plaice"));
+        assert!(error.to_string().contains("section9.json") && error.to_string().contains("`plaice`"));
     }
 }

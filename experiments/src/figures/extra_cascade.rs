@@ -6,11 +6,11 @@ use bouncing_disk::core::orbits::{FeigenbaumEstimate, doubling_cascade, feigenba
 use bouncing_disk_plot::{
     Axis, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter, Ticks,
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::progress::Progress;
 
 /// Feigenbaum's constants δ and α (K. Briggs, Math. Comp. 57, 435 (1991)).
@@ -82,12 +82,12 @@ impl Experiment for ExtraCascade {
         let of_fig6 = paper::section_four()?.restitution.to_string();
         let restitutions: Vec<&str> = std::iter::once(of_fig6.as_str()).chain(OTHER_RESTITUTIONS).collect();
         progress.start(restitutions.len() as u64, "cascades");
-        let cascades = restitutions.par_iter().map(|restitution| {
+        let cascades = for_each(&restitutions, |restitution| {
             let cascade = cascade(restitution, count);
             progress.advance(1);
             Ok(cascade?)
         });
-        Ok(ExtraCascadeData(cascades.collect::<Result<_, ExperimentError>>()?))
+        Ok(ExtraCascadeData(cascades?))
     }
 
     fn draw(data: &ExtraCascadeData) -> Result<Figure, ExperimentError> {

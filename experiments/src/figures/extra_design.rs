@@ -13,10 +13,10 @@ use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Scatter,
     Ticks,
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::progress::Progress;
 
 /// Friction between hand and dough, with more or less flour.
@@ -88,10 +88,10 @@ impl Experiment for ExtraDesign {
             progress.advance(1);
             Ok::<_, ExperimentError>((design, robustness))
         };
+        let steps: Vec<i32> = (0..count).collect();
         let mut curves = Vec::new();
         for (limit, ..) in LIMITS {
-            let points: Vec<_> = (0..count).into_par_iter().map(|k| best(limit, k)).collect();
-            curves.push(points.into_iter().collect::<Result<Vec<_>, _>>()?);
+            curves.push(for_each(&steps, |&k| best(limit, k))?);
         }
         // The least over a fine grid: the speed is smooth in the friction but for where sliding begins.
         let mut worst = f64::INFINITY;

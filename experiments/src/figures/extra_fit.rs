@@ -8,11 +8,11 @@ use bouncing_disk_plot::{
     Axis, Band, Colour, Corner, DOUBLE_COLUMN, Dash, Figure, Legend, Line, Marker, Panel, Rect, Rule,
     Scatter, Stroke, Ticks,
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::shared::numbers::Noise;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::progress::Progress;
 
 /// Seed of the synthetic transients.
@@ -131,7 +131,7 @@ fn fitted(times: &[f64], members: &[Vec<f64>], seed: u64) -> Result<TransientFit
 
 fn duration(time_constants: f64, trials: u64) -> Result<Duration, ExperimentError> {
     let times = times(time_constants);
-    let fit = |trial: u64| {
+    let fit = |trial: &u64| {
         let seed = SEED + trial;
         match fitted(&times, &ensemble(&times, seed), seed) {
             Ok(fit) => Ok(Some(fit)),
@@ -139,9 +139,7 @@ fn duration(time_constants: f64, trials: u64) -> Result<Duration, ExperimentErro
             Err(error) => Err(error.into()),
         }
     };
-    let fits: Vec<Result<Option<TransientFit>, ExperimentError>> =
-        (1..=trials).into_par_iter().map(fit).collect();
-    let fits = fits.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let fits = for_each(&(1..=trials).collect::<Vec<_>>(), fit)?;
     let accepted: Vec<&TransientFit> = fits.iter().flatten().collect();
     let covered = |holds: fn(&TransientFit) -> bool| accepted.iter().filter(|fit| holds(fit)).count();
     Ok(Duration {

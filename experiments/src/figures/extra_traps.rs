@@ -8,11 +8,11 @@ use bouncing_disk::{Motor, Unobserved};
 use bouncing_disk_plot::{
     Axis, Colour, DOUBLE_COLUMN, Dash, Figure, Panel, Raster, Rect, Rule, Stroke, Ticks,
 };
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::progress::Progress;
 
 /// Γ and restitutions of the second map.
@@ -153,7 +153,7 @@ fn map(
         progress.advance(1);
         done
     };
-    rows.par_iter().map(row).collect::<Vec<_>>().into_iter().collect()
+    for_each(rows, row)
 }
 
 /// White, and of each kind the pale and the full colour.

@@ -8,14 +8,13 @@ mod scan;
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk_plot::Figure;
-use rayon::prelude::*;
 
 pub use self::data::Fig07Data;
-use self::data::Panel;
 use self::{panels::WINDOW_TOP, scan::windows};
 use super::shared::map;
 use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
+use crate::figures::shared::for_each;
 use crate::progress::Progress;
 
 /// Fig. 7.
@@ -58,22 +57,16 @@ impl Experiment for Fig07 {
         let (rows, columns) = quality.choose((320, 100), (1_600, 400));
         progress.start(5 * cells as u64 + 2 * rows as u64, "rows");
         // Side by side, for each has parts in which one thing follows from another.
-        let panels = || {
-            forcings
-                .into_par_iter()
-                .map(|forcing| panels::panel(forcing, printed.restitution, (WINDOW_TOP, cells), progress))
-                .collect::<Vec<_>>()
-        };
+        let panel =
+            |forcing: &f64| panels::panel(*forcing, printed.restitution, (WINDOW_TOP, cells), progress);
+        let panels = || for_each(&forcings, panel);
         let decay = || {
             let chaotic = map(forcings[3], printed.restitution)?;
             panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))
         };
         let windows = || windows(&printed, (rows, columns), progress);
         let (panels, (windows, decay)) = rayon::join(panels, || rayon::join(windows, decay));
-        // The first error in the order of the panels, whichever comes first in time.
-        let panels = panels.into_iter().collect::<Result<_, _>>()?;
-        let (windows, decay) = (windows?, decay?);
-        let panels: Vec<Panel> = panels;
+        let (panels, windows, decay) = (panels?, windows?, decay?);
         let [_, b, ..] = &panels[..] else {
             return Err(ExperimentError::NoData { quantity: "panels".to_owned() });
         };

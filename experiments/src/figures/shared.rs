@@ -8,6 +8,7 @@ pub(crate) mod stall;
 pub(crate) mod toss;
 
 use bouncing_disk::core::chaos::Manifold;
+use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 
 use self::numbers::six_decimals;
@@ -18,6 +19,14 @@ pub(crate) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
 
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
+}
+
+/// What `of` makes of each item, in their order, over all threads; of several errors the one of the first item.
+pub(crate) fn for_each<T: Sync, R: Send>(
+    items: &[T],
+    of: impl Fn(&T) -> Result<R, ExperimentError> + Sync,
+) -> Result<Vec<R>, ExperimentError> {
+    in_parallel(items.len(), |index| of(&items[index])).into_iter().collect()
 }
 
 /// The pieces of a manifold with their impacts at these places, cut where the first coordinate, a phase in periods of

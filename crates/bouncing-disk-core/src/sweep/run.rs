@@ -100,9 +100,12 @@ impl<T> PartialResults<T> {
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
         // A result that comes in its order is added without moving any other.
         if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
-            // Stable, so that the first result of an item is the one that stays.
-            self.finished.sort_by_key(|(index, _)| *index);
-            self.finished.dedup_by_key(|(index, _)| *index);
+            let mut results: Vec<Option<T>> = (0..total).map(|_| None).collect();
+            for (index, result) in self.finished.drain(..) {
+                results[index].get_or_insert(result);
+            }
+            let results = results.into_iter().enumerate();
+            self.finished.extend(results.filter_map(|(index, result)| Some((index, result?))));
         }
     }
 

@@ -6,7 +6,7 @@ use core::sync::atomic::{AtomicUsize, Ordering};
 use super::events::{SweepEvent, SweepImpact, advance};
 use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
-use crate::run::{Watch, WorkCount};
+use crate::run::{Watch, WorkCount, in_parallel, threads};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
@@ -38,31 +38,13 @@ pub(super) fn run<S: Send>(
         let (queue, work) = (&queue, watch.work());
         Worker { queue, start, visit, lanes, runs: Vec::new(), outcomes: Vec::new(), work }.run(set)
     };
-    let mut outcomes = workers(threads, work);
-    outcomes.sort_unstable_by_key(|(index, _)| *index);
-    outcomes
-}
-
-#[cfg(feature = "parallel")]
-fn threads() -> usize {
-    rayon::current_num_threads()
-}
-
-#[cfg(not(feature = "parallel"))]
-const fn threads() -> usize {
-    1
-}
-
-/// The outcomes of all workers; it does not matter which of them has an orbit.
-#[cfg(feature = "parallel")]
-fn workers<S: Send>(count: usize, work: impl Fn() -> Vec<Outcome<S>> + Sync) -> Vec<Outcome<S>> {
-    use rayon::prelude::*;
-    (0..count).into_par_iter().with_max_len(1).flat_map_iter(|_| work()).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn workers<S>(_: usize, work: impl Fn() -> Vec<Outcome<S>>) -> Vec<Outcome<S>> {
-    work()
+    // It does not matter which of the workers has an orbit.
+    let mut outcomes: Vec<Option<Result<S, Error>>> = orbits.iter().map(|_| None).collect();
+    for (index, outcome) in in_parallel(threads, |_| work()).into_iter().flatten() {
+        outcomes[index] = Some(outcome);
+    }
+    let outcomes = outcomes.into_iter().enumerate();
+    outcomes.filter_map(|(index, outcome)| Some((index, outcome?))).collect()
 }
 
 /// The orbits that nobody has begun.

@@ -8,7 +8,6 @@ use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ImpactState, Launch, Unobserved};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::toss::{ChatteringCycle, MultiTossSettings};
-use rayon::prelude::*;
 
 use super::data::{
     BestLag, Bouncing, Column, Fig06Data, ForcingEffect, Merging, SingleTosses, Slice, Transfer,
@@ -17,6 +16,7 @@ use super::slices::{Inputs, branch_crossings, followed_slice, forcing_effect, no
 use super::{chattering, contact, explored, period_one};
 use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::Progress;
 
@@ -62,12 +62,13 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
     let first_orbit = first_map.refine(&[first])?;
     let diagrams = Diagrams::of(&forcings, first, inputs, settings, progress)?;
     progress.start(3, "searches");
-    let not_chattering = forcings
-        .par_iter()
+    let not_chattering: Vec<f64> = forcings
+        .iter()
         .zip(&diagrams.chattering)
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
-        .map(|(forcing, _)| bouncing(*forcing, restitution))
-        .collect::<Result<_, ExperimentError>>()?;
+        .map(|(forcing, _)| *forcing)
+        .collect();
+    let not_chattering = for_each(&not_chattering, |forcing| bouncing(*forcing, restitution))?;
     let Searches { merging, single_tosses, doublings, zoom } =
         Searches::of(&diagrams, &section, settings, quality, progress)?;
     let last = doublings.last().copied().unwrap_or(f64::NAN);
@@ -162,26 +163,20 @@ impl Diagrams {
             follow_attractor(restitution, above, first, settings.transient_impacts, PAPER_CHATTER)
                 .collect::<Result<_, _>>()?;
         progress.advance((forcings.len() - walk.len()) as u64);
-        let followed: Vec<Option<Slice>> = walk
-            .par_iter()
-            .map(|followed| {
-                let slice = followed_slice(followed, inputs, settings);
-                progress.advance(1);
-                slice
-            })
-            .collect::<Result<_, _>>()?;
+        let followed = for_each(&walk, |followed| {
+            let slice = followed_slice(followed, inputs, settings);
+            progress.advance(1);
+            slice
+        })?;
         // The attractor is lost where its orbit comes to rest in the longer run, too.
         let followed: Vec<Slice> = followed.into_iter().map_while(|slice| slice).collect();
         let cycles = chattering::cycles(forcings, restitution, settings.policy)?;
         let cycles: Vec<_> = forcings.iter().copied().zip(cycles).collect();
-        let chattering: Vec<Option<Slice>> = cycles
-            .par_iter()
-            .map(|&(forcing, cycle)| {
-                let slice = chattering::chattering_slice(forcing, cycle, inputs, settings);
-                progress.advance(1);
-                slice
-            })
-            .collect::<Result<_, _>>()?;
+        let chattering = for_each(&cycles, |&(forcing, cycle)| {
+            let slice = chattering::chattering_slice(forcing, cycle, inputs, settings);
+            progress.advance(1);
+            slice
+        })?;
         Ok(Self { first, walk, followed, cycles, chattering })
     }
 
@@ -205,16 +200,15 @@ impl Diagrams {
         let followed: Vec<_> = followed.filter(|(at, _)| at.axial_forcing > period_four).collect();
         let beyond = self.cycles.iter().zip(&self.chattering).filter(|((forcing, _), _)| *forcing > crisis);
         let beyond: Vec<_> = beyond.filter_map(|(at, drawn)| Some((at, drawn.as_ref()?))).collect();
-        let of_followed = sampled(SAMPLED, &followed).into_par_iter().map(|(at, drawn)| {
+        let of_followed = for_each(&sampled(SAMPLED, &followed), |(at, drawn)| {
             let exchanged = followed_slice(at, inputs, settings)?;
             Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
-        });
-        let of_resting = sampled(SAMPLED, &beyond).into_par_iter().map(|((forcing, cycle), drawn)| {
+        })?;
+        let of_resting = for_each(&sampled(SAMPLED, &beyond), |((forcing, cycle), drawn)| {
             let exchanged = chattering::chattering_slice(*forcing, *cycle, inputs, settings)?;
             Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
-        });
-        let effects = of_followed.chain(of_resting).collect::<Vec<Result<_, ExperimentError>>>();
-        effects.into_iter().filter_map(Result::transpose).collect()
+        })?;
+        Ok(of_followed.into_iter().chain(of_resting).flatten().collect())
     }
 
     /// The walk where it is on the attractor.

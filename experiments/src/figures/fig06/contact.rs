@@ -7,12 +7,12 @@ use bouncing_disk::core::{ChatterPolicy, ImpactState, Phase};
 use bouncing_disk::parameters::{DimensionlessSystem, ForcingParameters};
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 use bouncing_disk::{Engine, Event, EventRecord, InitialCondition, System};
-use rayon::prelude::*;
 
 use super::data::{Dimension, Motion, TorqueRatio, Transfer};
 use super::slices::{Inputs, Systems, no_orbit, start};
 use crate::claims::paper;
 use crate::experiment::ExperimentError;
+use crate::figures::shared::for_each;
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::six_decimals;
 use crate::figures::shared::toss::TossCase;
@@ -74,18 +74,15 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
     let restitutions = [inputs.restitution, NEARLY_ELASTIC[0], NEARLY_ELASTIC[1]];
     let cases: Vec<(f64, f64)> =
         forcings.iter().flat_map(|forcing| restitutions.map(|restitution| (*forcing, restitution))).collect();
-    cases
-        .into_par_iter()
-        .map(|(axial_forcing, restitution)| {
-            let system = ForcingParameters {
-                axial_forcing,
-                angular_forcing: inputs.semielliptical.angular_forcing,
-                phase_lag: inputs.semielliptical.phase_lag_rad,
-                restitution,
-            };
-            motion(axial_forcing, &system.build()?)
-        })
-        .collect()
+    for_each(&cases, |&(axial_forcing, restitution)| {
+        let system = ForcingParameters {
+            axial_forcing,
+            angular_forcing: inputs.semielliptical.angular_forcing,
+            phase_lag: inputs.semielliptical.phase_lag_rad,
+            restitution,
+        };
+        motion(axial_forcing, &system.build()?)
+    })
 }
 
 /// Impacts over which the angular impulses are added up, from a disk that does not turn: once it turns in
@@ -138,26 +135,22 @@ pub(super) fn transfers(
         .map(|(forcing, state)| (*forcing, Some(*state)))
         .chain(from_rest.iter().map(|forcing| (*forcing, None)))
         .collect();
-    let pairs: Vec<[Option<Transfer>; 2]> = starts
-        .into_par_iter()
-        .map(|(axial_forcing, state)| {
-            let systems = Systems::at(axial_forcing, inputs)?;
-            let transfer =
-                |system: &DimensionlessSystem, angular_forcing: f64| -> Result<_, ExperimentError> {
-                    let share_in_impacts = share_in_impacts(system, start(system, state, false)?)?;
-                    Ok(share_in_impacts.map(|share_in_impacts| Transfer {
-                        axial_forcing,
-                        angular_forcing,
-                        from_rest: state.is_none(),
-                        share_in_impacts,
-                    }))
-                };
-            Ok([
-                transfer(&systems.linear, inputs.linear.angular_forcing)?,
-                transfer(&systems.semielliptical, inputs.semielliptical.angular_forcing)?,
-            ])
-        })
-        .collect::<Result<_, ExperimentError>>()?;
+    let pairs = for_each(&starts, |&(axial_forcing, state)| {
+        let systems = Systems::at(axial_forcing, inputs)?;
+        let transfer = |system: &DimensionlessSystem, angular_forcing: f64| -> Result<_, ExperimentError> {
+            let share_in_impacts = share_in_impacts(system, start(system, state, false)?)?;
+            Ok(share_in_impacts.map(|share_in_impacts| Transfer {
+                axial_forcing,
+                angular_forcing,
+                from_rest: state.is_none(),
+                share_in_impacts,
+            }))
+        };
+        Ok([
+            transfer(&systems.linear, inputs.linear.angular_forcing)?,
+            transfer(&systems.semielliptical, inputs.semielliptical.angular_forcing)?,
+        ])
+    })?;
     Ok(pairs.into_iter().flatten().flatten().collect())
 }
 

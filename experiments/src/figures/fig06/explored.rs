@@ -12,11 +12,11 @@ use bouncing_disk::core::{ChatterPolicy, ImpactState, Launch, Orbit, Phase, Unob
 use bouncing_disk::motor::{NormalImpulses, PhasedImpulse};
 use bouncing_disk::parameters::ForcingParameters;
 use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
-use rayon::prelude::*;
 
 use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
 use super::slices::{Inputs, no_orbit, start};
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::figures::shared::numbers::occupied_arc;
 use crate::figures::shared::{distinct_phases, map};
 
@@ -293,38 +293,35 @@ pub(super) fn best_lags(
         .chain(from_rest_at.iter().map(|forcing| (*forcing, None)))
         .flat_map(|(forcing, state)| forcings.map(|angular| (forcing, state, angular)))
         .collect();
-    starts
-        .into_par_iter()
-        .map(|(axial_forcing, state, angular_forcing)| {
-            let mut best = BestLag {
+    for_each(&starts, |&(axial_forcing, state, angular_forcing)| {
+        let mut best = BestLag {
+            axial_forcing,
+            angular_forcing,
+            followed: state.is_some(),
+            period: None,
+            speed: f64::NEG_INFINITY,
+        };
+        for step in LAGS_DEG {
+            let phase_lag = PI * f64::from(step * LAG_STEP_DEG) / 180.0;
+            let system = ForcingParameters {
                 axial_forcing,
                 angular_forcing,
-                followed: state.is_some(),
-                period: None,
-                speed: f64::NEG_INFINITY,
-            };
-            for step in LAGS_DEG {
-                let phase_lag = PI * f64::from(step * LAG_STEP_DEG) / 180.0;
-                let system = ForcingParameters {
-                    axial_forcing,
-                    angular_forcing,
-                    phase_lag,
-                    restitution: inputs.restitution,
-                }
-                .build()?;
-                let orbit = multi_toss(system, start(&system, state, true)?, settings, &Unobserved)?;
-                let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
-                if speed > best.speed {
-                    let period = match orbit.class {
-                        OrbitClass::Periodic { period, .. } => Some(period),
-                        _ => None,
-                    };
-                    best = BestLag { speed, period, ..best };
-                }
+                phase_lag,
+                restitution: inputs.restitution,
             }
-            Ok(best)
-        })
-        .collect()
+            .build()?;
+            let orbit = multi_toss(system, start(&system, state, true)?, settings, &Unobserved)?;
+            let speed = orbit.mean_angular_speed.unwrap_or_default() / system.twist_speed();
+            if speed > best.speed {
+                let period = match orbit.class {
+                    OrbitClass::Periodic { period, .. } => Some(period),
+                    _ => None,
+                };
+                best = BestLag { speed, period, ..best };
+            }
+        }
+        Ok(best)
+    })
 }
 
 /// The largest Γ up to which cycles are looked for in which one impact has most of the impulse: where the
@@ -349,36 +346,33 @@ pub(super) fn one_impact_decides(
         examined_impacts: 10 * WEIGHED_IMPACTS,
         ..MultiTossSettings::default()
     };
-    let found = (0..count)
-        .into_par_iter()
-        .map(|index| {
-            let axial_forcing = forcing(index);
-            let impulses = NormalImpulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
-            let largest = impulses.impacts.iter().max_by(|one, other| one.impulse.total_cmp(&other.impulse));
-            let Some(&PhasedImpulse { phase, .. }) = largest else { return Ok(None) };
-            // The median of cos(τ + θ) is 1 where most of the impulse comes at the phase −θ.
-            if impulses.balance(-phase).steady_speed() < AT_MAXIMUM {
-                return Ok(None);
-            }
-            let system = ForcingParameters {
-                axial_forcing,
-                angular_forcing: LARGE_ANGULAR_FORCING,
-                phase_lag: -phase,
-                restitution,
-            }
-            .build()?;
-            let angular_speed = system.twist_speed();
-            let start = InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed };
-            let orbit = multi_toss(system, start, settings, &Unobserved)?;
-            Ok(Some(BestLag {
-                axial_forcing,
-                angular_forcing: LARGE_ANGULAR_FORCING,
-                followed: false,
-                period: None,
-                speed: orbit.mean_angular_speed.unwrap_or_default() / angular_speed,
-            }))
-        })
-        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let forcings: Vec<f64> = (0..count).map(forcing).collect();
+    let found = for_each(&forcings, |&axial_forcing| {
+        let impulses = NormalImpulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
+        let largest = impulses.impacts.iter().max_by(|one, other| one.impulse.total_cmp(&other.impulse));
+        let Some(&PhasedImpulse { phase, .. }) = largest else { return Ok(None) };
+        // The median of cos(τ + θ) is 1 where most of the impulse comes at the phase −θ.
+        if impulses.balance(-phase).steady_speed() < AT_MAXIMUM {
+            return Ok(None);
+        }
+        let system = ForcingParameters {
+            axial_forcing,
+            angular_forcing: LARGE_ANGULAR_FORCING,
+            phase_lag: -phase,
+            restitution,
+        }
+        .build()?;
+        let angular_speed = system.twist_speed();
+        let start = InitialCondition::Contact { phase: Phase::new(1.5 * PI)?, angular_speed };
+        let orbit = multi_toss(system, start, settings, &Unobserved)?;
+        Ok(Some(BestLag {
+            axial_forcing,
+            angular_forcing: LARGE_ANGULAR_FORCING,
+            followed: false,
+            period: None,
+            speed: orbit.mean_angular_speed.unwrap_or_default() / angular_speed,
+        }))
+    })?;
     Ok(OneImpactDecides {
         axial_forcing_range: (from, LARGEST_FORCING),
         tried: count as usize,

@@ -9,7 +9,6 @@ use bouncing_disk::core::numerics::roots::bisected_bracket;
 use bouncing_disk::core::orbits::follow_attractor;
 use bouncing_disk::core::sweep::survival_times;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, Phase, Unobserved};
-use rayon::prelude::*;
 
 use super::data::{
     ATTRACTOR, Beyond, CHATTERING, CurvePoint, Easiness, Other, Rest, STILL_OPEN, TopShares, Traced, Windows,
@@ -18,6 +17,7 @@ use super::data::{
 use super::panels::{grid, others, start};
 use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::shared::for_each;
 use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::{Progress, advancing};
 
@@ -52,37 +52,30 @@ pub(super) fn along_window(
 ) -> Result<Vec<Easiness>, ExperimentError> {
     let [first, last, ..] = section.axial_forcings_of_fig7;
     let (rows, columns) = quality.choose((80, 40), (240, 90));
-    (0..ALONG_WINDOW)
-        .into_par_iter()
-        .map(|index| {
-            let axial_forcing = first + (last - first) * f64::from(index) / f64::from(ALONG_WINDOW - 1);
-            let map = map(axial_forcing, section.restitution)?;
-            let mut known = Vec::new();
-            if let Some(state) = map.period_one(1) {
-                let orbit = map.refine(&[state])?;
-                if let Ok(radius) = orbit.trapping_radius(&map, 64, &Unobserved) {
-                    known.push(KnownOrbit::new(orbit, radius)?);
-                }
+    let forcing = |index| first + (last - first) * f64::from(index) / f64::from(ALONG_WINDOW - 1);
+    for_each(&(0..ALONG_WINDOW).map(forcing).collect::<Vec<_>>(), |&axial_forcing| {
+        let map = map(axial_forcing, section.restitution)?;
+        let mut known = Vec::new();
+        if let Some(state) = map.period_one(1) {
+            let orbit = map.refine(&[state])?;
+            if let Ok(radius) = orbit.trapping_radius(&map, 64, &Unobserved) {
+                known.push(KnownOrbit::new(orbit, radius)?);
             }
-            let highest = TOPS[TOPS.len() - 1];
-            let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid(highest as f64, rows, columns)?, &known, settings, &Unobserved)?;
-            let shares = TOPS
-                .iter()
-                .map(|top| {
-                    let cells = &basins.labels()[..columns * (rows * top / highest)];
-                    let share =
-                        |label| cells.iter().filter(|own| **own == label).count() as f64 / cells.len() as f64;
-                    TopShares {
-                        top: *top as f64,
-                        period_one: share(FIRST_ORBIT),
-                        chattering: share(ATTACHED),
-                    }
-                })
-                .collect();
-            Ok(Easiness { axial_forcing, shares })
-        })
-        .collect()
+        }
+        let highest = TOPS[TOPS.len() - 1];
+        let settings = BasinSettings { max_impacts: LONGEST_ALONG, policy: ChatterPolicy::Complete };
+        let basins = map.basins(grid(highest as f64, rows, columns)?, &known, settings, &Unobserved)?;
+        let shares = TOPS
+            .iter()
+            .map(|top| {
+                let cells = &basins.labels()[..columns * (rows * top / highest)];
+                let share =
+                    |label| cells.iter().filter(|own| **own == label).count() as f64 / cells.len() as f64;
+                TopShares { top: *top as f64, period_one: share(FIRST_ORBIT), chattering: share(ATTACHED) }
+            })
+            .collect();
+        Ok(Easiness { axial_forcing, shares })
+    })
 }
 
 /// The starts that do not come to rest, from the printed Γ of the merging to the end of the diagram of
@@ -95,63 +88,57 @@ pub(super) fn beyond(
     let (first, last) = (section.merging, FORCING_RANGE.1);
     let (step, side) = quality.choose((5.0e-4, 8), (2.0e-4, 16));
     let count = ((last - first) / step).round() as u32;
-    (0..=count)
-        .into_par_iter()
-        .map(|index| {
-            let axial_forcing = first + step * f64::from(index);
-            let map = map(axial_forcing, section.restitution)?;
-            let grid = grid(top, side, side)?;
-            let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
-            let basins = map.basins(grid, &[], settings, &Unobserved)?;
-            let open = |label: &u8| *label == UNDECIDED;
-            let mut period = None;
-            if let Some(index) = basins.labels().iter().position(open) {
-                let from = start(&grid, index / side, index % side)?;
-                let survivor =
-                    map.state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete, &Unobserved)?;
-                if let Some(state) = survivor {
-                    period = map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?;
-                }
+    let forcings: Vec<f64> = (0..=count).map(|index| first + step * f64::from(index)).collect();
+    for_each(&forcings, |&axial_forcing| {
+        let map = map(axial_forcing, section.restitution)?;
+        let grid = grid(top, side, side)?;
+        let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
+        let basins = map.basins(grid, &[], settings, &Unobserved)?;
+        let open = |label: &u8| *label == UNDECIDED;
+        let mut period = None;
+        if let Some(index) = basins.labels().iter().position(open) {
+            let from = start(&grid, index / side, index % side)?;
+            let survivor =
+                map.state_after(from, LONGEST_BEYOND as usize, ChatterPolicy::Complete, &Unobserved)?;
+            if let Some(state) = survivor {
+                period = map.period_of(state, LONGEST_PERIOD, REPEATS_WITHIN)?;
             }
-            Ok(Beyond {
-                axial_forcing,
-                starts: side * side,
-                not_at_rest: basins.labels().iter().filter(|label| open(label)).count(),
-                impacts: LONGEST_BEYOND,
-                period,
-            })
+        }
+        Ok(Beyond {
+            axial_forcing,
+            starts: side * side,
+            not_at_rest: basins.labels().iter().filter(|label| open(label)).count(),
+            impacts: LONGEST_BEYOND,
+            period,
         })
-        .collect()
+    })
 }
 
 /// The fate of a disk at rest on the platform, at any phase.
 pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, ExperimentError> {
-    forcings
-        .par_iter()
-        .map(|&axial_forcing| {
-            let map: ImpactMap = map(axial_forcing, restitution)?;
-            let mut orbits = Vec::new();
-            if let Some(leaves) = map.vibration().separation_phase() {
-                // At all other phases it stays until the first of these.
-                let falling = PI - 2.0 * leaves.angle();
-                for index in 0..REST_PHASES {
-                    let angle = leaves.angle() + falling * f64::from(index) / f64::from(REST_PHASES);
-                    let phase = if index == 0 { Ok(leaves) } else { Phase::new(angle) };
-                    let phase = phase?;
-                    let orbit = Launch::new(phase, 0.0)
-                        .map(|launch| map.orbit_from_launch(launch, ChatterPolicy::Complete));
-                    orbits.push(orbit?);
-                }
+    for_each(forcings, |&axial_forcing| {
+        let map: ImpactMap = map(axial_forcing, restitution)?;
+        let mut orbits = Vec::new();
+        if let Some(leaves) = map.vibration().separation_phase() {
+            // At all other phases it stays until the first of these.
+            let falling = PI - 2.0 * leaves.angle();
+            for index in 0..REST_PHASES {
+                let angle = leaves.angle() + falling * f64::from(index) / f64::from(REST_PHASES);
+                let phase = if index == 0 { Ok(leaves) } else { Phase::new(angle) };
+                let phase = phase?;
+                let orbit = Launch::new(phase, 0.0)
+                    .map(|launch| map.orbit_from_launch(launch, ChatterPolicy::Complete));
+                orbits.push(orbit?);
             }
-            let longest = LONGEST_BEYOND as usize;
-            let lives = survival_times(&orbits, longest, &Unobserved)?;
-            Ok(Rest {
-                axial_forcing,
-                starts: orbits.len(),
-                come_to_rest: lives.into_iter().filter(|lived| *lived < longest).count(),
-            })
+        }
+        let longest = LONGEST_BEYOND as usize;
+        let lives = survival_times(&orbits, longest, &Unobserved)?;
+        Ok(Rest {
+            axial_forcing,
+            starts: orbits.len(),
+            come_to_rest: lives.into_iter().filter(|lived| *lived < longest).count(),
         })
-        .collect()
+    })
 }
 
 /// Where the further attractor of panel (b) comes from and where it is lost.

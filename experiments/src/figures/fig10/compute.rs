@@ -10,13 +10,13 @@ use bouncing_disk::estimate::{RampFit, Spread, TransientEnsemble};
 use bouncing_disk::motor::TransientSettings;
 use bouncing_disk::{PlatformParameters, System};
 use glam::DVec2;
-use rayon::prelude::*;
 
 use super::data::{Alike, BetweenRests, Exception, Fig10Data, PerturbationEffect, Reading, Transient};
 use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike_with_band, oscillation};
+use crate::figures::shared::for_each;
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::median;
 use crate::progress::Progress;
@@ -154,8 +154,7 @@ fn growth(motor: &MotorCase) -> Result<Option<LyapunovEstimate>, ExperimentError
 }
 
 fn between_rests(cases: &[MotorCase]) -> Result<BetweenRests, ExperimentError> {
-    let growths = cases.par_iter().map(growth).collect::<Vec<_>>();
-    let growths: Vec<_> = growths.into_iter().filter_map(Result::transpose).collect::<Result<_, _>>()?;
+    let growths: Vec<_> = for_each(cases, growth)?.into_iter().flatten().collect();
     let growing = || growths.iter().filter(|growth| growth.grows());
     Ok(BetweenRests {
         amplitude_m: cases.first().map_or(f64::NAN, |case| case.amplitude_m),

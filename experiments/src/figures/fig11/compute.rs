@@ -6,9 +6,9 @@
 use std::f64::consts::{FRAC_1_PI, PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::acos;
+use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, Launch, OrbitEvent, Phase};
 use bouncing_disk::motor::TransientSettings;
-use rayon::prelude::*;
 
 use super::data::{
     Coexisting, Curve, EndOfBouncing, Fig11Data, Holes, MeasuredMotors, Point, ReducedTwist, StallAt, Trend,
@@ -65,10 +65,10 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
                     .map(|preload| MotorCase { preload_acceleration_m_per_s2: preload, ..case })
                     .collect();
                 let single = alike(&cases, RISES)?;
-                let points = cases.par_iter().zip(single).map(|(case, single)| {
-                    point(case, &single, rotor_mass_kg, members, relaunch_perturbation)
+                let points = in_parallel(cases.len(), |k| {
+                    point(&cases[k], &single[k], rotor_mass_kg, members, relaunch_perturbation)
                 });
-                points.collect::<Vec<_>>().into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
+                points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
             };
             let (points, further) = (motors(first, count)?, motors(high, quality.choose(4, MORE_ABOVE))?);
             curves.push(Curve { frequency_hz, amplitude_m, points, further });

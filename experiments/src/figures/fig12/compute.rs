@@ -7,12 +7,12 @@ use bouncing_disk::estimate::RampFit;
 use bouncing_disk::motor::{NormalImpulses, TransientSettings, transient};
 use bouncing_disk::toss::{CollisionEvent, Collisions, LONG_FLIGHT};
 use bouncing_disk::{Engine, InitialCondition, Trajectory};
-use rayon::prelude::*;
 
 use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Zoom};
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike};
+use crate::figures::shared::for_each;
 use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
 use crate::figures::shared::numbers::StraightLine;
 use crate::progress::Progress;
@@ -93,20 +93,13 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
 /// The first `count` motors of low period that are drawn.
 fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
     let drawn = inputs.drawn(MOST_DRAWN.min(30 * count), SEED);
-    let cycles = drawn
-        .par_iter()
-        .map(|motor| motor.cycle(ChatterPolicy::Complete))
-        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    let cycles = for_each(&drawn, |motor| motor.cycle(ChatterPolicy::Complete))?;
     let found: Vec<usize> =
         (0..drawn.len()).filter(|&index| cycles[index].is_low_period()).take(count).collect();
     let chosen: Vec<MotorCase> = found.iter().map(|&index| drawn[index]).collect();
     Ok(LowPeriod {
         drawn: found.last().map_or(drawn.len(), |last| last + 1),
-        lines: chosen
-            .par_iter()
-            .zip(&found)
-            .map(|(motor, &index)| lines(motor, cycles[index]))
-            .collect::<Result<_, _>>()?,
+        lines: for_each(&found, |&index| lines(&drawn[index], cycles[index]))?,
         motors: alike(&chosen, LONG_RISES)?,
     })
 }

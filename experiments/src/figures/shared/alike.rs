@@ -7,10 +7,10 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ChatterPolicy, Phase, Unobserved};
 use bouncing_disk::estimate::{ExponentialFit, RampFit, Spread};
 use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor::{Cycle, LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorCase};
@@ -183,11 +183,8 @@ pub(crate) fn alike_with_band(
         })
         .collect::<Result<Vec<_>, ExperimentError>>()?;
     let curves = transients(&members, &Unobserved)?.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let alike = motors
-        .par_iter()
-        .zip(&curves)
-        .map(|(motor, curve)| AlikeMotor::of(motor, curve, duration(motor)))
-        .collect::<Result<_, ExperimentError>>()?;
+    let alike = |k: usize| AlikeMotor::of(&motors[k], &curves[k], duration(&motors[k]));
+    let alike = in_parallel(motors.len(), alike).into_iter().collect::<Result<_, _>>()?;
     Ok((alike, SpeedBand::of(&curves)))
 }
 

@@ -4,9 +4,9 @@
 //! impulse ([`NormalImpulses`]).
 
 use bouncing_disk::core::Unobserved;
+use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::estimate::{ExponentialFit, Spread};
 use bouncing_disk::motor::{ImpulseTrain, NormalImpulses};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::motor::MotorCase;
@@ -67,26 +67,20 @@ impl Stall {
         let (map, limit) = (without_units.map(), case.largest_acceleration());
         // Per radian, friction with the mean normal force gives this share of the stator's largest speed.
         let grip = without_units.friction() / without_units.twist_speed();
-        let shares = (0..members)
-            .into_par_iter()
-            .map(|member| {
-                let seed = SEED + member as u64;
-                let train = ImpulseTrain::new(without_units, RISES / grip, relaunch_perturbation, seed)?;
-                Ok(train.stall_share())
-            })
-            .collect::<Vec<Result<f64, ExperimentError>>>();
-        let orbits = (0..members)
-            .into_par_iter()
-            .map(|member| {
-                // A slightly smaller perturbation is another orbit.
-                let smaller = 1.0 - 0.5 * member as f64 / members as f64;
-                let impulses = NormalImpulses::of(map, BALANCED_IMPACTS, smaller * relaunch_perturbation)?;
-                let balance = impulses.balance(case.phase_lag_rad);
-                let (times, speeds) = balance.transient(TRANSIENT_RISES, PREDICTED_POINTS);
-                let fit = ExponentialFit::new(&times, &speeds, &Unobserved)?;
-                Ok((balance.net_share(0.0), fit.stall_acceleration()))
-            })
-            .collect::<Vec<Result<(f64, f64), ExperimentError>>>();
+        let shares = in_parallel(members, |member| -> Result<f64, ExperimentError> {
+            let seed = SEED + member as u64;
+            let train = ImpulseTrain::new(without_units, RISES / grip, relaunch_perturbation, seed)?;
+            Ok(train.stall_share())
+        });
+        let orbits = in_parallel(members, |member| -> Result<(f64, f64), ExperimentError> {
+            // A slightly smaller perturbation is another orbit.
+            let smaller = 1.0 - 0.5 * member as f64 / members as f64;
+            let impulses = NormalImpulses::of(map, BALANCED_IMPACTS, smaller * relaunch_perturbation)?;
+            let balance = impulses.balance(case.phase_lag_rad);
+            let (times, speeds) = balance.transient(TRANSIENT_RISES, PREDICTED_POINTS);
+            let fit = ExponentialFit::new(&times, &speeds, &Unobserved)?;
+            Ok((balance.net_share(0.0), fit.stall_acceleration()))
+        });
         let orbits = orbits.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mean = |of: fn(&(f64, f64)) -> f64| orbits.iter().map(of).sum::<f64>();
         let predicted_off = mean(|orbit| orbit.1) / mean(|orbit| orbit.0) - 1.0;

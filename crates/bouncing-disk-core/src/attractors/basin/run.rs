@@ -7,7 +7,7 @@ use super::starts::Cells;
 use super::{BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, check_number_of};
 use crate::map::impact_map::ImpactMap;
 use crate::numerics::error::{Error, room_for};
-use crate::run::{Observer, Watch};
+use crate::run::{Observer, Watch, in_parallel, threads};
 
 /// A computation of basins on a grid: its input, and the rows that are finished.
 ///
@@ -106,21 +106,12 @@ impl BasinRun {
     }
 
     fn label_rows(&mut self, watch: &Watch<'_>) -> Result<(), Error> {
-        #[cfg(feature = "parallel")]
-        let threads = rayon::current_num_threads();
-        #[cfg(not(feature = "parallel"))]
-        let threads = 1;
+        let threads = threads();
         let cells = Cells::new(self.grid, &mut self.labels, &mut self.finished, threads, watch)?;
         let lanes = cells.count().div_ceil(threads);
         let (map, known, settings) = (&self.map, &self.known, self.settings);
         let work = || map.label_cells(&cells, known, settings, lanes).inspect_err(|_| cells.give_up());
-        #[cfg(feature = "parallel")]
-        {
-            use rayon::prelude::*;
-            (0..threads).into_par_iter().with_max_len(1).try_for_each(|_| work())
-        }
-        #[cfg(not(feature = "parallel"))]
-        work()
+        in_parallel(threads, |_| work()).into_iter().collect()
     }
 
     /// The map.

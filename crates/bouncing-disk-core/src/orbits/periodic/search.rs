@@ -7,7 +7,7 @@ use crate::numerics::error::{Error, within};
 use crate::numerics::stored::read_checked;
 use crate::orbits::periodic::PeriodicOrbit;
 use crate::orbits::periodic::newton::{Attempt, MAX_STEPS, same_orbit};
-use crate::run::{Observer, Watch, WorkCount};
+use crate::run::{Observer, Watch, WorkCount, in_parallel};
 use core::f64::consts::TAU;
 
 /// The settings of a search for periodic orbits.
@@ -186,7 +186,8 @@ impl ImpactMap {
     ) -> Result<OrbitsFound, Error> {
         let watch = Watch::begin(observer, 0, u64::from(search.phases) * u64::from(search.speeds))?;
         let limits = Limits::new(self, search);
-        let rows = rows(search.phases, |column| self.search_row(search, &limits, column, watch.work()))?;
+        let row = |column: usize| self.search_row(search, &limits, column as u32, watch.work());
+        let rows = in_parallel(search.phases as usize, row).into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut catalogue = Catalogue::default();
         let mut coverage = limits.coverage(search);
         for k in 1..=search.max_platform_periods {
@@ -331,19 +332,6 @@ impl Limits {
             found_once: 0,
         }
     }
-}
-
-/// All rows in their order, over all threads; of several errors the one of the first row.
-#[cfg(feature = "parallel")]
-fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error> + Sync) -> Result<Vec<Row>, Error> {
-    use rayon::prelude::*;
-    let rows: Vec<_> = (0..count).into_par_iter().with_max_len(1).map(&row).collect();
-    rows.into_iter().collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn rows(count: u32, row: impl Fn(u32) -> Result<Row, Error>) -> Result<Vec<Row>, Error> {
-    (0..count).map(row).collect()
 }
 
 /// An orbit of a [`Catalogue`].

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::run::{Watch, in_parallel};
 use bouncing_disk_core::sweep::InstructionSet;
 use bouncing_disk_core::{ChatterPolicy, Phase, Progress};
 use nalgebra::{DMatrix, DVector};
@@ -107,13 +107,7 @@ impl Model<'_> {
             Ok::<_, Error>(means)
         };
         let tasks = members * self.transients.len();
-        #[cfg(feature = "parallel")]
-        let results: Vec<_> = {
-            use rayon::prelude::*;
-            (0..tasks).into_par_iter().map(run).collect()
-        };
-        #[cfg(not(feature = "parallel"))]
-        let results: Vec<_> = (0..tasks).map(run).collect();
+        let results = in_parallel(tasks, run);
         if watch.is_stopped() {
             watch.ask()?;
         }

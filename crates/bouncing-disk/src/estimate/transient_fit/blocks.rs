@@ -9,7 +9,7 @@ use bouncing_disk_core::run::WorkCount;
 use crate::error::Error;
 use crate::estimate::refusal::FitRefusal;
 use crate::estimate::transient_fit::resamples::Resampled;
-use crate::estimate::transient_fit::shape_grid::{MOMENTS, Run, ShapeGrid};
+use crate::estimate::transient_fit::shape_grid::{MOMENTS, OF_SPEEDS, Run, SPEEDS, ShapeGrid};
 use crate::statistics::correlation_time;
 use crate::statistics::small_sample_widening;
 
@@ -41,7 +41,7 @@ const LARGEST_LEVERAGE: f64 = 0.9;
 /// A curve with its residuals cut into blocks of one length, the last of which is longer.
 pub(crate) struct Blocks {
     fitted: Vec<f64>,
-    /// For each block the changes of the moments.
+    /// For each block the changes of the moments that speeds change.
     changes: Vec<f64>,
     widening: f64,
 }
@@ -88,8 +88,8 @@ impl Blocks {
                 [own, own / (left * left)]
             })
             .collect();
-        let mut changes = vec![0.0; MOMENTS * blocks];
-        for (k, changes) in changes.chunks_exact_mut(MOMENTS).enumerate() {
+        let mut changes = vec![0.0; OF_SPEEDS * blocks];
+        for (k, changes) in changes.chunks_exact_mut(OF_SPEEDS).enumerate() {
             let (from, end) = ends(k);
             let near = &sizes[k.saturating_sub(NEIGHBOURS)..(k + NEIGHBOURS + 1).min(blocks)];
             let noise = near.iter().map(|[_, noise]| noise).sum::<f64>() / near.len() as f64;
@@ -131,9 +131,9 @@ impl Resampled for Blocks {
 
     fn draw(&self, random: &mut SplitMix64, moments: &mut [f64]) {
         moments.copy_from_slice(&self.fitted);
-        for change in self.changes.chunks_exact(MOMENTS) {
+        for change in self.changes.chunks_exact(OF_SPEEDS) {
             let sign = if random.unit() < 0.5 { -1.0 } else { 1.0 };
-            for (moment, change) in moments.iter_mut().zip(change) {
+            for (moment, change) in moments[SPEEDS..].iter_mut().zip(change) {
                 *moment += sign * change;
             }
         }
@@ -144,6 +144,6 @@ impl Resampled for Blocks {
     }
 
     fn work(&self) -> u64 {
-        1 + (self.changes.len() / MOMENTS) as u64
+        1 + (self.changes.len() / OF_SPEEDS) as u64
     }
 }

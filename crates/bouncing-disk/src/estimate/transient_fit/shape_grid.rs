@@ -16,9 +16,16 @@ const STEPS: i32 = 80;
 /// Constants of the grid.
 const CONSTANTS: usize = 2 * STEPS as usize + 1;
 
-/// Numbers of a curve that its fit needs: its weight, the sum of its speeds, and for each constant the sums
-/// of the shapes f, of their squares and of their products with the speeds. Those of several curves add up.
-pub(crate) const MOMENTS: usize = 2 + 3 * CONSTANTS;
+/// Numbers of a curve that its fit needs: its weight, for each constant the sums of the shapes f and of their
+/// squares, then the sum of its speeds, and for each constant that of their products with the shapes. Those
+/// of several curves add up.
+pub(crate) const MOMENTS: usize = SPEEDS + OF_SPEEDS;
+
+/// Where the moments begin that the speeds change.
+pub(crate) const SPEEDS: usize = 1 + 2 * CONSTANTS;
+
+/// How many these are.
+pub(crate) const OF_SPEEDS: usize = 1 + CONSTANTS;
 
 /// 1 - exp(-x).
 pub(crate) fn exponential(x: f64) -> f64 {
@@ -84,19 +91,26 @@ impl ShapeGrid {
     /// The fit of the curve that has these moments; `None` where the best constant lies at an end of the
     /// grid.
     pub(crate) fn best(&self, moments: &[f64]) -> Option<Rise> {
-        let (weight, speeds) = (moments[0], moments[1]);
+        let (weight, speeds) = (moments[0], moments[SPEEDS]);
+        let (sums, squares) = moments[1..SPEEDS].split_at(CONSTANTS);
+        let products = &moments[SPEEDS + 1..];
         let is_free = self.start == Start::AnySpeed;
         // Product and square of the shape of a constant.
         let of = |k: usize| {
-            let [sum, square, product] = [2, 2 + CONSTANTS, 2 + 2 * CONSTANTS].map(|from| moments[from + k]);
-            let mean = if is_free { sum / weight } else { 0.0 };
-            (product - mean * speeds, square - mean * sum, mean)
+            let mean = if is_free { sums[k] / weight } else { 0.0 };
+            (products[k] - mean * speeds, squares[k] - mean * sums[k], mean)
         };
         let gain = |k: usize| {
             let (product, square, _) = of(k);
             if square > 0.0 { product * product / square } else { 0.0 }
         };
-        let best = (0..CONSTANTS).fold(0, |best, k| if gain(k) > gain(best) { k } else { best });
+        let (mut best, mut most) = (0, gain(0));
+        for k in 1..CONSTANTS {
+            let own = gain(k);
+            if own > most {
+                (best, most) = (k, own);
+            }
+        }
         if best == 0 || best + 1 == CONSTANTS {
             return None;
         }
@@ -123,16 +137,17 @@ impl Shapes {
     pub(crate) fn add_curve(&self, speeds: &[f64], weight: f64, moments: &mut [f64]) {
         moments[0] += weight * self.points as f64;
         for (k, row) in self.shapes.chunks_exact(self.points).enumerate() {
-            moments[2 + k] += weight * row.iter().sum::<f64>();
-            moments[2 + CONSTANTS + k] += weight * row.iter().map(|shape| shape * shape).sum::<f64>();
+            moments[1 + k] += weight * row.iter().sum::<f64>();
+            moments[1 + CONSTANTS + k] += weight * row.iter().map(|shape| shape * shape).sum::<f64>();
         }
-        self.add_speeds(0, speeds, weight, moments);
+        self.add_speeds(0, speeds, weight, &mut moments[SPEEDS..]);
     }
 
-    /// Adds to the moments what further speeds, from the point `from` on, change of them.
+    /// Adds to the last moments, those from [`SPEEDS`] on, what further speeds from the point `from` on
+    /// change of them.
     pub(crate) fn add_speeds(&self, from: usize, speeds: &[f64], weight: f64, moments: &mut [f64]) {
-        moments[1] += weight * speeds.iter().sum::<f64>();
-        let products = &mut moments[2 + 2 * CONSTANTS..];
+        let (sum, products) = moments.split_at_mut(1);
+        sum[0] += weight * speeds.iter().sum::<f64>();
         for (row, product) in self.shapes.chunks_exact(self.points).zip(products) {
             let shapes = row[from..].iter();
             *product += weight * shapes.zip(speeds).map(|(shape, value)| shape * value).sum::<f64>();

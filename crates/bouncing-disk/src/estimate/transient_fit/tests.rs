@@ -193,8 +193,9 @@ fn the_grid_finds_the_fits_of_the_search() {
             let mut moments = [0.0; shape_grid::MOMENTS];
             let shapes = grid.at(&times, 0.0, &mut watch.work()).expect("goes on");
             shapes.add_curve(&[0.0; 200], 1.0, &mut moments);
-            shapes.add_speeds(0, &curve[..70], 1.0, &mut moments);
-            shapes.add_speeds(70, &curve[70..], 1.0, &mut moments);
+            let of_speeds = &mut moments[shape_grid::SPEEDS..];
+            shapes.add_speeds(0, &curve[..70], 1.0, of_speeds);
+            shapes.add_speeds(70, &curve[70..], 1.0, of_speeds);
             let found = grid.best(&moments).expect("within the grid");
             let (steady, constant) = if is_ramp {
                 let fit = RampFit::new(&times, &curve).expect("legal");

@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::run::{Watch, WorkCount};
+use bouncing_disk_core::run::{Watch, WorkCount, in_parallel, threads};
 use bouncing_disk_core::sweep::{Flights, InstructionSet, PartialResults};
 use bouncing_disk_core::{ChatterPolicy, Launch, Observer};
 
@@ -66,8 +66,11 @@ fn with_instructions(
     let mut results = PartialResults::new(members.len());
     let watch = Watch::begin(observer, 0, results.total())?;
     let next = AtomicUsize::new(0);
-    let begin = |lanes| Worker::new(members, &next, lanes, set, &watch);
-    results.extend(workers(members.len(), |lanes| begin(lanes).run()));
+    let threads = threads().min(members.len()).max(1);
+    let lanes = members.len().div_ceil(threads).min(BATCHES * Flights::LANES);
+    // It does not matter which worker computes a member.
+    let work = |_| Worker::new(members, &next, lanes, set, &watch).run();
+    results.extend(in_parallel(threads, work).into_iter().flatten());
     if !results.is_done() {
         return Err(results.stopped().into());
     }
@@ -77,21 +80,6 @@ fn with_instructions(
 
 /// The outcome of the member with an index.
 type Outcome = (usize, Result<SpeedCurve, Error>);
-
-/// The outcomes of as many workers as there are threads. Each worker gets the number of its lanes; results do
-/// not depend on which worker computes a member.
-#[cfg(feature = "parallel")]
-fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome> + Sync) -> Vec<Outcome> {
-    use rayon::prelude::*;
-    let threads = rayon::current_num_threads().min(members).max(1);
-    let lanes = members.div_ceil(threads).min(BATCHES * Flights::LANES);
-    (0..threads).into_par_iter().with_max_len(1).flat_map_iter(|_| work(lanes)).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn workers(members: usize, work: impl Fn(usize) -> Vec<Outcome>) -> Vec<Outcome> {
-    work(members.min(BATCHES * Flights::LANES))
-}
 
 /// Advances members that no other worker has begun, until none is left.
 struct Worker<'a> {

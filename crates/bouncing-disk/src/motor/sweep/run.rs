@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::run::{Watch, in_parallel, threads};
 use bouncing_disk_core::sweep::PartialResults;
 use bouncing_disk_core::{Observer, Progress};
 
@@ -107,7 +107,11 @@ impl MotorSweepRun {
             }
             outcomes
         };
-        let mut outcomes = workers(open.len(), sweep.settings().members, worker);
+        // The members of a group are spread over the threads themselves; the fewer groups are under way, the
+        // less is lost by a stop.
+        let workers = (GROUPS_PER_SHARE * threads()).div_ceil(sweep.settings().members);
+        let workers = workers.min(threads()).min(open.len());
+        let mut outcomes: Vec<_> = in_parallel(workers, |_| worker()).into_iter().flatten().collect();
         outcomes.sort_by_key(|(group, _)| *group);
         let mut failure = None;
         self.groups.extend(outcomes.into_iter().filter_map(|(group, outcome)| match outcome {
@@ -202,9 +206,6 @@ impl MotorSweep {
     }
 }
 
-/// The outcome of a group.
-type Outcome = (usize, Result<Vec<Operation>, Error>);
-
 fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {
     let sheet = sweep.motor().parameters();
     let cells = sweep.groups()[group].iter();
@@ -220,20 +221,4 @@ fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<
 
 /// Groups under way for each thread that their members alone would leave idle: members end at different
 /// times.
-#[cfg(feature = "parallel")]
 const GROUPS_PER_SHARE: usize = 4;
-
-/// The outcomes of as many workers as keep the threads busy. The members of a group are spread over the
-/// threads themselves; the fewer groups are under way, the less is lost by a stop.
-#[cfg(feature = "parallel")]
-fn workers(groups: usize, members: usize, work: impl Fn() -> Vec<Outcome> + Sync) -> Vec<Outcome> {
-    use rayon::prelude::*;
-    let threads = rayon::current_num_threads();
-    let workers = (GROUPS_PER_SHARE * threads).div_ceil(members).min(threads).min(groups);
-    (0..workers).into_par_iter().with_max_len(1).flat_map_iter(|_| work()).collect()
-}
-
-#[cfg(not(feature = "parallel"))]
-fn workers(_: usize, _: usize, work: impl Fn() -> Vec<Outcome>) -> Vec<Outcome> {
-    work()
-}
