@@ -125,6 +125,16 @@ fn a_run_of_other_orbits_is_refused() {
 
 #[cfg(feature = "serde")]
 #[test]
+fn results_come_in_any_order_and_the_first_one_stays() {
+    let mut results = PartialResults::new(6);
+    results.extend([(4, 'd'), (1, 'a'), (9, 'x'), (1, 'b')]);
+    results.extend([(3, 'c'), (4, 'e'), (0, 'f')]);
+    let found: Vec<_> = results.iter().map(|(index, result)| (index, *result)).collect();
+    assert_eq!(found, [(0, 'f'), (1, 'a'), (3, 'c'), (4, 'd')]);
+    assert_eq!(results.open(6), Ok(vec![2, 5]));
+}
+
+#[test]
 fn stored_results_that_do_not_fit_are_refused() {
     for (text, complaint) in [
         (r#"{"total":2,"finished":[[2,0.5]]}"#, "index of a finished item: 2; legal is 1"),
