@@ -311,6 +311,12 @@ pub type File = (String, Vec<u8>);
 /// What is made from stored data, and their quality and origin.
 pub type Stored = (Made, Quality, Provenance);
 
+/// The part of `ID.json` that every version has.
+#[derive(Deserialize)]
+struct Origin {
+    provenance: Option<Value>,
+}
+
 /// The contents of `ID.json`.
 #[derive(Serialize, Deserialize)]
 struct Record<Data> {
@@ -382,10 +388,9 @@ impl RegisteredExperiment {
 
     /// Reads the data that [`Self::files`] stored in `ID.json`, and the quality and origin of these.
     pub fn read(&self, bytes: &[u8]) -> Result<Stored, ExperimentError> {
-        let stored: Value = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
         // Before anything else: a newer one may have any other form.
-        let origin = stored.get("provenance");
-        provenance::refuse_newer(provenance::FIGURE, origin, &format!("{}.json", self.id))?;
+        let Origin { provenance } = serde_json::from_slice(bytes).map_err(ExperimentError::Stored)?;
+        provenance::refuse_newer(provenance::FIGURE, provenance.as_ref(), &format!("{}.json", self.id))?;
         (self.read)(bytes)
     }
 }

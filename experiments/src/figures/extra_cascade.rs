@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::progress::Progress;
 
 /// Feigenbaum's constants δ and α (K. Briggs, Math. Comp. 57, 435 (1991)).
@@ -82,7 +82,7 @@ impl Experiment for ExtraCascade {
         let of_fig6 = paper::section_four()?.restitution.to_string();
         let restitutions: Vec<&str> = std::iter::once(of_fig6.as_str()).chain(OTHER_RESTITUTIONS).collect();
         progress.start(restitutions.len() as u64, "cascades");
-        let cascades = for_each(&restitutions, |restitution| {
+        let cascades = map_in_parallel(&restitutions, |restitution| {
             let cascade = cascade(restitution, count);
             progress.advance(1);
             Ok(cascade?)

@@ -16,7 +16,7 @@ use bouncing_disk_plot::{
 use serde::{Deserialize, Serialize};
 
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::progress::Progress;
 
 /// Friction between hand and dough, with more or less flour.
@@ -91,7 +91,7 @@ impl Experiment for ExtraDesign {
         let steps: Vec<i32> = (0..count).collect();
         let mut curves = Vec::new();
         for (limit, ..) in LIMITS {
-            curves.push(for_each(&steps, |&k| best(limit, k))?);
+            curves.push(map_in_parallel(&steps, |&k| best(limit, k))?);
         }
         // The least over a fine grid: the speed is smooth in the friction but for where sliding begins.
         let mut worst = f64::INFINITY;

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::numbers::Noise;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::progress::Progress;
 
 /// Seed of the synthetic transients.
@@ -139,7 +139,7 @@ fn duration(time_constants: f64, trials: u64) -> Result<Duration, ExperimentErro
             Err(error) => Err(error.into()),
         }
     };
-    let fits = for_each(&(1..=trials).collect::<Vec<_>>(), fit)?;
+    let fits = map_in_parallel(&(1..=trials).collect::<Vec<_>>(), fit)?;
     let accepted: Vec<&TransientFit> = fits.iter().flatten().collect();
     let covered = |holds: fn(&TransientFit) -> bool| accepted.iter().filter(|fit| holds(fit)).count();
     Ok(Duration {

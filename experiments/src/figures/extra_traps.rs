@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::progress::Progress;
 
 /// Γ and restitutions of the second map.
@@ -153,7 +153,7 @@ fn map(
         progress.advance(1);
         done
     };
-    for_each(rows, row)
+    map_in_parallel(rows, row)
 }
 
 /// White, and of each kind the pale and the full colour.

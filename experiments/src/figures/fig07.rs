@@ -14,7 +14,7 @@ use self::{panels::WINDOW_TOP, scan::windows};
 use super::shared::map;
 use crate::claims::{Claim, paper};
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::progress::Progress;
 
 /// Fig. 7.
@@ -59,7 +59,7 @@ impl Experiment for Fig07 {
         // Side by side, for each has parts in which one thing follows from another.
         let panel =
             |forcing: &f64| panels::panel(*forcing, printed.restitution, (WINDOW_TOP, cells), progress);
-        let panels = || for_each(&forcings, panel);
+        let panels = || map_in_parallel(&forcings, panel);
         let decay = || {
             let chaotic = map(forcings[3], printed.restitution)?;
             panels::decay(&chaotic, WINDOW_TOP, quality.choose(60, 150))

@@ -22,7 +22,7 @@ pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Exp
 }
 
 /// What `of` makes of each item, in their order, over all threads; of several errors the one of the first item.
-pub(crate) fn for_each<T: Sync, R: Send>(
+pub(crate) fn map_in_parallel<T: Sync, R: Send>(
     items: &[T],
     of: impl Fn(&T) -> Result<R, ExperimentError> + Sync,
 ) -> Result<Vec<R>, ExperimentError> {

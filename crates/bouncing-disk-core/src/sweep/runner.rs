@@ -8,6 +8,7 @@ use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount, in_parallel, threads};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
+use crate::sweep::run::in_order;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
 /// however many of them are in use, as much as about this many single flights (docs/numerics/lockstep.md,
@@ -39,12 +40,7 @@ pub(super) fn run<S: Send>(
         Worker { queue, start, visit, lanes, runs: Vec::new(), outcomes: Vec::new(), work }.run(set)
     };
     // It does not matter which of the workers has an orbit.
-    let mut outcomes: Vec<Option<Result<S, Error>>> = orbits.iter().map(|_| None).collect();
-    for (index, outcome) in in_parallel(threads, |_| work()).into_iter().flatten() {
-        outcomes[index] = Some(outcome);
-    }
-    let outcomes = outcomes.into_iter().enumerate();
-    outcomes.filter_map(|(index, outcome)| Some((index, outcome?))).collect()
+    in_order(orbits.len(), in_parallel(threads, |_| work()).into_iter().flatten())
 }
 
 /// The orbits that nobody has begun.

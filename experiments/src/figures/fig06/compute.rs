@@ -16,7 +16,7 @@ use super::slices::{Inputs, branch_crossings, followed_slice, forcing_effect, no
 use super::{chattering, contact, explored, period_one};
 use crate::claims::paper::{self, SectionFour};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::Progress;
 
@@ -68,7 +68,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig06
         .filter(|(forcing, slice)| **forcing * PI > 1.0 && slice.is_none())
         .map(|(forcing, _)| *forcing)
         .collect();
-    let not_chattering = for_each(&not_chattering, |forcing| bouncing(*forcing, restitution))?;
+    let not_chattering = map_in_parallel(&not_chattering, |forcing| bouncing(*forcing, restitution))?;
     let Searches { merging, single_tosses, doublings, zoom } =
         Searches::of(&diagrams, &section, settings, quality, progress)?;
     let last = doublings.last().copied().unwrap_or(f64::NAN);
@@ -163,7 +163,7 @@ impl Diagrams {
             follow_attractor(restitution, above, first, settings.transient_impacts, PAPER_CHATTER)
                 .collect::<Result<_, _>>()?;
         progress.advance((forcings.len() - walk.len()) as u64);
-        let followed = for_each(&walk, |followed| {
+        let followed = map_in_parallel(&walk, |followed| {
             let slice = followed_slice(followed, inputs, settings);
             progress.advance(1);
             slice
@@ -172,7 +172,7 @@ impl Diagrams {
         let followed: Vec<Slice> = followed.into_iter().map_while(|slice| slice).collect();
         let cycles = chattering::cycles(forcings, restitution, settings.policy)?;
         let cycles: Vec<_> = forcings.iter().copied().zip(cycles).collect();
-        let chattering = for_each(&cycles, |&(forcing, cycle)| {
+        let chattering = map_in_parallel(&cycles, |&(forcing, cycle)| {
             let slice = chattering::chattering_slice(forcing, cycle, inputs, settings);
             progress.advance(1);
             slice
@@ -200,11 +200,11 @@ impl Diagrams {
         let followed: Vec<_> = followed.filter(|(at, _)| at.axial_forcing > period_four).collect();
         let beyond = self.cycles.iter().zip(&self.chattering).filter(|((forcing, _), _)| *forcing > crisis);
         let beyond: Vec<_> = beyond.filter_map(|(at, drawn)| Some((at, drawn.as_ref()?))).collect();
-        let of_followed = for_each(&sampled(SAMPLED, &followed), |(at, drawn)| {
+        let of_followed = map_in_parallel(&sampled(SAMPLED, &followed), |(at, drawn)| {
             let exchanged = followed_slice(at, inputs, settings)?;
             Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
         })?;
-        let of_resting = for_each(&sampled(SAMPLED, &beyond), |((forcing, cycle), drawn)| {
+        let of_resting = map_in_parallel(&sampled(SAMPLED, &beyond), |((forcing, cycle), drawn)| {
             let exchanged = chattering::chattering_slice(*forcing, *cycle, inputs, settings)?;
             Ok(exchanged.and_then(|exchanged| forcing_effect(drawn, &exchanged)))
         })?;

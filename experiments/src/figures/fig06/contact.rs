@@ -12,7 +12,7 @@ use super::data::{Dimension, Motion, TorqueRatio, Transfer};
 use super::slices::{Inputs, Systems, no_orbit, start};
 use crate::claims::paper;
 use crate::experiment::ExperimentError;
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::six_decimals;
 use crate::figures::shared::toss::TossCase;
@@ -74,7 +74,7 @@ pub(super) fn motions(forcings: &[f64], inputs: Inputs) -> Result<Vec<Motion>, E
     let restitutions = [inputs.restitution, NEARLY_ELASTIC[0], NEARLY_ELASTIC[1]];
     let cases: Vec<(f64, f64)> =
         forcings.iter().flat_map(|forcing| restitutions.map(|restitution| (*forcing, restitution))).collect();
-    for_each(&cases, |&(axial_forcing, restitution)| {
+    map_in_parallel(&cases, |&(axial_forcing, restitution)| {
         let system = ForcingParameters {
             axial_forcing,
             angular_forcing: inputs.semielliptical.angular_forcing,
@@ -135,7 +135,7 @@ pub(super) fn transfers(
         .map(|(forcing, state)| (*forcing, Some(*state)))
         .chain(from_rest.iter().map(|forcing| (*forcing, None)))
         .collect();
-    let pairs = for_each(&starts, |&(axial_forcing, state)| {
+    let pairs = map_in_parallel(&starts, |&(axial_forcing, state)| {
         let systems = Systems::at(axial_forcing, inputs)?;
         let transfer = |system: &DimensionlessSystem, angular_forcing: f64| -> Result<_, ExperimentError> {
             let share_in_impacts = share_in_impacts(system, start(system, state, false)?)?;

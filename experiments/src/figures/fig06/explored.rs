@@ -16,7 +16,7 @@ use bouncing_disk::toss::{MultiTossSettings, OrbitClass, multi_toss};
 use super::data::{BestLag, Column, Explored, Merging, OneImpactDecides, Shadow, Visited};
 use super::slices::{Inputs, no_orbit, start};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::numbers::occupied_arc;
 use crate::figures::shared::{distinct_phases, map};
 
@@ -293,7 +293,7 @@ pub(super) fn best_lags(
         .chain(from_rest_at.iter().map(|forcing| (*forcing, None)))
         .flat_map(|(forcing, state)| forcings.map(|angular| (forcing, state, angular)))
         .collect();
-    for_each(&starts, |&(axial_forcing, state, angular_forcing)| {
+    map_in_parallel(&starts, |&(axial_forcing, state, angular_forcing)| {
         let mut best = BestLag {
             axial_forcing,
             angular_forcing,
@@ -347,7 +347,7 @@ pub(super) fn one_impact_decides(
         ..MultiTossSettings::default()
     };
     let forcings: Vec<f64> = (0..count).map(forcing).collect();
-    let found = for_each(&forcings, |&axial_forcing| {
+    let found = map_in_parallel(&forcings, |&axial_forcing| {
         let impulses = NormalImpulses::of(&map(axial_forcing, restitution)?, WEIGHED_IMPACTS, 0.0)?;
         let largest = impulses.impacts.iter().max_by(|one, other| one.impulse.total_cmp(&other.impulse));
         let Some(&PhasedImpulse { phase, .. }) = largest else { return Ok(None) };

@@ -17,7 +17,7 @@ use super::data::{
 use super::panels::{grid, others, start};
 use crate::claims::paper::SectionFour;
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::{FORCING_RANGE, map};
 use crate::progress::{Progress, advancing};
 
@@ -53,7 +53,7 @@ pub(super) fn along_window(
     let [first, last, ..] = section.axial_forcings_of_fig7;
     let (rows, columns) = quality.choose((80, 40), (240, 90));
     let forcing = |index| first + (last - first) * f64::from(index) / f64::from(ALONG_WINDOW - 1);
-    for_each(&(0..ALONG_WINDOW).map(forcing).collect::<Vec<_>>(), |&axial_forcing| {
+    map_in_parallel(&(0..ALONG_WINDOW).map(forcing).collect::<Vec<_>>(), |&axial_forcing| {
         let map = map(axial_forcing, section.restitution)?;
         let mut known = Vec::new();
         if let Some(state) = map.period_one(1) {
@@ -89,7 +89,7 @@ pub(super) fn beyond(
     let (step, side) = quality.choose((5.0e-4, 8), (2.0e-4, 16));
     let count = ((last - first) / step).round() as u32;
     let forcings: Vec<f64> = (0..=count).map(|index| first + step * f64::from(index)).collect();
-    for_each(&forcings, |&axial_forcing| {
+    map_in_parallel(&forcings, |&axial_forcing| {
         let map = map(axial_forcing, section.restitution)?;
         let grid = grid(top, side, side)?;
         let settings = BasinSettings { max_impacts: LONGEST_BEYOND, policy: ChatterPolicy::Complete };
@@ -116,7 +116,7 @@ pub(super) fn beyond(
 
 /// The fate of a disk at rest on the platform, at any phase.
 pub(super) fn rest(forcings: &[f64], restitution: f64) -> Result<Vec<Rest>, ExperimentError> {
-    for_each(forcings, |&axial_forcing| {
+    map_in_parallel(forcings, |&axial_forcing| {
         let map: ImpactMap = map(axial_forcing, restitution)?;
         let mut orbits = Vec::new();
         if let Some(leaves) = map.vibration().separation_phase() {

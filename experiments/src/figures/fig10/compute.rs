@@ -16,7 +16,7 @@ use crate::claims::Cases;
 use crate::claims::paper::{self, STANDARD_GRAVITY};
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike_with_band, oscillation};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::motor::MotorCase;
 use crate::figures::shared::numbers::median;
 use crate::progress::Progress;
@@ -154,7 +154,7 @@ fn growth(motor: &MotorCase) -> Result<Option<LyapunovEstimate>, ExperimentError
 }
 
 fn between_rests(cases: &[MotorCase]) -> Result<BetweenRests, ExperimentError> {
-    let growths: Vec<_> = for_each(cases, growth)?.into_iter().flatten().collect();
+    let growths: Vec<_> = map_in_parallel(cases, growth)?.into_iter().flatten().collect();
     let growing = || growths.iter().filter(|growth| growth.grows());
     Ok(BetweenRests {
         amplitude_m: cases.first().map_or(f64::NAN, |case| case.amplitude_m),

@@ -12,7 +12,7 @@ use super::data::{Alike, Fig12Data, Fits, Lines, LowPeriod, Prediction, Shown, Z
 use crate::claims::paper;
 use crate::experiment::{ExperimentError, Quality};
 use crate::figures::shared::alike::{DRAWN, PrintedInputs, alike};
-use crate::figures::shared::for_each;
+use crate::figures::shared::map_in_parallel;
 use crate::figures::shared::motor::{Cycle, LOW_PERIOD_FLIGHTS, MotorCase};
 use crate::figures::shared::numbers::StraightLine;
 use crate::progress::Progress;
@@ -93,13 +93,13 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig12
 /// The first `count` motors of low period that are drawn.
 fn first_of_low_period(inputs: &PrintedInputs, count: usize) -> Result<LowPeriod, ExperimentError> {
     let drawn = inputs.drawn(MOST_DRAWN.min(30 * count), SEED);
-    let cycles = for_each(&drawn, |motor| motor.cycle(ChatterPolicy::Complete))?;
+    let cycles = map_in_parallel(&drawn, |motor| motor.cycle(ChatterPolicy::Complete))?;
     let found: Vec<usize> =
         (0..drawn.len()).filter(|&index| cycles[index].is_low_period()).take(count).collect();
     let chosen: Vec<MotorCase> = found.iter().map(|&index| drawn[index]).collect();
     Ok(LowPeriod {
         drawn: found.last().map_or(drawn.len(), |last| last + 1),
-        lines: for_each(&found, |&index| lines(&drawn[index], cycles[index]))?,
+        lines: map_in_parallel(&found, |&index| lines(&drawn[index], cycles[index]))?,
         motors: alike(&chosen, LONG_RISES)?,
     })
 }

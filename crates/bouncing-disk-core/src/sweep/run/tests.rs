@@ -123,7 +123,6 @@ fn a_run_of_other_orbits_is_refused() {
     assert_eq!(run.advance_survival_times(&orbits, 0, &Unobserved), refusal);
 }
 
-#[cfg(feature = "serde")]
 #[test]
 fn results_come_in_any_order_and_the_first_one_stays() {
     let mut results = PartialResults::new(6);
@@ -134,6 +133,7 @@ fn results_come_in_any_order_and_the_first_one_stays() {
     assert_eq!(results.open(6), Ok(vec![2, 5]));
 }
 
+#[cfg(feature = "serde")]
 #[test]
 fn stored_results_that_do_not_fit_are_refused() {
     for (text, complaint) in [
