@@ -41,13 +41,42 @@ impl Chatter {
         angular_speed: f64,
         duration: f64,
     ) -> Self {
-        let mut chatter = Self::before(phase, speed, angular_speed);
-        if ChatterSeries::is_needed(speed, system.restitution()) {
-            chatter.sum(system, phase, duration);
-        } else {
-            chatter.go_through(system, phase, duration);
+        let mut alone = [(system, Self::before(phase, speed, angular_speed))];
+        Self::follow(&mut alone, phase, duration);
+        alone[0].1
+    }
+
+    /// The sequences of rotors with their angular speeds on one vertical motion, each as of [`Self::new`].
+    pub(crate) fn of_rotors<'a>(
+        rotors: impl Iterator<Item = (&'a DimensionlessSystem, f64)>,
+        phase: Phase,
+        speed: f64,
+        duration: f64,
+    ) -> Vec<Self> {
+        let before = |(system, angular_speed)| (system, Self::before(phase, speed, angular_speed));
+        let mut rotors: Vec<_> = rotors.map(before).collect();
+        Self::follow(&mut rotors, phase, duration);
+        rotors.into_iter().map(|(_, chatter)| chatter).collect()
+    }
+
+    /// Follows rotors on one vertical motion, which is computed once.
+    fn follow(rotors: &mut [(&DimensionlessSystem, Self)], phase: Phase, duration: f64) {
+        let Some(&(system, Self { launch_speed, .. })) = rotors.first() else { return };
+        if ChatterSeries::is_needed(launch_speed, system.restitution()) {
+            for (system, chatter) in rotors {
+                chatter.sum(system, phase, duration);
+            }
+            return;
         }
-        chatter
+        let Ok(launch) = Launch::new(phase, launch_speed) else { return };
+        for impact in system.map().chatter_impacts(launch) {
+            if impact.time > duration {
+                break;
+            }
+            for (system, chatter) in &mut *rotors {
+                chatter.advance(system, &impact);
+            }
+        }
     }
 
     /// The launch that a sequence starts with.
@@ -63,17 +92,6 @@ impl Chatter {
             axial_impulse: 0.0,
             angular_impulse: 0.0,
             ledger: EnergyLedger::default(),
-        }
-    }
-
-    /// The impacts up to `duration` one by one.
-    fn go_through(&mut self, system: &DimensionlessSystem, phase: Phase, duration: f64) {
-        let Ok(launch) = Launch::new(phase, self.launch_speed) else { return };
-        for impact in system.map().chatter_impacts(launch) {
-            if impact.time > duration {
-                break;
-            }
-            self.advance(system, &impact);
         }
     }
 

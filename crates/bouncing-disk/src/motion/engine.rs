@@ -240,14 +240,20 @@ impl<L: RestitutionLaw> Engine<L> {
         Ok(())
     }
 
-    /// Comes to rest after an impact at `now` which left the disk in `state`, with the attachment that ends
-    /// the chatter: for those who compute the vertical motion elsewhere. The angle is counted from that of
-    /// `state`.
-    pub(crate) fn rest_after(&mut self, now: PhaseTime, state: DiskState, rest: &Attachment) -> EventRecord {
+    /// Comes to rest after an impact at `now` which left the disk in `state`, with the chatter and the
+    /// attachment that ends it: for those who compute the vertical motion elsewhere. The angle is counted from
+    /// that of `state`.
+    pub(crate) fn rest_after(
+        &mut self,
+        now: PhaseTime,
+        state: DiskState,
+        rest: &Attachment,
+        chatter: &Chatter,
+    ) -> EventRecord {
         self.now = now;
         self.state = state;
         self.angle = LongSum::new(state.angle);
-        self.attach(rest)
+        self.attach_after(rest, chatter)
     }
 
     /// Lets a contact without end end at `time`, with an event [`Event::Separation`].
@@ -362,16 +368,18 @@ impl<L: RestitutionLaw> Engine<L> {
     }
 
     fn attach(&mut self, rest: &Attachment) -> EventRecord {
+        let (speed, spin) = (chatter_speed(rest), self.state.angular_speed);
+        let duration = rest.accumulation.duration;
+        let chatter = Chatter::new(&self.system, self.now.phase, speed, spin, duration);
+        self.attach_after(rest, &chatter)
+    }
+
+    fn attach_after(&mut self, rest: &Attachment, chatter: &Chatter) -> EventRecord {
         let system = &self.system;
         let accumulation = rest.accumulation;
-        let from = self.now.phase;
-        // A chatter that is summed lasts; one that is cut leaves a speed.
-        let cut = accumulation.duration <= 0.0 && rest.last_speed > 0.0;
+        let cut = is_cut(rest);
         let segment = self.segment((!cut).then_some(rest.last_speed));
         let duration = accumulation.duration;
-        // The paper's cut takes the last launch speed away by an impulse of its own.
-        let chatter_speed = if cut { 0.0 } else { rest.last_speed };
-        let chatter = Chatter::new(system, from, chatter_speed, self.state.angular_speed, duration);
         let change = change_in_flight(system.load(), chatter.angular_speed, duration - chatter.time);
         let platform_speed = system.platform_angular_speed(accumulation.phase);
         let platform_velocity = system.vibration().velocity(accumulation.phase);
@@ -523,6 +531,17 @@ impl<L: RestitutionLaw> Engine<L> {
         self.now = time;
         self.state = *state;
     }
+}
+
+/// A chatter that is summed lasts; one that is cut leaves a speed.
+fn is_cut(rest: &Attachment) -> bool {
+    rest.accumulation.duration <= 0.0 && rest.last_speed > 0.0
+}
+
+/// The launch speed of the chatter that is summed: the paper's cut takes the last one away by an impulse of
+/// its own.
+pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
+    if is_cut(rest) { 0.0 } else { rest.last_speed }
 }
 
 /// Records a jump of the velocities at one height.

@@ -17,9 +17,9 @@ use super::data::{
 use super::trends;
 use crate::claims::{Cases, catalogue, paper};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
+use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike, alike_groups};
 use crate::figures::shared::map;
-use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::motor::{MotorCase, MotorStatistics, statistics};
 use crate::figures::shared::numbers::Noise;
 use crate::figures::shared::stall::{Stall, net_share_at_rest};
 use crate::progress::Progress;
@@ -55,25 +55,42 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig11
     progress.start((frequencies.len() * (amplitudes.len() + three_preloads.len())) as u64, "curves");
 
     let mut noise = Noise::new(PRELOAD_SEED);
-    let (mut curves, mut stalls) = (Vec::new(), Vec::new());
+    let mut groups = Vec::new();
+    let mut ensembles = Vec::new();
     for frequency_hz in frequencies {
         for (amplitude_m, members) in amplitudes.into_iter().zip(members) {
-            let case = MotorCase { frequency_hz, amplitude_m, ..motor };
             let [first, last] = printed.preload_accelerations_m_per_s2;
-            let mut motors = |from: f64, count: u32| {
-                let cases: Vec<MotorCase> = preloads([from, last], count, &mut noise)
-                    .map(|preload| MotorCase { preload_acceleration_m_per_s2: preload, ..case })
-                    .collect();
-                let single = alike(&cases, RISES)?;
-                let points = in_parallel(cases.len(), |k| {
-                    point(&cases[k], &single[k], rotor_mass_kg, members, relaunch_perturbation)
-                });
-                points.into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
-            };
-            let (points, further) = (motors(first, count)?, motors(high, quality.choose(4, MORE_ABOVE))?);
-            curves.push(Curve { frequency_hz, amplitude_m, points, further });
-            progress.advance(1);
+            for (from, count) in [(first, count), (high, quality.choose(4, MORE_ABOVE))] {
+                let preloads = preloads([from, last], count, &mut noise);
+                let with = |preload_acceleration_m_per_s2| MotorCase {
+                    frequency_hz,
+                    amplitude_m,
+                    preload_acceleration_m_per_s2,
+                    ..motor
+                };
+                let cases: Vec<MotorCase> = preloads.map(with).collect();
+                ensembles.extend(cases.iter().map(|case| (*case, members)));
+                groups.push(cases);
+            }
         }
+    }
+    let singles = alike_groups(&groups, RISES)?.into_iter().flat_map(|group| group.0);
+    let statistics = statistics(&ensembles, RISES, relaunch_perturbation)?;
+    let mut motors = singles.zip(statistics);
+    let mut points = |cases: &[MotorCase]| {
+        let computed: Vec<_> = motors.by_ref().take(cases.len()).collect();
+        let point = |k: usize| point(&cases[k], &computed[k], rotor_mass_kg, relaunch_perturbation);
+        in_parallel(cases.len(), point).into_iter().collect::<Result<Vec<Point>, ExperimentError>>()
+    };
+    let mut curves = Vec::new();
+    for pair in groups.chunks_exact(2) {
+        let MotorCase { frequency_hz, amplitude_m, .. } = pair[0][0];
+        let (points, further) = (points(&pair[0])?, points(&pair[1])?);
+        curves.push(Curve { frequency_hz, amplitude_m, points, further });
+        progress.advance(1);
+    }
+    let mut stalls = Vec::new();
+    for frequency_hz in frequencies {
         for preload in three_preloads {
             let case = MotorCase { frequency_hz, preload_acceleration_m_per_s2: preload, ..motor };
             stalls.push(StallAt {
@@ -135,9 +152,8 @@ fn no_data(quantity: &str) -> ExperimentError {
 
 fn point(
     case: &MotorCase,
-    single: &AlikeMotor,
+    (single, statistics): &(AlikeMotor, MotorStatistics),
     mass: f64,
-    members: usize,
     relaunch_perturbation: f64,
 ) -> Result<Point, ExperimentError> {
     let preload = case.preload_acceleration_m_per_s2;
@@ -145,7 +161,7 @@ fn point(
         preload_acceleration_m_per_s2: preload,
         preload_mn: 1e3 * mass * preload,
         axial_forcing: case.system()?.axial_forcing(),
-        statistics: case.statistics(RISES, members, relaunch_perturbation)?,
+        statistics: *statistics,
         net_share_at_rest: net_share_at_rest(case, BALANCED_IMPACTS, relaunch_perturbation)?,
         single_speed_rad_per_s: single.steady_speed_rad_per_s,
         single_stall_rad_per_s2: single.stall_over_limit.map(|share| share * case.largest_acceleration()),

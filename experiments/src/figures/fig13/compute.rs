@@ -13,8 +13,8 @@ use super::data::{
 };
 use crate::claims::{Cases, paper};
 use crate::experiment::{ExperimentError, Quality};
-use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike};
-use crate::figures::shared::motor::MotorCase;
+use crate::figures::shared::alike::{AlikeMotor, DRAWN, PrintedInputs, alike_groups};
+use crate::figures::shared::motor::{MotorCase, statistics};
 use crate::figures::shared::numbers::{self, StraightLine};
 use crate::progress::Progress;
 
@@ -48,8 +48,10 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
     let mut sweeps = Vec::new();
     for (parameter, grid) in Parameter::ALL.into_iter().zip(grids) {
         let mut points = Vec::new();
-        for value in grid {
-            let case = parameter.set(&motor, value);
+        let cases: Vec<MotorCase> = grid.iter().map(|value| parameter.set(&motor, *value)).collect();
+        let ensembles: Vec<_> = cases.iter().map(|case| (*case, members)).collect();
+        let statistics = statistics(&ensembles, RISES, relaunch_perturbation)?;
+        for ((value, case), statistics) in grid.into_iter().zip(cases).zip(statistics) {
             let system = case.system()?;
             let impulses = NormalImpulses::of(system.dimensionless().map(), impacts, relaunch_perturbation)?;
             let count = impulses.impacts.len() as f64;
@@ -59,7 +61,7 @@ pub(super) fn compute(quality: Quality, progress: &dyn Progress) -> Result<Fig13
             points.push(SweepPoint {
                 value,
                 peak_angular_speed_rad_per_s: case.peak_angular_speed_rad_per_s,
-                statistics: case.statistics(RISES, members, relaunch_perturbation)?,
+                statistics,
                 predicted_speed_ratio,
                 predicted_stall_acceleration_rad_per_s2,
                 mean_impact_speed_m_per_s,
@@ -157,7 +159,7 @@ fn alike_motors(quality: Quality) -> Result<AlikeMotors, ExperimentError> {
     let phase_lags: Vec<f64> = (0..LAGS).map(|lag| TAU * f64::from(lag) / f64::from(LAGS) - PI).collect();
     let peak_angular_speeds = [5.0, 23.0, 41.0, 60.0];
     let varied = |parameter: Parameter, cases: Vec<Vec<MotorCase>>| -> Result<Varied, ExperimentError> {
-        let motors = cases.iter().map(|cases| alike(cases, RISES)).collect::<Result<_, _>>()?;
+        let motors = alike_groups(&cases, RISES)?.into_iter().map(|group| group.0).collect();
         Ok(Varied { parameter, cases, motors })
     };
     let by_restitution = varied(

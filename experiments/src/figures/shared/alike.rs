@@ -164,28 +164,41 @@ pub(crate) fn alike_with_band(
     motors: &[MotorCase],
     rises: f64,
 ) -> Result<(Vec<AlikeMotor>, SpeedBand), ExperimentError> {
+    let mut alone = alike_groups(&[motors.to_vec()], rises)?;
+    alone.pop().ok_or_else(|| ExperimentError::NoData { quantity: "motors".to_owned() })
+}
+
+/// The same of several groups at once: many transients advance in lockstep.
+pub(crate) fn alike_groups(
+    groups: &[Vec<MotorCase>],
+    rises: f64,
+) -> Result<Vec<(Vec<AlikeMotor>, SpeedBand)>, ExperimentError> {
+    let motors = groups.concat();
     let duration = |motor: &MotorCase| rises * motor.rise_time_s();
-    let members = motors
-        .iter()
-        .enumerate()
-        .map(|(index, motor)| {
-            let share = (index as f64 + 0.5) / motors.len() as f64;
-            Ok(TransientMember {
-                system: motor.system()?,
-                phase: Phase::new(TAU * share)?,
-                settings: TransientSettings {
-                    duration: duration(motor),
-                    intervals: INTERVALS,
-                    relaunch_perturbation: 0.0,
-                    ..TransientSettings::default()
-                },
-            })
+    let places = groups.iter().flat_map(|group| (0..group.len()).map(|index| (index, group.len())));
+    let members = motors.iter().zip(places).map(|(motor, (index, count))| {
+        let share = (index as f64 + 0.5) / count as f64;
+        Ok(TransientMember {
+            system: motor.system()?,
+            phase: Phase::new(TAU * share)?,
+            settings: TransientSettings {
+                duration: duration(motor),
+                intervals: INTERVALS,
+                relaunch_perturbation: 0.0,
+                ..TransientSettings::default()
+            },
         })
-        .collect::<Result<Vec<_>, ExperimentError>>()?;
+    });
+    let members = members.collect::<Result<Vec<_>, ExperimentError>>()?;
     let curves = transients(&members, &Unobserved)?.into_iter().collect::<Result<Vec<_>, _>>()?;
     let alike = |k: usize| AlikeMotor::of(&motors[k], &curves[k], duration(&motors[k]));
-    let alike = in_parallel(motors.len(), alike).into_iter().collect::<Result<_, _>>()?;
-    Ok((alike, SpeedBand::of(&curves)))
+    let alike = in_parallel(motors.len(), alike).into_iter().collect::<Result<Vec<_>, _>>()?;
+    let (mut alike, mut curves) = (alike.as_slice(), curves.as_slice());
+    let of_group = |group: &Vec<MotorCase>| {
+        let own = alike.split_off(..group.len()).unwrap_or_default().to_vec();
+        (own, SpeedBand::of(curves.split_off(..group.len()).unwrap_or_default()))
+    };
+    Ok(groups.iter().map(of_group).collect())
 }
 
 /// How many are drawn for a verdict.

@@ -2,10 +2,11 @@
 
 use std::f64::consts::TAU;
 
+use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
 pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
-use bouncing_disk::motor::TransientSettings;
+use bouncing_disk::motor::{TransientMember, TransientSettings, transients};
 use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
@@ -125,25 +126,46 @@ impl MotorCase {
         Ok(Some(RobustCycle(cycle)))
     }
 
-    /// Transients of `members` motors over `rises` rise times, and their statistics.
+    /// The [`statistics`] of this motor alone.
     pub(crate) fn statistics(
         &self,
         rises: f64,
         members: usize,
         relaunch_perturbation: f64,
     ) -> Result<MotorStatistics, ExperimentError> {
-        let settings = TransientSettings {
-            duration: rises * self.rise_time_s(),
-            intervals: 240,
-            relaunch_perturbation,
-            ..TransientSettings::default()
-        };
-        let motor = self.system()?;
-        let runs = TransientEnsemble::new(&motor, &settings, members, &Unobserved)?;
-        let statistics =
-            bouncing_disk::estimate::MotorStatistics::of(&motor, &runs, settings.duration, settings.policy)?;
-        Ok(statistics.into())
+        let own = statistics(&[(*self, members)], rises, relaunch_perturbation)?;
+        own.into_iter().next().ok_or_else(|| ExperimentError::NoData { quantity: "statistics".to_owned() })
     }
+}
+
+/// Transients of so many rotors of each motor over `rises` rise times, and their statistics. All transients
+/// are computed at once: many advance in lockstep.
+pub(crate) fn statistics(
+    motors: &[(MotorCase, usize)],
+    rises: f64,
+    relaunch_perturbation: f64,
+) -> Result<Vec<MotorStatistics>, ExperimentError> {
+    let settings = |motor: &MotorCase| TransientSettings {
+        duration: rises * motor.rise_time_s(),
+        intervals: 240,
+        relaunch_perturbation,
+        ..TransientSettings::default()
+    };
+    let mut all = Vec::new();
+    let mut first = Vec::with_capacity(motors.len());
+    for (motor, members) in motors {
+        first.push(all.len());
+        all.extend(TransientMember::of_ensemble(&motor.system()?, &settings(motor), *members)?);
+    }
+    let curves = transients(&all, &Unobserved)?;
+    let statistics = |k: usize| -> Result<MotorStatistics, ExperimentError> {
+        let (motor, members) = &motors[k];
+        let own = curves[first[k]..first[k] + members].to_vec();
+        let runs = TransientEnsemble::of_results(own, &Unobserved)?;
+        let TransientSettings { duration, policy, .. } = settings(motor);
+        Ok(bouncing_disk::estimate::MotorStatistics::of(&motor.system()?, &runs, duration, policy)?.into())
+    };
+    in_parallel(motors.len(), statistics).into_iter().collect()
 }
 
 /// What `multi_toss` says that the unperturbed motor repeats.

@@ -9,8 +9,9 @@ use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
 use crate::error::Error;
+use crate::motion::chatter::Chatter;
 use crate::motion::energy::EnergyLedger;
-use crate::motion::engine::Engine;
+use crate::motion::engine::{Engine, chatter_speed};
 use crate::motion::event::Event;
 use crate::motion::impact::{axial_impulse, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
@@ -227,6 +228,11 @@ impl Bouncing {
     fn rest(&mut self, rest: Option<&Attachment>) -> Result<(), Error> {
         let (began, mut separation) = (self.vertical.now(), None);
         let vibration = *self.engines[0].system().vibration();
+        let chatters = rest.map_or_else(Vec::new, |rest| {
+            let systems = self.engines.iter().map(Engine::system);
+            let duration = rest.accumulation.duration;
+            Chatter::of_rotors(systems.zip(self.speeds()), began.phase, chatter_speed(rest), duration)
+        });
         for (index, engine) in self.engines.iter_mut().enumerate() {
             let (row, own) = (&mut self.rows[index / WIDTH], index % WIDTH);
             let mut ledger = EnergyLedger::default();
@@ -238,7 +244,7 @@ impl Bouncing {
                     angle: 0.0,
                     angular_speed: row.speed[own],
                 };
-                ledger = engine.rest_after(began, state, rest).ledger;
+                ledger = engine.rest_after(began, state, rest, &chatters[index]).ledger;
             }
             let start = if rest.is_some() { 0.0 } else { engine.state().angle };
             while let Some(record) = engine.advance()? {
