@@ -1,7 +1,6 @@
 //! The crisis in which the followed attractor is lost to chattering, what the orbits visit there and beyond it, and the period
 //! doublings at finer steps of Γ.
 
-use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use bouncing_disk::InitialCondition;
@@ -107,6 +106,8 @@ const BESIDE: f64 = 1.0e-4;
 const VISITING: usize = 20_000;
 /// Cells of the plane of phase (periods) and speed |w_A Γ/(ωA)| a unit: near are cells next to each other.
 const CELLS: f64 = 100.0;
+/// Columns of cells, over one period.
+const COLUMNS: usize = CELLS as usize;
 /// Impacts of an orbit beyond the crisis that are compared with the saddle.
 const SHADOWING: usize = 2_000;
 /// Starts, on the attractor just before the crisis, of the orbits that show the saddle: those that have not
@@ -117,43 +118,57 @@ const SADDLE_LIFE: usize = 40;
 /// Impacts in the middle of each of these orbits.
 const SADDLE_IMPACTS: usize = 4;
 
-/// A set of cells, so many a unit, and the cells next to them.
-struct Cells {
-    unit: f64,
-    cells: BTreeSet<(i32, i32)>,
-    near: BTreeSet<(i32, i32)>,
+/// Rows of cells, from the speed 0 up.
+#[derive(Clone, Copy)]
+struct Grid {
+    rows: usize,
 }
 
-impl Cells {
-    fn of(states: &[ImpactState], unit: f64) -> Self {
-        let cells: BTreeSet<_> = states.iter().map(|state| Self::cell(state, unit)).collect();
-        // The last column of cells touches the first.
-        let columns = unit as i32;
-        let around = |&(column, row): &(i32, i32)| {
-            (-1..=1).flat_map(move |across| {
-                (-1..=1).map(move |up| ((column + across).rem_euclid(columns), row + up))
-            })
-        };
-        let near = cells.iter().flat_map(around).collect();
-        Self { unit, cells, near }
+impl Grid {
+    /// Up to a speed.
+    fn up_to(largest_speed: f64) -> Self {
+        Self { rows: (CELLS * largest_speed) as usize + 1 }
     }
 
-    fn cell(state: &ImpactState, unit: f64) -> (i32, i32) {
-        ((unit * state.phase().cycles()) as i32, (unit * state.normalised_speed()) as i32)
+    /// The cells that some states lie in, row by row.
+    fn occupied(self, states: &[ImpactState]) -> Vec<bool> {
+        let mut occupied = vec![false; COLUMNS * self.rows];
+        for state in states {
+            if let Some(cell) = occupied.get_mut(Self::cell(state)) {
+                *cell = true;
+            }
+        }
+        occupied
     }
 
-    /// The share of some impacts that are near.
-    fn share(&self, states: &[ImpactState]) -> f64 {
-        let near = states.iter().filter(|state| self.near.contains(&Self::cell(state, self.unit))).count();
-        near as f64 / states.len().max(1) as f64
+    fn cell(state: &ImpactState) -> usize {
+        let row = (CELLS * state.normalised_speed()) as usize;
+        row * COLUMNS + (CELLS * state.phase().cycles()) as usize
     }
 
-    /// The share of the plane up to a speed that is near.
-    fn share_of_plane(&self, largest_speed: f64) -> f64 {
-        let (columns, rows) = (self.unit as i32, (self.unit * largest_speed) as i32 + 1);
-        let plane = (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row)));
-        plane.filter(|cell| self.near.contains(cell)).count() as f64 / f64::from(columns * rows)
+    /// The cells next to some of `cells` or in it; the last column touches the first.
+    fn near(self, cells: &[bool]) -> Vec<bool> {
+        let mut near = vec![false; cells.len()];
+        for (index, _) in cells.iter().enumerate().filter(|(_, occupied)| **occupied) {
+            let (row, column) = (index / COLUMNS, index % COLUMNS);
+            for row in row.saturating_sub(1)..(row + 2).min(self.rows) {
+                for across in [COLUMNS - 1, 0, 1] {
+                    near[row * COLUMNS + (column + across) % COLUMNS] = true;
+                }
+            }
+        }
+        near
     }
+}
+
+/// The share that is true.
+fn share(of: impl ExactSizeIterator<Item = bool>) -> f64 {
+    let all = of.len().max(1);
+    of.filter(|holds| *holds).count() as f64 / all as f64
+}
+
+fn largest_speed(states: &[ImpactState]) -> f64 {
+    states.iter().map(ImpactState::normalised_speed).fold(0.0, f64::max)
 }
 
 fn visited(axial_forcing: f64, states: &[ImpactState]) -> Visited {
@@ -161,8 +176,8 @@ fn visited(axial_forcing: f64, states: &[ImpactState]) -> Visited {
         axial_forcing,
         impacts: states.len(),
         arc_cycles: occupied_arc(states.iter().map(|state| state.phase().cycles())).unwrap_or_default(),
-        largest_speed: states.iter().map(ImpactState::normalised_speed).fold(0.0, f64::max),
-        cells: Cells::of(states, CELLS).cells.len(),
+        largest_speed: largest_speed(states),
+        cells: Grid::up_to(largest_speed(states)).occupied(states).into_iter().filter(|cell| *cell).count(),
     }
 }
 
@@ -180,8 +195,13 @@ fn recorded(orbits: &[Orbit], impacts: usize) -> Result<Vec<Vec<ImpactState>>, E
     orbit_diagram(orbits, 0, impacts, &Unobserved).map_err(ExperimentError::model)
 }
 
-/// The chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a while.
-fn saddle(axial_forcing: f64, from: &[ImpactState], inputs: Inputs) -> Result<Cells, ExperimentError> {
+/// States on the chaotic saddle at this Γ, near which orbits from the attractor before the crisis stay for a
+/// while.
+fn saddle(
+    axial_forcing: f64,
+    from: &[ImpactState],
+    inputs: Inputs,
+) -> Result<Vec<ImpactState>, ExperimentError> {
     let map = map(axial_forcing, inputs.restitution)?;
     let orbits: Vec<Orbit> = from
         .iter()
@@ -196,7 +216,7 @@ fn saddle(axial_forcing: f64, from: &[ImpactState], inputs: Inputs) -> Result<Ce
         .map(|(orbit, _)| orbit)
         .collect();
     let states = orbit_diagram(&stay, SADDLE_LIFE / 2, SADDLE_IMPACTS, &Unobserved)?;
-    Ok(Cells::of(&states.concat(), CELLS))
+    Ok(states.concat())
 }
 
 /// The widening at the crisis and the shadow beyond. `cycles` are those of a disk from rest, by Γ.
@@ -221,10 +241,15 @@ pub(super) fn explored(
     let shadow = |&(axial_forcing, _): &(f64, Option<usize>)| {
         let saddle = saddle(axial_forcing, &beside[0], inputs)?;
         let states = recorded(&[orbit_from_rest(axial_forcing, inputs)?], SHADOWING)?;
+        // A row more than that of the largest speed: the cells next to it.
+        let highest = largest_speed(&states[0]).max(after.largest_speed).max(largest_speed(&saddle));
+        let grid = Grid { rows: Grid::up_to(highest).rows + 1 };
+        let near = grid.near(&grid.occupied(&saddle));
+        let plane = Grid::up_to(after.largest_speed);
         Ok(Shadow {
             axial_forcing,
-            share_near: saddle.share(&states[0]),
-            share_of_plane: saddle.share_of_plane(after.largest_speed),
+            share_near: share(states[0].iter().map(|state| near[Grid::cell(state)])),
+            share_of_plane: share(near[..COLUMNS * plane.rows].iter().copied()),
         })
     };
     Ok(Explored {
