@@ -161,6 +161,7 @@ mod tests {
     use super::*;
     use crate::estimate::ensemble::TransientEnsemble;
     use crate::motor::rotor::transient::TransientSettings;
+    use crate::testing::golden_spread;
 
     fn statistics(motor: &System, members: usize) -> MotorStatistics {
         let settings = TransientSettings {
@@ -177,6 +178,35 @@ mod tests {
         let motor = System::motor().with_platform(|stator| stator.amplitude = 4e-11).expect("legal");
         assert!(motor.axial_forcing() < FRAC_1_PI);
         assert_eq!(unperturbed_orbit(&motor, ChatterPolicy::Complete), Ok(OrbitClass::AtRest));
+    }
+
+    /// The first impacts show the cycle that the last ones repeat, and a cycle that is longer is found, too.
+    #[test]
+    fn the_unperturbed_orbit_is_the_one_at_the_end() {
+        let mut longer = 0;
+        for k in 0..60_u64 {
+            let motor = System::motor()
+                .with_platform(|stator| stator.amplitude = [1e-8, 1e-9, 3e-10][(k % 3) as usize])
+                .and_then(|motor| {
+                    motor.with_disk(|rotor| {
+                        rotor.preload_acceleration = 1.0 + 9.0 * golden_spread(k);
+                        rotor.restitution = 0.9 * golden_spread(7 * k);
+                    })
+                })
+                .expect("legal");
+            let settings = MultiTossSettings {
+                transient_impacts: 0,
+                examined_impacts: EXAMINED_IMPACTS,
+                ..MultiTossSettings::default()
+            };
+            let phase = Phase::new(TOSS_START).expect("finite");
+            let start = InitialCondition::Contact { phase, angular_speed: 0.0 };
+            let all = multi_toss(motor, start, settings, &Unobserved).expect("no failure").class;
+            assert_eq!(unperturbed_orbit(&motor, ChatterPolicy::Complete), Ok(all), "{motor:?}");
+            longer +=
+                u32::from(matches!(all, OrbitClass::Chattering(cycle) if 2 * cycle.impacts > FIRST_EXAMINED));
+        }
+        assert!(longer > 0, "no cycle outlasts the first impacts");
     }
 
     #[test]

@@ -66,8 +66,14 @@ impl Chatter {
             for (system, chatter) in rotors {
                 chatter.sum(system, phase, duration);
             }
-            return;
+        } else {
+            Self::go_through(rotors, phase, duration);
         }
+    }
+
+    /// The impacts up to `duration` one by one.
+    fn go_through(rotors: &mut [(&DimensionlessSystem, Self)], phase: Phase, duration: f64) {
+        let Some(&(system, Self { launch_speed, .. })) = rotors.first() else { return };
         let Ok(launch) = Launch::new(phase, launch_speed) else { return };
         for impact in system.map().chatter_impacts(launch) {
             if impact.time > duration {

@@ -40,9 +40,9 @@ impl Case {
     }
 
     fn one_by_one(&self, duration: f64) -> Chatter {
-        let mut chatter = self.start();
-        chatter.go_through(&self.system, self.phase, duration);
-        chatter
+        let mut alone = [(&self.system, self.start())];
+        Chatter::go_through(&mut alone, self.phase, duration);
+        alone[0].1
     }
 }
 
@@ -63,6 +63,21 @@ fn an_impact_adds_its_work_and_its_slip_to_the_terms_that_balance() {
     record_impact(&mut ledger, energy);
     assert!((ledger.rotary_magnitude - (0.375 + 1.5)).abs() < 1e-15, "{ledger:?}");
     assert!((ledger.friction_loss - 0.5 * 2.75).abs() < 1e-15, "{ledger:?}");
+}
+
+/// Rotors whose friction, twist, load and speed differ, on the vertical motion that they share.
+#[test]
+fn rotors_on_one_vertical_motion_chatter_as_each_alone() {
+    for restitution in [0.0, 0.5, 1.0 - 1e-9] {
+        let cases: Vec<Case> = cases(restitution, 1.3, 40).collect();
+        assert!(cases.len() > 4, "{restitution}");
+        for Case { phase, speed, at, .. } in &cases {
+            let rotors = cases.iter().map(|case| (&case.system, case.spin));
+            let alone = |case: &Case| Chatter::new(&case.system, *phase, *speed, case.spin, at.duration);
+            let alone: Vec<Chatter> = cases.iter().map(alone).collect();
+            assert_eq!(Chatter::of_rotors(rotors, *phase, *speed, at.duration), alone);
+        }
+    }
 }
 
 /// Largest launch speed with which the disk attaches; `None` where the platform does not pull back.
