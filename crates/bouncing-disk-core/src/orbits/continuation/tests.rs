@@ -529,6 +529,12 @@ fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
         assert!(range.1 - range.0 < 1e-8 || parts[0].len() >= least, "{range:?}: {}", parts[0].len());
         for point in &parts[0] {
             assert!((range.0..=range.1).contains(&point.parameter));
+            // Its birth passes an orbit twice.
+            let monodromy = point.orbit.monodromy;
+            let trace = monodromy.x_axis.x + monodromy.y_axis.y;
+            assert!((point.trace - trace).abs() < 1e-9 * (1.0 + trace.abs()), "{range:?}: {point:?}");
+            let known = crate::numerics::elementary::pow(0.25, point.orbit.period() as f64);
+            assert!((point.determinant - known).abs() < 1e-9, "{range:?}: {point:?}");
             let map = branch.map_at(point.parameter).expect("legal");
             let states = &point.orbit.states;
             for (state, next) in states.iter().zip(states.iter().cycle().skip(1)) {
