@@ -7,6 +7,7 @@ use super::*;
 use crate::attractors::basin::{ATTACHED, BasinSettings, KnownOrbit, UNDECIDED};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::map;
+use crate::numerics::elementary::atan2;
 use crate::numerics::testing::stored;
 use crate::orbits::periodic::phase_difference;
 use crate::run::testing::StopAfter;
@@ -137,6 +138,28 @@ fn a_finer_polygon_is_the_same_curve() {
             assert!(worst <= 0.01, "{kind:?}: {worst}");
         }
     }
+}
+
+/// Between two parts that are long enough to be divided the polygon turns by no more than was asked.
+#[test]
+fn no_long_part_turns_by_more_than_was_asked() {
+    let map = map(0.561, 0.5);
+    let (chord, turn) = (0.05, 0.2);
+    let settings = settings(12.0).with_resolution(chord, turn).expect("legal");
+    let mut corners = 0;
+    for kind in [ManifoldKind::Stable, ManifoldKind::Unstable] {
+        let manifold = map.manifold(&saddle(&map), kind, &settings, &Unobserved).expect("grows");
+        for piece in manifold.pieces() {
+            let parts: Vec<_> =
+                piece.states.windows(2).map(|ends| displacement(&map, ends[0], ends[1])).collect();
+            for pair in parts.windows(2).filter(|pair| pair.iter().all(|part| part.length() > 0.1 * chord)) {
+                let turned = atan2(pair[0].perp_dot(pair[1]), pair[0].dot(pair[1])).abs();
+                assert!(turned <= turn + 1e-9, "{kind:?}: {turned}");
+                corners += 1;
+            }
+        }
+    }
+    assert!(corners > 100, "{corners}");
 }
 
 /// A saddle of two impacts has four branches, and those of its second impact are the images of the first's.

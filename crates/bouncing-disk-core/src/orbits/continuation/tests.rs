@@ -1,3 +1,5 @@
+use glam::DMat2;
+
 use super::*;
 use crate::flight::launch::Launch;
 use crate::map::impact_map::ImpactState;
@@ -537,11 +539,17 @@ fn the_parts_of_a_branch_do_not_depend_on_where_its_points_lie() {
             assert!((point.determinant - known).abs() < 1e-9, "{range:?}: {point:?}");
             let map = branch.map_at(point.parameter).expect("legal");
             let states = &point.orbit.states;
+            let mut around = DMat2::IDENTITY;
             for (state, next) in states.iter().zip(states.iter().cycle().skip(1)) {
-                let impact = map.step(*state).expect("flies");
+                let (impact, derivative) = map.step_with_derivative(*state).expect("flies");
+                around = derivative * around;
                 let apart = impact.phase.angle() - next.phase().angle();
                 assert!(crate::numerics::elementary::sin(apart).abs() < 1e-9, "{range:?}: {apart}");
             }
+            // Of a birth, which is an orbit passed twice, too.
+            let trace = around.x_axis.x + around.y_axis.y;
+            let off = [point.trace - trace, point.determinant - around.determinant()];
+            assert!(off[0].abs().max(off[1].abs()) < 1e-9, "{range:?}: {off:?}");
         }
     }
     assert_eq!(on.within((0.1, 0.3), 50), Ok(Vec::new()));
