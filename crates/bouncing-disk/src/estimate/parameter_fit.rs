@@ -259,16 +259,21 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, F
     if degrees == 0 {
         return Ok(1.0);
     }
-    // Wilson and Hilferty's approximation of the quantile.
     let expected = degrees as f64;
-    let spread = 2.0 / (9.0 * expected);
-    let root = 1.0 - spread + RARE * spread.sqrt();
-    let rare = expected * root * root * root;
+    let rare = rare_misfit(expected);
     let largest = model.settings.largest_misfit * rare;
     if misfit > largest {
         return refused(FitRefusal::Misfit { misfit, degrees_of_freedom: degrees, largest });
     }
     Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
+}
+
+/// The misfit that one fit of 10,000 exceeds, whose mean is `expected`: Wilson and Hilferty's approximation of
+/// the quantile of chi-squared.
+fn rare_misfit(expected: f64) -> f64 {
+    let spread = 2.0 / (9.0 * expected);
+    let root = 1.0 - spread + RARE * spread.sqrt();
+    expected * root * root * root
 }
 
 /// The factor by which a small number of computed members widens the intervals: their scatter is uncertain,

@@ -1,6 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
+use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{Phase, Progress, Unobserved};
 
@@ -372,4 +373,19 @@ fn a_fit_can_be_watched_and_stopped_and_has_one_result() {
         assert_eq!(pool.install(|| fit(&run, &[FRICTION, AMPLITUDE])), whole);
     }
     assert_eq!(fit(&run, &[FRICTION, AMPLITUDE]), whole);
+}
+
+/// For an even number of degrees the tail of chi-squared is a finite sum, that of a Poisson distribution.
+#[test]
+fn a_rare_misfit_is_that_of_one_fit_in_ten_thousand() {
+    for pairs in [2, 5, 10, 30] {
+        let half = 0.5 * rare_misfit(f64::from(2 * pairs));
+        let (mut term, mut sum) = (1.0, 0.0);
+        for k in 1..=pairs {
+            sum += term;
+            term *= half / f64::from(k);
+        }
+        let tail = exp(-half) * sum;
+        assert!((0.7e-4..1.1e-4).contains(&tail), "{pairs}: {tail}");
+    }
 }
