@@ -79,6 +79,21 @@ fn the_crisis_does_not_depend_on_the_search() {
     }
 }
 
+/// The attractors of other restitutions end at one forcing whatever the range. In some of these ranges the first
+/// step towards the tangency loses the fold and is shortened.
+#[test]
+fn the_crisis_does_not_depend_on_the_range() {
+    for (restitution, ranges) in [(0.4, [(0.6, 0.75), (0.65, 0.66)]), (0.7, [(0.3, 0.45), (0.4, 0.46)])] {
+        let forcings = ranges.map(|range| {
+            let crisis = search_of(restitution, range).crisis(None, &Unobserved).expect("no failure");
+            let crisis = crisis.expect("a crisis");
+            assert!(crisis.tangency.is_ok(), "{restitution} {range:?}: {:?}", crisis.tangency);
+            crisis.forcing
+        });
+        assert!((forcings[0] - forcings[1]).abs() <= 1e-12, "{restitution}: {forcings:?}");
+    }
+}
+
 /// The manifolds of these saddles touch where the attractor lives on, or is gone.
 #[test]
 fn tangencies_that_the_lives_of_orbits_deny_are_refused() {
