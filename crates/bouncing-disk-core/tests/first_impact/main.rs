@@ -5,6 +5,7 @@
 mod attack;
 mod campaign;
 mod cases;
+mod drives;
 mod drops;
 mod elementary;
 mod launches;
