@@ -29,6 +29,7 @@ pub mod reference;
 // The model reads a drop through the same check.
 pub use drive::contact::{ChatterDuration, ContactEnd};
 pub use drive::landing::{Doubt, DrivenImpact};
+pub use drive::pieces::MAX_PIECES;
 pub use drive::{DriveBounds, DriveState, MAX_HARMONICS};
 #[doc(hidden)]
 pub use drop::check_drop;

@@ -59,6 +59,8 @@ pub(super) struct Found {
     pub(super) on_kink: bool,
     pub(super) doubt: Option<Doubt>,
     pub(super) evaluations: u32,
+    /// From when to when the piece holds on which it is.
+    pub(super) piece: Option<(f64, f64)>,
 }
 
 impl Drive {
@@ -205,8 +207,18 @@ impl Drive {
         } else if wrapped > TAU - 1.0 && angle - (turns - periods) * TAU < 0.5 * TAU {
             turns -= 1.0;
         }
-        if wrapped < 0.0 {
-            wrapped = 0.0;
+        if let Some((begin, end)) = found.piece {
+            // Rounding must not put the impact on another piece.
+            let (from, to) = (begin - wrapped, wrapped - end);
+            if wrapped < begin && from < 1.0 {
+                wrapped = begin;
+            } else if to >= 0.0 && to < 1.0 {
+                wrapped = end.next_down();
+            } else if wrapped < 1.0 && end == TAU && begin > wrapped {
+                (wrapped, turns) = (TAU.next_down(), turns - 1.0);
+            } else if begin == 0.0 && wrapped > TAU - 1.0 && wrapped >= end {
+                (wrapped, turns) = (0.0, turns + 1.0);
+            }
         }
         let (mut whole, mut remainder) = (periods, after);
         if remainder < 0.0 {
