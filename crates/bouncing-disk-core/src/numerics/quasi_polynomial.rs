@@ -270,11 +270,6 @@ impl QuasiPolynomial {
         self
     }
 
-    /// Gives the list of terms back, for another use of its memory.
-    pub(crate) fn into_terms(self) -> Vec<DampedSine> {
-        self.terms
-    }
-
     /// Value, derivatives and their bounds at t >= 0; the bound on the fourth derivative holds up to `to`.
     #[must_use]
     pub fn at(&self, t: f64, to: f64) -> Jet {

@@ -16,3 +16,4 @@ mod paper;
 mod properties;
 mod seams;
 mod shards;
+mod sums;

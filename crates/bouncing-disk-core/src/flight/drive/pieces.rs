@@ -553,7 +553,7 @@ mod tests {
         let half = 0.5 * TAU;
         let refusal = |pieces: &[(f64, [f64; 4])]| Drive::pieces(pieces).expect_err("refused");
         assert!(matches!(
-            refusal(&[(half, line(0.0, 1.0)), (half, line(half + 1e-9, -1.0))]),
+            refusal(&[(half, line(0.0, 1.0)), (half, line(half + 1e-9, -1.0 - 1e-9 / half))]),
             Error::HeightJump { piece: 1, jump } if (jump - 1e-9).abs() < 1e-15
         ));
         assert!(matches!(refusal(&[(half, line(0.0, 0.0))]), Error::OutOfRange { .. }));
