@@ -135,6 +135,8 @@ pub struct Jet {
     pub error: f64,
     /// Bound on the error of the slope.
     pub slope_error: f64,
+    /// Bound on the error of the second derivative.
+    pub bend_error: f64,
 }
 
 /// A polynomial of degree at most 3 plus damped sines.
@@ -274,7 +276,7 @@ impl QuasiPolynomial {
     #[must_use]
     pub fn at(&self, t: f64, to: f64) -> Jet {
         let mut jet = Jet { fourth: self.steady_fourth, ..Jet::default() };
-        let mut growing = 0.0;
+        let (mut growing, mut bends) = (0.0, 0.0);
         for term in &self.terms {
             if term.decay == 0.0 && !term.with_time {
                 let (w, c, s) = (term.frequency, term.cosine, term.sine);
@@ -298,9 +300,10 @@ impl QuasiPolynomial {
                 // Beyond the end of the doubles' range the search is hopeless anyway.
                 debug_assert!(jet.fourth >= before || to.is_infinite());
                 if term.with_time {
-                    growing += term.size()
-                        * (1.0 + (term.decay + term.frequency) * t).min(2.0)
-                        * ((term.decay + term.frequency) * t).min(1.0 + (term.decay + term.frequency) * t);
+                    let rate = term.decay + term.frequency;
+                    let x = rate * t;
+                    growing += term.size() * (1.0 + x).min(2.0) * x.min(1.0 + x);
+                    bends += ROUNDING * term.size() * rate * (2.0 + x);
                 }
             }
         }
@@ -316,6 +319,7 @@ impl QuasiPolynomial {
         jet.error = self.start_error[0]
             + t * self.start_error[1]
             + ROUNDING * (0.125 * (c0.abs() + t * near) + (t * t * s2).min(s0 + t * s1) + t * growing);
+        jet.bend_error = ROUNDING * (0.125 * pull + s2) + bends;
         jet.slope_error = self.start_error[1] + ROUNDING * (0.125 * near + (t * s2).min(2.0 * s1) + growing);
         jet
     }
@@ -373,6 +377,7 @@ impl Jet {
     /// [`Self::clears`] for a function that starts at zero: what is left when the start is divided out.
     fn clears_from_zero(&self, h: f64) -> bool {
         let ([v, a, j, m], rounding) = self.terms(h);
+        let a = a - self.bend_error * h;
         let end = (j - 0.25 * m) * (1.0 / 6.0);
         if v > 0.0 {
             let middle = v + a * (1.0 / 3.0) + j * (1.0 / 18.0);
@@ -380,7 +385,8 @@ impl Jet {
         } else if a > 0.0 {
             all_positive([a, a + j * (1.0 / 6.0), 0.5 * a + end], rounding)
         } else {
-            a == 0.0 && j > 0.0 && end > rounding
+            // From rest with a bend that is nothing but rounding.
+            self.bend >= 0.0 && j > 0.0 && end > rounding
         }
     }
 
@@ -402,6 +408,7 @@ impl Jet {
     /// [`Self::crosses_once`] for a function that starts at zero and leaves it upwards.
     fn returns_once(&self, h: f64) -> bool {
         let ([v, a, j, m], rounding) = self.terms(h);
+        let a = a + self.bend_error * h;
         let falls = if v > 0.0 {
             all_negative([a, a + j * (1.0 / 3.0), a + j * (2.0 / 3.0) + 0.25 * m], rounding)
         } else {
@@ -441,6 +448,17 @@ impl Jet {
         h
     }
 
+    /// Whether a function that starts at zero is back after `h` before its bend has changed by a rounding:
+    /// the products of a search would underflow.
+    fn is_brief(&self, h: f64) -> bool {
+        let (change, rest) = (self.third.abs() * h, self.fourth * h * h);
+        if self.slope > 0.0 {
+            change + rest < 1.0e-17 * self.bend.abs()
+        } else {
+            self.fourth * h < 1.0e-17 * self.third.abs()
+        }
+    }
+
     /// How far the root next to here may be off: the error of the value over the slope, at a graze its root.
     pub(crate) fn root_error(&self) -> f64 {
         let steep = self.error / self.slope.abs();
@@ -467,6 +485,17 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
             let h = guess * reach;
             let certain = h > 0.0 && if from_zero { jet.returns_once(h) } else { jet.crosses_once(h) };
             if certain {
+                if from_zero && jet.is_brief(guess) {
+                    let evaluations = search.evaluations;
+                    if guess > left {
+                        return Ok(FirstRoot::None { evaluations });
+                    }
+                    let slope = if jet.slope > 0.0 { -jet.slope } else { -0.5 * guess * jet.bend };
+                    let (bend, third) = (jet.bend.abs(), jet.third.abs());
+                    let unsure = if jet.slope > 0.0 { bend } else { bend.min(third * guess) };
+                    let error = guess * (ROUNDING + jet.bend_error / unsure);
+                    return Ok(FirstRoot::Root(Root { at: guess, error, slope, evaluations }));
+                }
                 if h > left && search.jet(to).value > 0.0 {
                     return Ok(doubtful(doubt, t, search.evaluations));
                 }

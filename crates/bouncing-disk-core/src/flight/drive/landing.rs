@@ -236,7 +236,7 @@ impl Drive {
                 velocity: root.slope.min(0.0),
                 evaluations: found.evaluations,
             },
-            error: root.error + ROUNDING * (periods * TAU + rest.abs()),
+            error: root.error + ROUNDING * (periods * TAU + rest.abs() + root.at),
             on_kink: found.on_kink,
             doubt: found.doubt,
         }

@@ -378,7 +378,9 @@ impl Pieces {
             }
             let next = (piece + 1) % self.count();
             if let Some(root) = this.root {
-                let near = |distance: f64| distance.abs() <= root.error;
+                // Also where only the rounding of the phase puts it on the kink.
+                let rounding = f64::EPSILON * (time + elapsed);
+                let near = |distance: f64| distance.abs() <= root.error + rounding;
                 found.on_kink = near(root.at - left) && self.jumps[next] != 0.0
                     || at_joint && near(root.at) && self.jumps[piece] != 0.0;
                 found.piece = Some((self.starts[piece], self.starts[piece + 1]));
@@ -390,10 +392,9 @@ impl Pieces {
             }
             (gap, velocity, error) = stretch.end(left);
             elapsed += left;
-            let before = velocity;
             velocity -= self.jumps[next];
-            if gap <= error[0] && elapsed > 0.0 && before < 0.0 && velocity > 0.0 {
-                // The corner of a crest, missed or touched.
+            if gap <= error[0] && error[0] > 0.0 && velocity > -error[1] {
+                // A crest or a corner, missed or touched.
                 found.doubt = found.doubt.or(Some(Doubt { at: elapsed, bound: 2.0 * error[0] }));
             }
             gap = gap.max(0.0);
