@@ -335,9 +335,10 @@ impl QuasiPolynomial {
     }
 }
 
-/// Whether a polynomial is positive on [0, 1] because its Bernstein coefficients are, beyond the `rounding`.
+/// Whether a polynomial is positive on (0, 1] because its Bernstein coefficients are: the first one is exact, the
+/// others have this `rounding`.
 fn all_positive<const N: usize>(bernstein: [f64; N], rounding: f64) -> bool {
-    bernstein.iter().all(|&b| b > rounding)
+    bernstein[0] > 0.0 && bernstein[1..].iter().all(|&b| b > rounding)
 }
 
 /// Whether a polynomial is negative on [0, 1].

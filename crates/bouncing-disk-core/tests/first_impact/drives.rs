@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::flight::DrivenImpact;
-use bouncing_disk_core::numerics::real::Real;
 use bouncing_disk_core::{
     ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactMap, ImpactState, Launch, OrbitEvent, Phase,
     Vibration,

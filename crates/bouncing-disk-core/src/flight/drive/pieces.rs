@@ -392,7 +392,10 @@ impl Pieces {
             }
             (gap, velocity, error) = stretch.end(left);
             elapsed += left;
-            velocity -= self.jumps[next];
+            if self.jumps[next] != 0.0 {
+                velocity -= self.jumps[next];
+                error[1] += ROUNDING * self.bounds.speed;
+            }
             if gap <= error[0] && error[0] > 0.0 && velocity > -error[1] {
                 // A crest or a corner, missed or touched.
                 found.doubt = found.doubt.or(Some(Doubt { at: elapsed, bound: 2.0 * error[0] }));
@@ -403,8 +406,10 @@ impl Pieces {
             if elapsed >= FIRST_PASS
                 && let Some((passed, after)) = self.pass(piece, elapsed, disk_height, disk_speed)
             {
-                piece = passed;
-                elapsed = after;
+                if after >= to {
+                    return Ok(found);
+                }
+                (piece, elapsed) = (passed, after);
                 left = self.length(piece);
                 let t = elapsed;
                 let platform = at(self.coefficients[piece], 0.0);
