@@ -222,6 +222,19 @@ impl From<Vibration> for Drive {
     }
 }
 
+/// Sine and cosine of number times time + angle, for a whole number up to 32: the rounding of the product and
+/// of the sum is made good.
+fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
+    // With 47 bits the product is exact.
+    let head = f64::from_bits(time.to_bits() & !0x3f);
+    let product = number * head;
+    let sum = product + angle;
+    let back = sum - product;
+    let lost = ((product - (sum - back)) + (angle - back)) + number * (time - head);
+    let (sin, cos) = sin_cos(sum);
+    (sin + lost * cos, cos - lost * sin)
+}
+
 impl Fourier {
     fn is_periodic(&self) -> bool {
         self.duration == f64::INFINITY
@@ -230,7 +243,7 @@ impl Fourier {
     fn at(&self, time: f64) -> DriveState {
         let mut state = DriveState::default();
         for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = sin_cos(number * time + angle);
+            let (sin, cos) = turned(number, time, angle);
             let size = amplitude + rate * time;
             state.height += size * sin;
             state.velocity += size * number * cos + rate * sin;
@@ -240,15 +253,15 @@ impl Fourier {
         state
     }
 
-    /// Minus `derivative` times derived drive about `time`, as terms of a quasi-polynomial.
-    fn terms(&self, time: f64, mut terms: Vec<DampedSine>, signed: f64) -> Vec<DampedSine> {
-        terms.clear();
+    /// Minus the height from `time` on, as terms of a quasi-polynomial.
+    fn falling_terms(&self, time: f64) -> Vec<DampedSine> {
+        let mut terms = Vec::with_capacity(self.harmonics.len());
         for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = sin_cos(number * time + angle);
-            let size = signed * (amplitude + rate * time);
+            let (sin, cos) = turned(number, time, angle);
+            let size = -(amplitude + rate * time);
             terms.push(DampedSine::steady(size * sin, size * cos, number));
             if rate != 0.0 {
-                let slope = signed * rate;
+                let slope = -rate;
                 let steady = DampedSine::steady(slope * sin, slope * cos, number);
                 terms.push(DampedSine { with_time: true, ..steady });
             }

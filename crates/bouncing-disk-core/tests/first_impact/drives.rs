@@ -580,7 +580,8 @@ fn the_derivative_is_that_of_differences() {
 
 /// By hand: on a triangle the impacts of one period may be anywhere on a slope u = 2 a/pi that they meet with
 /// w = -2 pi/(1 + r): the flight lasts 2 pi for any phase. That is a neutral family, multipliers 1 and r^2,
-/// but for the slope: u = pi (1 - r)/(1 + r).
+/// but for the slope: u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the flight above a slope lasts,
+/// 2 r 2 pi/(1 + r), belong to it.
 #[test]
 fn the_triangle_has_a_neutral_family_of_period_one() {
     for restitution in [0.2, 0.5, 0.8] {
@@ -589,7 +590,14 @@ fn the_triangle_has_a_neutral_family_of_period_one() {
         for phase in [0.3, 0.9, 1.4, 5.0] {
             let state = ImpactState::new(Phase::new(phase).unwrap(), -TAU / (1.0 + restitution)).unwrap();
             let (landing, derivative) = map.step_with_derivative(state).unwrap();
-            assert!((landing.impact.duration() - TAU).abs() < 1e-14 && landing.impact.turns == 1);
+            let launch_speed = restitution * TAU / (1.0 + restitution);
+            if (0.25 * TAU - phase).rem_euclid(TAU) > 2.0 * launch_speed {
+                // Far before the crest the slope itself hits the disk first.
+                assert!((landing.impact.duration() - 2.0 * launch_speed).abs() < 1e-14);
+                continue;
+            }
+            assert!((landing.impact.duration() - TAU).abs() < 1e-14, "{restitution} {landing:?}");
+            assert_eq!(landing.impact.turns, 1, "{restitution} {landing:?}");
             assert!((landing.impact.velocity - state.velocity()).abs() < 1e-14);
             assert!((derivative.x_axis.x - 1.0).abs() < 1e-13 && derivative.x_axis.y.abs() < 1e-13);
             assert!((derivative.determinant() - restitution * restitution).abs() < 1e-13);
@@ -740,5 +748,43 @@ fn a_disk_that_separates_flies() {
         let DrivenEvent::Impact(landing) = next else { panic!("{next:?}") };
         assert!(landing.impact.duration() > 1e-6, "{landing:?} on {:?}", map.drive());
         separated += 1;
+    }
+}
+
+/// Least times of rounds by turns, of the same launches: for the record in docs/numerics/drives.md.
+#[test]
+#[ignore = "prints times"]
+fn drive_costs() {
+    let mut random = SplitMix::new(99);
+    let p = 1.8;
+    let launches: Vec<_> = (0..20_000)
+        .map(|_| Launch::new(Phase::new(random.angle()).unwrap(), 6.0 * random.unit()).unwrap())
+        .collect();
+    let vibration = Vibration::new(p).unwrap();
+    let samples: Vec<_> = (0..16_384).map(|k| p * libm::sin(f64::from(k) / 16_384.0 * TAU)).collect();
+    let drives = [
+        ("one harmonic", Drive::fourier(&[(p, 0.0)]).unwrap()),
+        ("three harmonics", Drive::fourier(&[(p, 0.0), (0.2, 1.0), (0.1, 2.0)]).unwrap()),
+        ("triangle", Drive::triangle(p).unwrap()),
+        ("parabolas", Drive::parabolas(p).unwrap()),
+        ("cubics", Drive::cubics(p).unwrap()),
+        ("16,384 samples", Drive::sampled(&samples).unwrap()),
+    ];
+    let mut least = [f64::INFINITY; 7];
+    let mut sum = 0.0;
+    for _ in 0..20 {
+        let mut time = |index: usize, impact: &dyn Fn(Launch) -> f64| {
+            let start = std::time::Instant::now();
+            sum += launches.iter().map(|&launch| impact(launch)).sum::<f64>();
+            least[index] = least[index].min(start.elapsed().as_secs_f64() / launches.len() as f64);
+        };
+        time(0, &|launch| vibration.first_impact(launch).unwrap().velocity);
+        for (index, (_, drive)) in (1..).zip(&drives) {
+            time(index, &|launch| drive.first_impact(launch).unwrap().impact.velocity);
+        }
+    }
+    println!("the sine: {:.1} ns ({sum})", least[0] * 1e9);
+    for ((name, _), time) in drives.iter().zip(&least[1..]) {
+        println!("{name}: {:.1} ns, {:.2} times the sine", time * 1e9, time / least[0]);
     }
 }

@@ -3,8 +3,8 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, Fourier, Harmonic, Shape};
-use crate::numerics::elementary::{sin_cos, wrapped_angle};
+use super::{Drive, Fourier, Harmonic, Shape, turned};
+use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, finite};
 use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
 
@@ -115,7 +115,7 @@ impl Fourier {
         }
         let mut terms = Vec::with_capacity(self.harmonics.len());
         for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = sin_cos(number * time + angle);
+            let (sin, cos) = turned(number, time, angle);
             let (size, turn) = (number * number * (amplitude + rate * time), 2.0 * number * rate);
             terms.push(DampedSine::steady(turn * cos - size * sin, -turn * sin - size * cos, number));
             if rate != 0.0 {

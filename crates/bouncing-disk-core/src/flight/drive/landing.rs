@@ -246,7 +246,7 @@ impl Drive {
 impl Fourier {
     /// The gap from this start on.
     fn gap(&self, start: Start, error: [f64; 2]) -> QuasiPolynomial {
-        let terms = self.terms(start.time, Vec::with_capacity(self.harmonics.len()), -1.0);
+        let terms = self.falling_terms(start.time);
         let gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
         if !start.separates {
             return gap;
