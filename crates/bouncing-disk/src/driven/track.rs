@@ -1,0 +1,234 @@
+//! One motion of the platform, its height or its angle: the core's [`Drive`] and what its derivatives are made
+//! of, for the roots of friction.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use bouncing_disk_core::Drive;
+use bouncing_disk_core::Error;
+use bouncing_disk_core::flight::DriveState;
+use bouncing_disk_core::numerics::elementary::{sin_cos, wrapped_angle};
+use bouncing_disk_core::numerics::quasi_polynomial::DampedSine;
+
+/// (amplitude + rate t) sin(number t + angle).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Sine {
+    number: f64,
+    amplitude: f64,
+    rate: f64,
+    angle: f64,
+}
+
+/// The height of a platform, or its angle, over time in radians of its fundamental.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Track {
+    drive: Drive,
+    sines: Arc<[Sine]>,
+    /// When the pieces begin, in [0, 2 pi).
+    knots: Arc<[f64]>,
+    /// When the velocity jumps, and by how much.
+    kinks: Arc<[(f64, f64)]>,
+}
+
+/// The next time of a list: how far away, when, and what belongs to it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Next {
+    pub(crate) after: f64,
+    pub(crate) time: f64,
+    pub(crate) jump: f64,
+}
+
+impl Track {
+    /// A sum of a_j sin(j t + phi_j).
+    pub(crate) fn sines(harmonics: &[(f64, f64)]) -> Result<Self, Error> {
+        let ramps: Vec<_> = harmonics.iter().map(|&(amplitude, angle)| (amplitude, 0.0, angle)).collect();
+        Ok(Self::of_sines(Drive::fourier(harmonics)?, &ramps))
+    }
+
+    /// A sum of (a_j + b_j t) sin(j t + phi_j) for t in [0, `duration`].
+    pub(crate) fn ramps(harmonics: &[(f64, f64, f64)], duration: f64) -> Result<Self, Error> {
+        Ok(Self::of_sines(Drive::ramped_fourier(harmonics, duration)?, harmonics))
+    }
+
+    fn of_sines(drive: Drive, harmonics: &[(f64, f64, f64)]) -> Self {
+        let sines = harmonics
+            .iter()
+            .enumerate()
+            .filter(|(_, (amplitude, rate, _))| *amplitude != 0.0 || *rate != 0.0)
+            .map(|(index, &(amplitude, rate, angle))| {
+                Sine { number: (index + 1) as f64, amplitude, rate, angle: wrapped_angle(angle) }
+            })
+            .collect();
+        Self { drive, sines, knots: Arc::new([]), kinks: Arc::new([]) }
+    }
+
+    /// Pieces (duration, [c0, c1, c2, c3]) of one period.
+    pub(crate) fn pieces(pieces: &[(f64, [f64; 4])]) -> Result<Self, Error> {
+        let drive = Drive::pieces(pieces)?;
+        // The same sums as the core's.
+        let sums = pieces.iter().scan(0.0, |time, (duration, _)| {
+            let start = *time;
+            *time += duration;
+            Some(start)
+        });
+        let knots = sums.collect();
+        Ok(Self::of_knots(drive, knots))
+    }
+
+    /// The periodic cubic spline through these.
+    pub(crate) fn sampled(samples: &[f64]) -> Result<Self, Error> {
+        let drive = Drive::sampled(samples)?;
+        let count = samples.len() as f64;
+        let knots = (0..samples.len()).map(|k| k as f64 / count * TAU).collect();
+        Ok(Self::of_knots(drive, knots))
+    }
+
+    fn of_knots(drive: Drive, knots: Arc<[f64]>) -> Self {
+        let kinks = drive.kinks().collect();
+        Self { drive, sines: Arc::new([]), knots, kinks }
+    }
+
+    pub(crate) const fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    pub(crate) fn at(&self, time: f64) -> DriveState {
+        self.drive.at(time)
+    }
+
+    /// The velocity just before `time`.
+    pub(crate) fn velocity_before(&self, time: f64) -> f64 {
+        let jump = self.kinks.iter().find(|(kink, _)| kink.to_bits() == time.to_bits());
+        self.drive.velocity(time) - jump.map_or(0.0, |(_, jump)| *jump)
+    }
+
+    /// Until when the track is defined: infinite unless it is a ramp.
+    pub(crate) fn duration(&self) -> f64 {
+        self.drive.duration()
+    }
+
+    pub(crate) fn is_still(&self) -> bool {
+        self.drive.bounds().speed == 0.0
+    }
+
+    /// The highest number of a harmonic.
+    pub(crate) fn highest_number(&self) -> f64 {
+        self.sines.iter().fold(1.0, |most, sine| sine.number.max(most))
+    }
+
+    /// The next start of a piece after `time`.
+    pub(crate) fn next_knot(&self, time: f64) -> Option<Next> {
+        let first = *self.knots.first()?;
+        let index = self.knots.partition_point(|&knot| knot <= time);
+        Some(match self.knots.get(index) {
+            Some(&knot) => Next { after: knot - time, time: knot, jump: 0.0 },
+            None => Next { after: first + (TAU - time), time: first, jump: 0.0 },
+        })
+    }
+
+    /// The next jump of the velocity after `time`.
+    pub(crate) fn next_kink(&self, time: f64) -> Option<Next> {
+        let first = *self.kinks.first()?;
+        let index = self.kinks.partition_point(|&(kink, _)| kink <= time);
+        Some(match self.kinks.get(index) {
+            Some(&(kink, jump)) => Next { after: kink - time, time: kink, jump },
+            None => Next { after: first.0 + (TAU - time), time: first.0, jump: first.1 },
+        })
+    }
+
+    /// Adds `factor` times the velocity about `time`, less its value and slope there, to polynomial (of degrees
+    /// 2 and 3) and terms.
+    pub(crate) fn add_velocity(
+        &self,
+        time: f64,
+        factor: f64,
+        bends: &mut [f64; 2],
+        terms: &mut Vec<DampedSine>,
+    ) {
+        if !self.knots.is_empty() {
+            bends[0] += 0.5 * factor * self.at(time).jerk;
+        }
+        for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
+            let (sin, cos) = sin_cos(number * time + angle);
+            let swing = factor * number * (amplitude + rate * time);
+            let slope = factor * rate;
+            push(terms, number, [swing * cos + slope * sin, slope * cos - swing * sin]);
+            push_with_time(terms, number, [slope * number * cos, -slope * number * sin]);
+        }
+    }
+
+    /// Adds `factor` times the acceleration about `time`, less its value and slope there, to the terms: pieces
+    /// have none.
+    pub(crate) fn add_acceleration(&self, time: f64, factor: f64, terms: &mut Vec<DampedSine>) {
+        for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
+            let (sin, cos) = sin_cos(number * time + angle);
+            let swing = factor * number * number * (amplitude + rate * time);
+            let slope = factor * number * rate;
+            push(terms, number, [2.0 * slope * cos - swing * sin, -2.0 * slope * sin - swing * cos]);
+            push_with_time(terms, number, [-slope * number * sin, -slope * number * cos]);
+        }
+    }
+}
+
+fn push(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [f64; 2]) {
+    terms.push(DampedSine { cosine, sine, frequency, decay: 0.0, with_time: false });
+}
+
+fn push_with_time(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [f64; 2]) {
+    if cosine != 0.0 || sine != 0.0 {
+        terms.push(DampedSine { cosine, sine, frequency, decay: 0.0, with_time: true });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::numerics::quasi_polynomial::QuasiPolynomial;
+
+    use super::*;
+
+    fn tracks() -> [Track; 4] {
+        let half = 0.5 * TAU;
+        [
+            Track::sines(&[(1.2, 0.3), (0.0, 0.0), (0.4, 5.0)]).expect("legal"),
+            Track::ramps(&[(1.2, 0.1, 0.3), (0.2, -0.05, 2.0)], 20.0).expect("legal"),
+            Track::pieces(&[(half, [0.0, half, -1.0, 0.0]), (half, [0.0, -half, 1.0, 0.0])]).expect("legal"),
+            Track::sampled(&[0.0, 1.0, 0.3, -0.7, -0.1, 0.2]).expect("legal"),
+        ]
+    }
+
+    /// Velocity and acceleration by the terms, as far as the next knot, and by the drive.
+    #[test]
+    fn the_terms_are_those_of_the_drive() {
+        for track in tracks() {
+            for time in [0.0, 0.7, 2.0, 4.4, 6.1] {
+                let here = track.at(time);
+                let (mut bends, mut terms) = ([0.0; 2], Vec::new());
+                track.add_velocity(time, -2.0, &mut bends, &mut terms);
+                let start = [-2.0 * here.velocity, -2.0 * here.acceleration];
+                let velocity = QuasiPolynomial::anchored(start, [0.0; 2], bends, terms).expect("legal");
+                let mut terms = Vec::new();
+                track.add_acceleration(time, -2.0, &mut terms);
+                let start = [-2.0 * here.acceleration, -2.0 * here.jerk];
+                let acceleration = QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms).expect("legal");
+                let span = track.next_knot(time).map_or(3.0, |next| next.after);
+                for step in 0..8 {
+                    let after = span * f64::from(step) / 8.0;
+                    let there = track.at(time + after);
+                    let error = velocity.at(after, span).value + 2.0 * there.velocity;
+                    assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
+                    let error = acceleration.at(after, span).value + 2.0 * there.acceleration;
+                    assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn knots_come_one_after_the_other() {
+        let [sines, _, pieces, sampled] = tracks();
+        assert_eq!(sines.next_knot(1.0), None);
+        let next = pieces.next_knot(0.5 * TAU).expect("there are two");
+        assert!((next.after - 0.5 * TAU).abs() < 1e-15 && next.time == 0.0);
+        assert!((0..6).all(|k| sampled.next_knot(f64::from(k)).is_some_and(|next| next.after > 0.0)));
+    }
+}
