@@ -46,16 +46,14 @@ mod contact;
 pub(crate) mod engine;
 pub(crate) mod motor;
 pub(crate) mod schedule;
-#[cfg(test)]
-mod tests;
 pub(crate) mod toss;
 pub(crate) mod track;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use engine::DrivenEngine;
-//pub use motor::{SpeedAtLoad, speed_curve, transient};
-//pub use schedule::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine, ScheduledRecord};
-//pub use toss::{DrivenToss, DrivenTossOrbit, multi_toss, single_toss};
+pub use motor::{SpeedAtLoad, speed_curve, transient};
+pub use schedule::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine, ScheduledRecord};
+pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss};
 
 /// A disk on a platform that moves in any way, without units, as
 /// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem) is for a sine: time in radians of the

@@ -68,7 +68,14 @@ impl DrivenSystem {
     }
 
     /// One impact, after a flight of this duration.
-    fn strike(&self, rest: &mut Rest, at: f64, flight: f64, (velocity, platform): (f64, f64), restitution: f64) {
+    fn strike(
+        &self,
+        rest: &mut Rest,
+        at: f64,
+        flight: f64,
+        (velocity, platform): (f64, f64),
+        restitution: f64,
+    ) {
         let change = change_in_flight(self.load, rest.speed, flight);
         let work = self.load * change.angle;
         rest.ledger.record_rotary_change(rest.speed, change.speed);

@@ -55,8 +55,11 @@ impl Track {
             .iter()
             .enumerate()
             .filter(|(_, (amplitude, rate, _))| *amplitude != 0.0 || *rate != 0.0)
-            .map(|(index, &(amplitude, rate, angle))| {
-                Sine { number: (index + 1) as f64, amplitude, rate, angle: wrapped_angle(angle) }
+            .map(|(index, &(amplitude, rate, angle))| Sine {
+                number: (index + 1) as f64,
+                amplitude,
+                rate,
+                angle: wrapped_angle(angle),
             })
             .collect();
         Self { drive, sines, knots: Arc::new([]), kinks: Arc::new([]) }
@@ -209,7 +212,8 @@ mod tests {
                 let mut terms = Vec::new();
                 track.add_acceleration(time, -2.0, &mut terms);
                 let start = [-2.0 * here.acceleration, -2.0 * here.jerk];
-                let acceleration = QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms).expect("legal");
+                let acceleration =
+                    QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms).expect("legal");
                 let span = track.next_knot(time).map_or(3.0, |next| next.after);
                 for step in 0..8 {
                     let after = span * f64::from(step) / 8.0;

@@ -114,7 +114,7 @@ impl Waveform {
             return Track::sampled(&samples).map_err(refuse);
         }
         let (pieces, phase) = self.pieces(of)?;
-        let total: f64 = pieces.iter().map(|(duration, _)| duration).sum();
+        let total = pieces.iter().fold(0.0, |sum, (duration, _)| sum + duration);
         if pieces.iter().all(|(duration, _)| *duration > 0.0) {
             let legal = (total - 1.0).abs() <= 1.0e-12;
             check(legal, "sum of the durations of the pieces", total, "1 (in periods)")?;
@@ -144,8 +144,11 @@ impl Waveform {
                 let legal = (1.0e-9..=1.0 - 1.0e-9).contains(&rise);
                 check(legal, "rise", rise, "[1e-9, 1 - 1e-9], a share of the period")?;
                 let (up, down) = (2.0 * a / rise, -2.0 * a / (1.0 - rise));
-                let pieces =
-                    vec![(0.5 * rise, line(0.0, up)), (1.0 - rise, line(a, down)), (0.5 * rise, line(-a, up))];
+                let pieces = vec![
+                    (0.5 * rise, line(0.0, up)),
+                    (1.0 - rise, line(a, down)),
+                    (0.5 * rise, line(-a, up)),
+                ];
                 (pieces, phase)
             }
             Self::Parabolas { amplitude: a, phase } => {
@@ -198,7 +201,8 @@ impl Waveform {
 
     /// A size far above all heights and accelerations over a period; 1 where there is none.
     fn size(&self) -> f64 {
-        let largest = |numbers: &mut dyn Iterator<Item = f64>| numbers.fold(0.0, |most: f64, x| most.max(x.abs()));
+        let largest =
+            |numbers: &mut dyn Iterator<Item = f64>| numbers.fold(0.0, |most: f64, x| most.max(x.abs()));
         let size = match self {
             Self::Fourier(harmonics) => largest(&mut harmonics.iter().map(|(a, _)| *a)),
             Self::Pieces(pieces) => largest(&mut pieces.iter().flat_map(|(_, c)| c.iter().copied())),
@@ -289,7 +293,10 @@ impl DrivenPlatformParameters {
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "DrivenPlatformParameters", into = "DrivenPlatformParameters"))]
+#[cfg_attr(
+    feature = "serde",
+    serde(try_from = "DrivenPlatformParameters", into = "DrivenPlatformParameters")
+)]
 pub struct DrivenPlatform {
     parameters: DrivenPlatformParameters,
 }
@@ -408,7 +415,7 @@ mod tests {
             (Waveform::Pieces(vec![(0.5, line(0.0, 0.0)), (0.0, line(0.0, 0.0))]), "piece number 1 of 2"),
             (Waveform::Pieces(vec![(f64::NAN, line(0.0, 0.0))]), "piece number 0 of 1"),
             (
-                Waveform::Pieces(vec![(0.5, line(0.0, 0.2)), (0.5, line(0.125, -0.2))]),
+                Waveform::Pieces(vec![(0.5, line(0.0, 0.2)), (0.5, line(0.125, -0.25))]),
                 "the height jumps by 0.025",
             ),
             (Waveform::Sampled(vec![0.0, 0.1]), "number of samples = 2"),
