@@ -156,36 +156,34 @@ impl DrivenSystem {
         speed: f64,
         limit: f64,
     ) -> Result<Option<f64>, Error> {
-        let d = direction.sign();
         let mut known = Some(speed);
         self.first_fall(at, limit, |here, passed| {
             // Carried from knot to knot by the closed form.
-            let value = known.take().unwrap_or_else(|| self.slip_after(direction, at, speed, passed, here));
-            let ([mut rate, change], [doubt, _]) = self.growth(direction, here);
-            if value <= 0.0 {
-                if rate <= doubt && change <= 0.0 || rate < -doubt {
-                    return Ok(None);
-                }
-                rate = rate.max(0.0);
-                if rate <= doubt {
-                    rate = 0.0;
-                }
+            let value = known.take().unwrap_or_else(|| self.slip_after(direction, at, speed, passed));
+            let ([rate, change], [doubt, _]) = self.growth(direction, here);
+            if value <= 0.0 && (rate <= doubt && change <= 0.0 || rate < -doubt) {
+                return Ok(None);
             }
-            let value = value.max(0.0);
-            let (mut bends, mut terms) = ([0.0; 2], Vec::new());
-            self.height.add_velocity(here, -self.friction, &mut bends, &mut terms);
-            self.angle.add_velocity(here, -d, &mut bends, &mut terms);
-            let error = if value > 0.0 { ROUNDING * value } else { 0.0 };
-            Ok(Some(QuasiPolynomial::anchored([value, rate], [error, doubt], bends, terms)?))
+            self.slip_from(direction, here, value).map(Some)
         })
     }
 
-    /// Slip speed after a slide.
-    fn slip_after(&self, direction: SlipDirection, at: f64, speed: f64, passed: f64, there: f64) -> f64 {
+    /// The slip speed from `here` on, with this value there: one that begins is not made to end by a rounding.
+    fn slip_from(&self, direction: SlipDirection, here: f64, value: f64) -> Result<QuasiPolynomial, Error> {
+        let ([rate, _], [doubt, _]) = self.growth(direction, here);
+        let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
+        let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
+        let (mut bends, mut terms) = ([0.0; 2], Vec::new());
+        self.height.add_velocity(here, -self.friction, &mut bends, &mut terms);
+        self.angle.add_velocity(here, -direction.sign(), &mut bends, &mut terms);
+        Ok(QuasiPolynomial::anchored([value, rate], [error, doubt], bends, terms)?)
+    }
+
+    /// Slip speed after a slide of this `span`.
+    fn slip_after(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> f64 {
         let d = direction.sign();
-        let lifted = self.height.at(there).velocity - self.height.at(at).velocity;
-        let turned = self.angle.at(there).velocity - self.angle.at(at).velocity;
-        speed - ((self.friction + d * self.load) * passed + self.friction * lifted + d * turned)
+        let (lifted, turned) = (self.height.change(at, span).0, self.angle.change(at, span).0);
+        speed - ((self.friction + d * self.load) * span + self.friction * lifted + d * turned)
     }
 
     /// The first time at which a function falls through zero, knot by knot; `of` gives it from a time on (and the
@@ -220,21 +218,13 @@ impl DrivenSystem {
         }
     }
 
-    /// A slide from `at` to `to` for `span` in `direction`, of a disk with angular `speed`.
-    pub(super) fn slide(
-        &self,
-        direction: SlipDirection,
-        speed: f64,
-        (at, to): (f64, f64),
-        span: f64,
-    ) -> RotaryChange {
-        let (from, end) = (self.height.at(at), self.height.at(to));
+    /// A slide from `at` on for `span` in `direction`, of a disk with angular `speed`.
+    pub(super) fn slide(&self, direction: SlipDirection, speed: f64, at: f64, span: f64) -> RotaryChange {
+        let (velocity, lift) = self.height.change(at, span);
         let (grip, load) = (direction.sign() * self.friction, self.load);
-        let impulse = span + (self.height.velocity_before(to) - from.velocity);
-        let twice = 0.5 * span * span + ((end.height - from.height) - from.velocity * span);
         RotaryChange {
-            speed: speed - (grip * impulse + load * span),
-            angle: span * (speed - 0.5 * load * span) - grip * twice,
+            speed: speed - (grip * (span + velocity) + load * span),
+            angle: span * (speed - 0.5 * load * span) - grip * (0.5 * span * span + lift),
         }
     }
 
@@ -268,6 +258,8 @@ impl DrivenSystem {
             let stretch = knot.map_or(left, |knot| knot.after.min(left));
             // A rule of eight points is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
+            let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
+            let Ok(slip) = self.slip_from(direction, here, value) else { break };
             let half = 0.5 * stretch / panels;
             let mut panel = 0.0;
             while panel < panels {
@@ -276,7 +268,7 @@ impl DrivenSystem {
                     for x in [middle - half * node, middle + half * node] {
                         let (s, beta) = (self.height.at(here + x), self.angle.at(here + x));
                         let force = half * weight * (1.0 + s.acceleration);
-                        let slip = self.slip_after(direction, at, speed, passed + x, here + x);
+                        let slip = slip.at(x, stretch).value;
                         work.carried += force * beta.velocity;
                         work.slipped += force * slip;
                         work.size += force.abs() * (beta.velocity.abs() + slip.abs());

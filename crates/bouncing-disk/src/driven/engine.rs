@@ -23,6 +23,9 @@ const COMPLETION_ERROR: f64 = 1.0e-14;
 /// that its chatter ends, as in the core.
 const SMALLEST_SPEED: f64 = 1.0e-18;
 
+/// Events of friction that come this much before the end of a contact, relative to its time, are the end itself.
+const JOINT: f64 = 16.0 * f64::EPSILON;
+
 /// What the disk does until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Stage {
@@ -104,7 +107,7 @@ impl DrivenEngine {
         let mut engine = Self::begin(system, now, policy);
         engine.state.angular_speed = moderate("angular_speed", speed)?;
         match gap {
-            None => engine.put_down(),
+            None => engine.put_down(None),
             Some(gap) => {
                 // The core checks the numbers of its flights.
                 engine.system.height().first_impact_within(now.at, gap, relative_velocity, 0.0)?;
@@ -199,25 +202,35 @@ impl DrivenEngine {
             let (gap, velocity) = if parted { (gap.max(0.0), velocity) } else { (0.0, 0.0) };
             self.take_off(gap, velocity);
         } else {
-            self.put_down();
+            self.put_down(Some(state.mode));
         }
         Ok(())
     }
 
-    /// A disk that is put on the platform.
-    fn put_down(&mut self) {
+    /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has had.
+    fn put_down(&mut self, mode: Option<Mode>) {
         let at = self.now.at;
-        if self.system.height.at(at).acceleration < -1.0 {
+        let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
+        if s.acceleration < -1.0 {
             self.take_off(0.0, 0.0);
             return;
         }
-        let platform_speed = self.system.angle.at(at).velocity;
         let speed = self.state.angular_speed;
-        let rounding = SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed);
-        if (speed - platform_speed).abs() <= rounding {
-            self.state.angular_speed = platform_speed;
+        let pull = self.system.load.abs()
+            + beta.acceleration.abs()
+            + self.system.friction * (1.0 + s.acceleration.abs());
+        let rounding = SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed + at * pull);
+        let moves_along = (speed - beta.velocity).abs() <= rounding;
+        if moves_along {
+            self.state.angular_speed = beta.velocity;
         }
-        self.land(None);
+        self.land();
+        if let (true, Some(Mode::Sliding(direction)), Stage::Contact(contact)) =
+            (moves_along, mode, &mut self.stage)
+        {
+            contact.slip = Some(direction);
+            self.state.mode = Mode::Sliding(direction);
+        }
     }
 
     fn take_off(&mut self, gap: f64, velocity: f64) {
@@ -228,10 +241,10 @@ impl DrivenEngine {
     }
 
     /// A disk that has come to rest on the platform, at its angular speed.
-    fn land(&mut self, spent: Option<SlipDirection>) {
+    fn land(&mut self) {
         let at = self.now.at;
         let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(at).velocity)
-            .or_else(|| self.system.onset(at, spent));
+            .or_else(|| self.system.onset(at, None));
         self.state.mode = mode_of(slip);
         self.stage = Stage::Contact(Contact { slip, since: at, end: None });
         // A contact without end, and one whose end cannot be found, is searched again at its event.
@@ -325,7 +338,7 @@ impl DrivenEngine {
         }
         if gap <= 0.0 && velocity == 0.0 && self.system.height.at(self.now.at).acceleration >= -1.0 {
             // At a joint a disk may fly at zero distance: it lies on the platform.
-            self.put_down();
+            self.put_down(None);
             return self.advance_within(limit);
         }
         let found = self.system.height().first_impact_within(self.now.at, gap, velocity, limit)?;
@@ -480,7 +493,7 @@ impl DrivenEngine {
         ledger.record_rounding(self.system.height().bounds().speed, s.velocity);
         let event = DrivenEvent::Attachment { impacts: rest.impacts, error_bound: error };
         let mut record = self.moved(duration, to, event, rest.angle, (before, after), ledger);
-        self.land(None);
+        self.land();
         record.after.mode = self.state.mode;
         DrivenRecord { axial_impulse: rest.axial_impulse, angular_impulse: rest.angular_impulse, ..record }
     }
@@ -495,7 +508,7 @@ impl DrivenEngine {
         record_jump(&mut ledger, &before, &after);
         let event = DrivenEvent::Attachment { impacts: 0, error_bound: error };
         let mut record = self.moved(0.0, self.now, event, 0.0, (before, after), ledger);
-        self.land(None);
+        self.land();
         record.after.mode = self.state.mode;
         DrivenRecord { axial_impulse: -speed, ..record }
     }
@@ -519,6 +532,8 @@ impl DrivenEngine {
             }
             None => self.system.stick_end(at, to)?,
         };
+        // Where nothing pulls at the disk, friction gives way as the contact ends.
+        let change = change.filter(|(span, _)| span + JOINT * (at + span + 1.0) < ends);
         if let Some((span, direction)) = change {
             return Ok(Some(match contact.slip {
                 Some(_) => self.end_slip(contact, direction, span),
@@ -624,7 +639,7 @@ impl DrivenEngine {
                 angle: self.system.angle.at(at).height - self.system.angle.at(self.now.at).height,
             },
             Mode::Sliding(direction) => {
-                self.system.slide(direction, self.state.angular_speed, (self.now.at, at), span)
+                self.system.slide(direction, self.state.angular_speed, self.now.at, span)
             }
         }
     }

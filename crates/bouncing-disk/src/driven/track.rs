@@ -8,7 +8,7 @@ use bouncing_disk_core::Drive;
 use bouncing_disk_core::Error;
 use bouncing_disk_core::flight::DriveState;
 use bouncing_disk_core::numerics::elementary::{sin_cos, wrapped_angle};
-use bouncing_disk_core::numerics::quasi_polynomial::DampedSine;
+use bouncing_disk_core::numerics::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
 /// (amplitude + rate t) sin(number t + angle).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -139,6 +139,40 @@ impl Track {
         })
     }
 
+    /// How much the velocity changes from `time` on in a `span` without kinks, and the height less the first
+    /// velocity times the span: both accurate relative to themselves in a short span.
+    pub(crate) fn change(&self, time: f64, span: f64) -> (f64, f64) {
+        let (mut here, mut left, mut velocity, mut height) = (time, span, 0.0, 0.0);
+        if self.knots.is_empty() {
+            let slope = self.at(time).acceleration;
+            let mut terms = Vec::with_capacity(self.sines.len());
+            self.add_velocity(time, 1.0, &mut [0.0; 2], &mut terms);
+            velocity = value([0.0, slope], terms, span);
+            let mut terms = Vec::with_capacity(self.sines.len());
+            self.add_height(time, &mut terms);
+            return (velocity, value([0.0; 2], terms, span));
+        }
+        while left > 0.0 {
+            let (at, next) = (self.at(here), self.next_knot(here));
+            let h = next.map_or(left, |next| next.after.min(left));
+            height += h * (velocity + h * (0.5 * at.acceleration + h * at.jerk / 6.0));
+            velocity += h * (at.acceleration + 0.5 * h * at.jerk);
+            let Some(next) = next.filter(|next| next.after < left) else { break };
+            (here, left) = (next.time, left - next.after);
+        }
+        (velocity, height)
+    }
+
+    /// Adds the height about `time`, less its value and slope there, to the terms.
+    fn add_height(&self, time: f64, terms: &mut Vec<DampedSine>) {
+        for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
+            let (sin, cos) = sin_cos(number * time + angle);
+            let size = amplitude + rate * time;
+            push(terms, number, [size * sin, size * cos]);
+            push_with_time(terms, number, [rate * sin, rate * cos]);
+        }
+    }
+
     /// Adds `factor` times the velocity about `time`, less its value and slope there, to polynomial (of degrees
     /// 2 and 3) and terms.
     pub(crate) fn add_velocity(
@@ -173,6 +207,12 @@ impl Track {
     }
 }
 
+/// The value after `span` of a function with this value and slope at its start.
+fn value(start: [f64; 2], terms: Vec<DampedSine>, span: f64) -> f64 {
+    let function = QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms);
+    function.map_or(f64::NAN, |function| function.at(span, span).value)
+}
+
 fn push(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [f64; 2]) {
     terms.push(DampedSine { cosine, sine, frequency, decay: 0.0, with_time: false });
 }
@@ -185,8 +225,6 @@ fn push_with_time(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::numerics::quasi_polynomial::QuasiPolynomial;
-
     use super::*;
 
     fn tracks() -> [Track; 4] {
@@ -222,6 +260,34 @@ mod tests {
                     assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
                     let error = acceleration.at(after, span).value + 2.0 * there.acceleration;
                     assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn changes_are_those_of_the_drive_and_keep_their_digits() {
+        for track in tracks() {
+            for (time, span) in [(0.3, 5.0), (2.0, 1.0), (4.0, 7.0), (3.0, 1e-9)] {
+                let (from, to) = (track.at(time), track.at(time + span));
+                let kinks: f64 = (0..2)
+                    .flat_map(|turn| {
+                        track.kinks.iter().map(move |&(kink, jump)| (kink + f64::from(turn) * TAU, jump))
+                    })
+                    .filter(|&(kink, _)| kink > time && kink <= time + span)
+                    .map(|(_, jump)| jump)
+                    .sum();
+                let (velocity, height) = track.change(time, span);
+                assert!((velocity + kinks - (to.velocity - from.velocity)).abs() < 1e-13, "{track:?} {time}");
+                if kinks == 0.0 {
+                    let direct = to.height - from.height - from.velocity * span;
+                    assert!((height - direct).abs() < 1e-13, "{track:?} {time} {span}");
+                }
+                if span < 1e-6 {
+                    let first = from.acceleration * span + 0.5 * from.jerk * span * span;
+                    assert!((velocity - first).abs() < 1e-14 * first.abs(), "{track:?}");
+                    let lift = 0.5 * from.acceleration * span * span + from.jerk * span * span * span / 6.0;
+                    assert!((height - lift).abs() < 1e-14 * lift.abs(), "{track:?}");
                 }
             }
         }

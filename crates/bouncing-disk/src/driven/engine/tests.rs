@@ -3,6 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
+use crate::parameters::driven_platform::Waveform;
 use crate::testing;
 
 /// What rounding leaves, relative to the sizes of what is compared.
@@ -69,8 +70,11 @@ fn compare(
         // A root of a slow fall is as uncertain as its slope is small.
         prop_assert!(near(span, record.span.radians(), 1.0), "{span} {record:?}\n{found:?}");
         for (one, other) in [(found.before, record.before), (found.after, record.after)] {
-            prop_assert!(near(one.height, other.height, size), "{one:?} {other:?}");
-            prop_assert!(near(one.axial_velocity, other.axial_velocity, size + span), "{one:?} {other:?}");
+            prop_assert!(near(one.height, other.height, size * (1.0 + span)), "{one:?} {other:?}");
+            prop_assert!(
+                near(one.axial_velocity, other.axial_velocity, size * (1.0 + span)),
+                "{one:?} {other:?}"
+            );
             prop_assert!(
                 near(one.angular_speed, other.angular_speed, spin * (1.0 + span)),
                 "{one:?} {other:?} {record:?}"
@@ -79,9 +83,12 @@ fn compare(
                 near(one.angle, other.angle, spin * (1.0 + span) * (1.0 + span)),
                 "{one:?} {other:?}"
             );
-            prop_assert!(one.mode == other.mode, "{one:?} {other:?} {record:?}");
+            // Whether the last impact of a chatter ends a slip of one rounding, rounding decides.
+            let slip = other.angular_speed - system.platform_angular_speed(record.time.phase);
+            let hidden = matches!(record.event, Event::Attachment { .. }) && near(slip, 0.0, spin);
+            prop_assert!(one.mode == other.mode || hidden, "{one:?} {other:?} {record:?}");
         }
-        prop_assert!(near(impulse, record.angular_impulse, spin), "{impulse} {record:?}");
+        prop_assert!(near(impulse, record.angular_impulse, spin * (1.0 + span)), "{impulse} {record:?}");
         let magnitude = spin * spin + record.ledger.rotary_magnitude;
         prop_assert!(
             near(ledger.friction_loss, record.ledger.friction_loss, magnitude),
@@ -120,4 +127,96 @@ proptest! {
     fn a_sine_as_a_fourier_sum_has_the_events_of_the_engine((system, start, policy) in testing::motion()) {
         compare(system, start, policy, 40)?;
     }
+
+    /// On platforms of all kinds: each ledger closes, its changes are those of the states, and a motion that is
+    /// resumed between two events has the same next one.
+    #[test]
+    fn energy_is_balanced_on_every_platform(
+        system in systems(), phase in testing::phase(), speed in 0.0..3.0_f64, spin in -2.0..2.0_f64,
+        policy in testing::policy(), share in 0.01..0.99_f64,
+    ) {
+        let start = DrivenStart::Launch { phase, relative_speed: 0.01 + speed, angular_speed: spin };
+        let mut engine = DrivenEngine::new(system.clone(), start, policy).expect("legal");
+        for _ in 0..60 {
+            let (before, mut twin) = (engine.clone(), engine.clone());
+            let Some(record) = engine.advance().expect("no failure") else { break };
+            let (start, ledger) = (before.state, record.ledger);
+            prop_assert!(ledger.relative_closure() < ROUNDING, "{:e} {record:?}", ledger.relative_closure());
+            let gained = |from: f64, to: f64| 0.5 * (to - from) * (to + from);
+            for (entry, change, size) in [
+                (ledger.axial_kinetic_change, gained(start.axial_velocity, record.after.axial_velocity), ledger.axial_magnitude),
+                (ledger.potential_change, record.after.height - start.height, ledger.axial_magnitude),
+                (ledger.rotary_kinetic_change, gained(start.angular_speed, record.after.angular_speed), ledger.rotary_magnitude),
+            ] {
+                prop_assert!((entry - change).abs() <= ROUNDING * (1.0 + size), "{entry} {change} {record:?}");
+            }
+            let span = share * record.span.radians();
+            let rest = twin.ledger_after(span);
+            prop_assert!(rest.relative_closure() < ROUNDING, "{:e} {span} {before:?}", rest.relative_closure());
+            if span > 1e-3 && !matches!(before.stage, Stage::Chatter { .. }) {
+                let (time, state) = twin.state_after(span);
+                twin = DrivenEngine::of_state(system.clone(), time, state, policy).expect("legal");
+                let next = twin.advance().expect("no failure").expect("an event");
+                let kind = std::mem::discriminant(&next.event);
+                prop_assert!(kind == std::mem::discriminant(&record.event), "{next:?}\n{record:?}");
+                let error = (span + next.span.radians() - record.span.radians()).abs();
+                prop_assert!(error < 1e-11, "{error:e} {next:?}\n{record:?}");
+            }
+        }
+    }
+}
+
+fn waveforms() -> impl Strategy<Value = Waveform> {
+    let amplitude = 0.0..4.0_f64;
+    let phase = 0.0..6.0_f64;
+    prop_oneof![
+        (amplitude.clone(), phase.clone()).prop_map(|(amplitude, phase)| Waveform::Sine { amplitude, phase }),
+        (amplitude.clone(), phase.clone())
+            .prop_map(|(amplitude, phase)| Waveform::Triangle { amplitude, phase }),
+        (amplitude.clone(), 0.05..0.95_f64, phase.clone())
+            .prop_map(|(amplitude, rise, phase)| Waveform::Sawtooth { amplitude, rise, phase }),
+        (amplitude.clone(), phase.clone())
+            .prop_map(|(amplitude, phase)| Waveform::Parabolas { amplitude, phase }),
+        (amplitude.clone(), phase).prop_map(|(amplitude, phase)| Waveform::Cubics { amplitude, phase }),
+        proptest::collection::vec((-0.5..0.5_f64, 0.0..6.0_f64), 0..5).prop_map(Waveform::Fourier),
+        proptest::collection::vec(-1.0..1.0_f64, 3..12).prop_map(Waveform::Sampled),
+    ]
+}
+
+fn systems() -> impl Strategy<Value = DrivenSystem> {
+    let friction = prop_oneof![1 => Just(0.0), 5 => 0.01..1.5_f64];
+    let restitution = prop_oneof![1 => Just(0.0), 5 => 0.0..0.95_f64, 1 => Just(1.0 - 1e-9)];
+    let load = prop_oneof![1 => Just(0.0), 2 => -0.5..0.5_f64];
+    (waveforms(), waveforms(), friction, restitution, load).prop_map(
+        |(height, angle, friction, restitution, load)| DrivenSystem {
+            height: height.track("height", 1.0, 1.0, 0.0).expect("legal"),
+            angle: angle.track("angle", 1.0, 1.0, 0.0).expect("legal"),
+            friction,
+            restitution,
+            load,
+        },
+    )
+}
+
+/// Each kind of event occurs in the comparison: chatters, kicks of nothing else.
+#[test]
+fn the_comparison_meets_every_event() {
+    let mut counts = [0; 7];
+    for k in 0..40_u64 {
+        let spread = |j: u64| testing::golden_spread(7 * k + j);
+        let system = crate::parameters::DimensionlessParameters {
+            peak_acceleration: 1.05 + spread(0),
+            twist_speed: 2.0 * spread(1),
+            phase_lag: 6.0 * spread(2),
+            friction: 0.1 + spread(3),
+            restitution: 0.5 * spread(4),
+            load: 0.2 * spread(5),
+        };
+        let phase = bouncing_disk_core::Phase::new(6.0 * spread(6)).expect("finite");
+        let start = DrivenStart::Contact { phase, angular_speed: 0.3 };
+        let found = compare(system.build().expect("legal"), start, ChatterPolicy::Complete, 200);
+        let found = found.unwrap_or_else(|error| panic!("{k}: {error}"));
+        counts.iter_mut().zip(found).for_each(|(sum, count)| *sum += count);
+    }
+    assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
 }
