@@ -41,14 +41,14 @@ pub(super) struct SlideWork {
 
 impl DrivenSystem {
     /// The rate at which the slip in `direction` grows, its derivative, and the rounding of both.
-    fn growth(&self, direction: SlipDirection, at: f64) -> ([f64; 2], [f64; 2]) {
+    pub(super) fn growth(&self, direction: SlipDirection, at: f64) -> ([f64; 2], [f64; 2]) {
         let (s, beta, d, mu) = (self.height.at(at), self.angle.at(at), direction.sign(), self.friction);
         let rate = -mu * (1.0 + s.acceleration) - d * (self.load + beta.acceleration);
         let size = mu * (1.0 + s.acceleration.abs()) + self.load.abs() + beta.acceleration.abs();
         let change = -(mu * s.jerk + d * beta.jerk);
         // The time is rounded, too.
         let change_size = mu * s.jerk.abs() + beta.jerk.abs();
-        ([rate, change], [ROUNDING * (size + at.abs() * change_size), ROUNDING * change_size])
+        ([rate, change], [ROUNDING * (size + (1.0 + at.abs()) * change_size), ROUNDING * change_size])
     }
 
     /// The direction in which a disk at the platform's speed slips at once; `None` if friction holds it.
@@ -164,14 +164,21 @@ impl DrivenSystem {
             if value <= 0.0 && (rate <= doubt && change <= 0.0 || rate < -doubt) {
                 return Ok(None);
             }
-            self.slip_from(direction, here, value).map(Some)
+            self.slip_from(direction, here, value, doubt).map(Some)
         })
     }
 
-    /// The slip speed from `here` on, with this value there: one that begins is not made to end by a rounding.
-    fn slip_from(&self, direction: SlipDirection, here: f64, value: f64) -> Result<QuasiPolynomial, Error> {
-        let ([rate, _], [doubt, _]) = self.growth(direction, here);
+    /// The slip speed from `here` on, with this value there and a rate known to `doubt`.
+    fn slip_from(
+        &self,
+        direction: SlipDirection,
+        here: f64,
+        value: f64,
+        doubt: f64,
+    ) -> Result<QuasiPolynomial, Error> {
+        let ([rate, _], _) = self.growth(direction, here);
         let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
+        // A slip that begins does not end by a rounding.
         let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
         let (mut bends, mut terms) = ([0.0; 2], Vec::new());
         self.height.add_velocity(here, -self.friction, &mut bends, &mut terms);
@@ -259,19 +266,23 @@ impl DrivenSystem {
             // A rule of eight points is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
             let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
-            let Ok(slip) = self.slip_from(direction, here, value) else { break };
+            let (slip, force, carrier) = (
+                self.slip_from(direction, here, value, 0.0),
+                self.height.acceleration_from(here, 1.0),
+                self.angle.velocity_from(here),
+            );
+            let (Ok(slip), Ok(force), Ok(carrier)) = (slip, force, carrier) else { break };
             let half = 0.5 * stretch / panels;
             let mut panel = 0.0;
             while panel < panels {
                 let middle = (2.0 * panel + 1.0) * half;
                 for (node, weight) in GAUSS {
                     for x in [middle - half * node, middle + half * node] {
-                        let (s, beta) = (self.height.at(here + x), self.angle.at(here + x));
-                        let force = half * weight * (1.0 + s.acceleration);
-                        let slip = slip.at(x, stretch).value;
-                        work.carried += force * beta.velocity;
+                        let force = half * weight * force.at(x, stretch).value;
+                        let (carrier, slip) = (carrier.at(x, stretch).value, slip.at(x, stretch).value);
+                        work.carried += force * carrier;
                         work.slipped += force * slip;
-                        work.size += force.abs() * (beta.velocity.abs() + slip.abs());
+                        work.size += force.abs() * (carrier.abs() + slip.abs());
                     }
                 }
                 panel += 1.0;

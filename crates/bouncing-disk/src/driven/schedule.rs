@@ -311,3 +311,6 @@ impl Iterator for ScheduledEngine {
         self.advance().transpose()
     }
 }
+
+#[cfg(test)]
+mod tests;

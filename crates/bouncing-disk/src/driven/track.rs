@@ -194,6 +194,20 @@ impl Track {
         }
     }
 
+    /// The velocity from `time` to the next knot.
+    pub(crate) fn velocity_from(&self, time: f64) -> Result<QuasiPolynomial, Error> {
+        let (here, mut bends, mut terms) = (self.at(time), [0.0; 2], Vec::new());
+        self.add_velocity(time, 1.0, &mut bends, &mut terms);
+        QuasiPolynomial::anchored([here.velocity, here.acceleration], [0.0; 2], bends, terms)
+    }
+
+    /// The acceleration and a constant from `time` to the next knot.
+    pub(crate) fn acceleration_from(&self, time: f64, constant: f64) -> Result<QuasiPolynomial, Error> {
+        let (here, mut terms) = (self.at(time), Vec::new());
+        self.add_acceleration(time, 1.0, &mut terms);
+        QuasiPolynomial::anchored([constant + here.acceleration, here.jerk], [0.0; 2], [0.0; 2], terms)
+    }
+
     /// Adds `factor` times the acceleration about `time`, less its value and slope there, to the terms: pieces
     /// have none.
     pub(crate) fn add_acceleration(&self, time: f64, factor: f64, terms: &mut Vec<DampedSine>) {
@@ -242,23 +256,15 @@ mod tests {
     fn the_terms_are_those_of_the_drive() {
         for track in tracks() {
             for time in [0.0, 0.7, 2.0, 4.4, 6.1] {
-                let here = track.at(time);
-                let (mut bends, mut terms) = ([0.0; 2], Vec::new());
-                track.add_velocity(time, -2.0, &mut bends, &mut terms);
-                let start = [-2.0 * here.velocity, -2.0 * here.acceleration];
-                let velocity = QuasiPolynomial::anchored(start, [0.0; 2], bends, terms).expect("legal");
-                let mut terms = Vec::new();
-                track.add_acceleration(time, -2.0, &mut terms);
-                let start = [-2.0 * here.acceleration, -2.0 * here.jerk];
-                let acceleration =
-                    QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms).expect("legal");
+                let velocity = track.velocity_from(time).expect("legal");
+                let acceleration = track.acceleration_from(time, 1.0).expect("legal");
                 let span = track.next_knot(time).map_or(3.0, |next| next.after);
                 for step in 0..8 {
                     let after = span * f64::from(step) / 8.0;
                     let there = track.at(time + after);
-                    let error = velocity.at(after, span).value + 2.0 * there.velocity;
+                    let error = velocity.at(after, span).value - there.velocity;
                     assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
-                    let error = acceleration.at(after, span).value + 2.0 * there.acceleration;
+                    let error = acceleration.at(after, span).value - (1.0 + there.acceleration);
                     assert!(error.abs() < 1e-13, "{track:?} {time} {after}: {error:e}");
                 }
             }

@@ -38,8 +38,12 @@ fn compare(
     let mut own = DrivenEngine::new(driven.clone(), start, policy).expect("legal");
     for _ in 0..events {
         let Ok(Some(record)) = engine.advance() else { break };
+        // Whether a slip that only touches zero ends there, rounding decides.
+        let ([rate, _], _) = driven.growth(SlipDirection::Forward, record.time.phase.angle());
+        let grazes =
+            matches!(record.event, Event::SlipToStick | Event::SlipReversal(_)) && rate.abs() < 1e-6 * spin;
         let Some(mut found) = own.advance().expect("no failure") else {
-            prop_assert!(false, "{record:?}");
+            prop_assert!(grazes, "{record:?}");
             break;
         };
         let (mut span, mut ledger, mut impulse) = (found.span.radians(), found.ledger, found.angular_impulse);
@@ -53,6 +57,9 @@ fn compare(
         }
         prop_assert!(ledger.relative_closure() < ROUNDING, "{:e} {found:?}", ledger.relative_closure());
         let kind = std::mem::discriminant(&found.event);
+        if grazes && kind != std::mem::discriminant(&of_sine(&record.event)) {
+            break;
+        }
         prop_assert!(kind == std::mem::discriminant(&of_sine(&record.event)), "{found:?}\n{record:?}");
         let index = match found.event {
             DrivenEvent::Impact(_) => 0,
@@ -89,7 +96,7 @@ fn compare(
             prop_assert!(one.mode == other.mode || hidden, "{one:?} {other:?} {record:?}");
         }
         prop_assert!(near(impulse, record.angular_impulse, spin * (1.0 + span)), "{impulse} {record:?}");
-        let magnitude = spin * spin + record.ledger.rotary_magnitude;
+        let magnitude = (spin * spin + record.ledger.rotary_magnitude) * (1.0 + span);
         prop_assert!(
             near(ledger.friction_loss, record.ledger.friction_loss, magnitude),
             "{found:?} {record:?}"
