@@ -219,7 +219,7 @@ impl DrivenEngine {
         let pull = self.system.load.abs()
             + beta.acceleration.abs()
             + self.system.friction * (1.0 + s.acceleration.abs());
-        let rounding = SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed + at * pull);
+        let rounding = 4.0 * SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed + at * pull);
         let moves_along = (speed - beta.velocity).abs() <= rounding;
         if moves_along {
             self.state.angular_speed = beta.velocity;

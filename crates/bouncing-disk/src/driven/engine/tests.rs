@@ -164,8 +164,10 @@ proptest! {
                 let (time, state) = twin.state_after(span);
                 twin = DrivenEngine::of_state(system.clone(), time, state, policy).expect("legal");
                 let next = twin.advance().expect("no failure").expect("an event");
-                let kind = std::mem::discriminant(&next.event);
-                prop_assert!(kind == std::mem::discriminant(&record.event), "{next:?}\n{record:?}");
+                let ends = |event| matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_));
+                let same = std::mem::discriminant(&next.event) == std::mem::discriminant(&record.event);
+                // A slip may end where the angular acceleration jumps: whether before or after, rounding decides.
+                prop_assert!(same || ends(next.event) && ends(record.event), "{next:?}\n{record:?}");
                 let error = (span + next.span.radians() - record.span.radians()).abs();
                 prop_assert!(error < 1e-11, "{error:e} {next:?}\n{record:?}");
             }
