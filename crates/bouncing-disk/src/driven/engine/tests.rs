@@ -169,7 +169,13 @@ proptest! {
                 // A slip may end where the angular acceleration jumps: whether before or after, rounding decides.
                 prop_assert!(same || ends(next.event) && ends(record.event), "{next:?}\n{record:?}");
                 let error = (span + next.span.radians() - record.span.radians()).abs();
-                prop_assert!(error < 1e-11, "{error:e} {next:?}\n{record:?}");
+                // A slow impact is as uncertain as the height over its speed.
+                let speed = match record.event {
+                    DrivenEvent::Impact(hit) => hit.axial_impact_velocity.abs(),
+                    _ => 1.0,
+                };
+                let bound = 1e-11 + 1e-14 * ledger.axial_magnitude / speed;
+                prop_assert!(error < bound, "{error:e} {next:?}\n{record:?}");
             }
         }
     }
