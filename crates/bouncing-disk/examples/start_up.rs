@@ -11,7 +11,7 @@ use std::fmt::Write as _;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::driven::{AfterSchedule, DrivenEvent, Schedule, ScheduleSegment, ScheduledEngine};
-use bouncing_disk::parameters::{DrivenPlatform, DrivenPlatformParameters, Waveform};
+use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 use bouncing_disk::{Disk, Error, System};
 
 /// The motion that is to be reached: Gamma and the phase lag of the fastest rotation.
@@ -89,12 +89,8 @@ fn hand(dough: &Disk, factor: f64) -> Result<DrivenPlatform, Error> {
     let table = *System::pizza_toss().platform();
     let omega = table.angular_frequency();
     let amplitude = factor * AXIAL_FORCING * PI * dough.preload_acceleration() / (omega * omega);
-    DrivenPlatformParameters {
-        angular_frequency: omega,
-        height: Waveform::Sine { amplitude, phase: 0.0 },
-        angle: Waveform::Sine { amplitude: factor * table.twist_amplitude(), phase: 0.0 },
-    }
-    .build()
+    let twist = factor * table.twist_amplitude();
+    DrivenPlatform::new(omega, Waveform::sine(amplitude, 0.0), Waveform::sine(twist, 0.0))
 }
 
 fn start_up(hand: &DrivenPlatform, first: Option<First>) -> Schedule {

@@ -11,15 +11,11 @@
 //! use bouncing_disk::System;
 //! use bouncing_disk::core::{ChatterPolicy, Phase};
 //! use bouncing_disk::driven::{DrivenEngine, DrivenStart, DrivenSystem};
-//! use bouncing_disk::parameters::{DrivenPlatformParameters, Waveform};
+//! use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 //!
 //! // The dough of Table I on a hand that moves along straight lines.
-//! let hand = DrivenPlatformParameters {
-//!     angular_frequency: 15.0,
-//!     height: Waveform::Triangle { amplitude: 0.21, phase: 0.0 },
-//!     angle: Waveform::Triangle { amplitude: 0.97, phase: 0.0 },
-//! };
-//! let system = DrivenSystem::new(&hand.build()?, System::pizza_toss().disk())?;
+//! let hand = DrivenPlatform::new(15.0, Waveform::triangle(0.21, 0.0), Waveform::triangle(0.97, 0.0))?;
+//! let system = DrivenSystem::new(&hand, System::pizza_toss().disk())?;
 //! let start = DrivenStart::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
 //! for record in DrivenEngine::new(system, start, ChatterPolicy::Complete)?.take(20) {
 //!     assert!(record?.ledger.relative_closure() < 1e-12);
@@ -125,10 +121,9 @@ impl TryFrom<DimensionlessSystem> for DrivenSystem {
 
     /// The platform of Eq. (1) as a Fourier sum.
     fn try_from(system: DimensionlessSystem) -> Result<Self, Error> {
-        let sine = |amplitude, phase| Waveform::Sine { amplitude, phase };
         Ok(Self {
-            height: sine(system.peak_acceleration(), 0.0).track("height", 1.0, 1.0, 0.0)?,
-            angle: sine(system.twist_speed(), system.phase_lag()).track("angle", 1.0, 1.0, 0.0)?,
+            height: Waveform::sine(system.peak_acceleration(), 0.0).track("height", 1.0, 1.0, 0.0)?,
+            angle: Waveform::sine(system.twist_speed(), system.phase_lag()).track("angle", 1.0, 1.0, 0.0)?,
             friction: system.friction(),
             restitution: system.restitution(),
             load: system.load(),

@@ -31,6 +31,6 @@ pub(crate) mod stroke;
 pub(crate) mod system;
 
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
-pub use driven_platform::{DrivenPlatform, DrivenPlatformParameters, Waveform};
+pub use driven_platform::{DrivenPlatform, Swing, Waveform};
 pub use scales::Scales;
 pub use stroke::{LaunchSpeeds, Stroke};

@@ -91,6 +91,25 @@ impl Track {
         Self { drive, sines: Arc::new([]), knots, kinks }
     }
 
+    /// The same period of pieces begun at `phase` (rad): the piece that holds there is cut in two.
+    pub(crate) fn earlier(self, phase: f64) -> Result<Self, Error> {
+        let phase = wrapped_angle(phase);
+        if phase == 0.0 {
+            return Ok(self);
+        }
+        let first = self.knots.partition_point(|&knot| knot <= phase);
+        let (before, after) = self.knots.split_at(first);
+        let starts: Vec<_> = [&phase].into_iter().chain(after).chain(before).copied().collect();
+        let ends = starts.iter().cycle().skip(1);
+        let pieces = starts.iter().zip(ends).map(|(&start, &end)| {
+            let (at, duration) =
+                (self.at(start), if end > start { end - start } else { end + (TAU - start) });
+            (duration, [at.height, at.velocity, 0.5 * at.acceleration, at.jerk / 6.0])
+        });
+        // A start at a knot leaves a piece without duration.
+        Self::pieces(&pieces.filter(|(duration, _)| *duration < TAU).collect::<Vec<_>>())
+    }
+
     pub(crate) const fn drive(&self) -> &Drive {
         &self.drive
     }

@@ -2,9 +2,7 @@
 
 use std::f64::consts::TAU;
 
-#[cfg(any(doc, test))]
-use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
-use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::read_checked;
 
 use crate::driven::track::Track;
 use crate::error::{Error, check, finite, not_negative, positive};
@@ -12,71 +10,44 @@ use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
-/// One period of a height (m) or an angle (rad), not yet checked. Phases are in radians; time in [`Pieces`] is
-/// in periods.
+/// One period of a height (m) or an angle (rad), not yet checked.
 ///
 /// In a file: `{ fourier = [[0.2, 0.0], [0.02, 1.5]] }`, `{ triangle = { amplitude = 0.2 } }`.
-///
-/// [`Pieces`]: Self::Pieces
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", deny_unknown_fields))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Waveform {
     /// amplitude sin(tau + phase), as in Eq. (1).
-    Sine {
-        /// Amplitude, not negative.
-        amplitude: f64,
-        /// Phase (rad).
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
-    /// The sum of a_j sin(j tau + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most [`MAX_HARMONICS`].
+    Sine(Swing),
+    /// The sum of a_j sin(j tau + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most
+    /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
     Fourier(Vec<(f64, f64)>),
     /// Pieces (duration, [c0, c1, c2, c3]), one after the other, each c0 + c1 x + c2 x^2 + c3 x^3 from its own
     /// start: x and the durations in periods, which sum to 1. The height must be continuous; the velocity may
-    /// jump. At most [`MAX_PIECES`].
+    /// jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
     Pieces(Vec<(f64, [f64; 4])>),
-    /// The periodic cubic spline through samples at equal distances over one period, from 3 to [`MAX_PIECES`].
+    /// The periodic cubic spline through at least 3 samples at equal distances over one period.
     Sampled(Vec<f64>),
     /// Straight lines through the zeros and extremes of the sine.
-    Triangle {
-        /// Amplitude, not negative.
-        amplitude: f64,
-        /// Phase (rad).
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
-    /// Straight lines that rise for a share of the period and fall for the rest.
-    Sawtooth {
-        /// Amplitude, not negative.
-        amplitude: f64,
-        /// Share of the period in which it rises, in [1e-9, 1 - 1e-9].
-        rise: f64,
-        /// Phase (rad).
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
+    Triangle(Swing),
+    /// Straight lines that rise for this share of the period, in [1e-9, 1 - 1e-9], and fall for the rest.
+    Sawtooth(f64, Swing),
     /// The sine replaced by one parabola for each half of the period.
-    Parabolas {
-        /// Amplitude, not negative.
-        amplitude: f64,
-        /// Phase (rad).
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
-    /// The sine replaced by one cubic for each quarter of the period, through its zeros and extremes.
-    Cubics {
-        /// Amplitude, not negative.
-        amplitude: f64,
-        /// Phase (rad).
-        #[cfg_attr(feature = "serde", serde(default))]
-        phase: f64,
-    },
+    Parabolas(Swing),
 }
 
-/// Pieces of one period, in periods.
-type PieceList = Vec<(f64, [f64; 4])>;
+/// Size and phase of a waveform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Swing {
+    /// Amplitude (m or rad), not negative.
+    pub amplitude: f64,
+    /// How much earlier it is than the sine (rad).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub phase: f64,
+}
 
 impl Default for Waveform {
     /// No motion.
@@ -86,10 +57,22 @@ impl Default for Waveform {
 }
 
 impl Waveform {
+    /// amplitude sin(tau + phase).
+    #[must_use]
+    pub const fn sine(amplitude: f64, phase: f64) -> Self {
+        Self::Sine(Swing { amplitude, phase })
+    }
+
+    /// A triangle with its zeros and extremes where sin(tau + phase) has them.
+    #[must_use]
+    pub const fn triangle(amplitude: f64, phase: f64) -> Self {
+        Self::Triangle(Swing { amplitude, phase })
+    }
+
     /// The harmonics of a sine or a Fourier sum.
     pub(crate) fn harmonics(&self) -> Option<Vec<(f64, f64)>> {
         match self {
-            Self::Sine { amplitude, phase } => Some(vec![(*amplitude, *phase)]),
+            Self::Sine(Swing { amplitude, phase }) => Some(vec![(*amplitude, *phase)]),
             Self::Fourier(harmonics) => Some(harmonics.clone()),
             _ => None,
         }
@@ -104,309 +87,188 @@ impl Waveform {
             }
             source => Error::Waveform { of, source },
         };
-        if let Some(harmonics) = self.harmonics() {
-            let earlier = |(j, (a, phi)): (usize, &(f64, f64))| (size * a, phi + (j + 1) as f64 * lag);
-            let harmonics: Vec<_> = harmonics.iter().enumerate().map(earlier).collect();
-            return Track::sines(&harmonics).map_err(refuse);
-        }
-        if let (Self::Sampled(samples), true) = (self, lag == 0.0) {
-            let samples: Vec<_> = samples.iter().map(|sample| size * sample).collect();
-            return Track::sampled(&samples).map_err(refuse);
-        }
-        let (pieces, phase) = self.pieces(of)?;
-        let total = pieces.iter().fold(0.0, |sum, (duration, _)| sum + duration);
-        if pieces.iter().all(|(duration, _)| *duration > 0.0) {
-            let legal = (total - 1.0).abs() <= 1.0e-12;
-            check(legal, "sum of the durations of the pieces", total, "1 (in periods)")?;
-        }
-        let scaled = |(duration, c): (f64, [f64; 4])| {
-            let mut power = size;
-            let c = c.map(|c| {
-                let scaled = c * power;
-                power /= TAU;
-                scaled
-            });
-            (duration * TAU, c)
-        };
-        let pieces: PieceList = earlier(pieces, phase + lag).into_iter().map(scaled).collect();
-        Track::pieces(&pieces).map_err(refuse)
-    }
-
-    /// The pieces of a waveform that is not a Fourier sum, and by what phase it is earlier.
-    fn pieces(&self, of: &'static str) -> Result<(PieceList, f64), Error> {
         let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
-        Ok(match *self {
-            Self::Pieces(ref pieces) => (pieces.clone(), 0.0),
-            Self::Triangle { amplitude, phase } => {
-                return Self::Sawtooth { amplitude, rise: 0.5, phase }.pieces(of);
+        let sawtooth = |rise: f64, a: f64| {
+            let (up, down) = (2.0 * a / rise, -2.0 * a / (1.0 - rise));
+            [(0.5 * rise, line(0.0, up)), (1.0 - rise, line(a, down)), (0.5 * rise, line(-a, up))]
+        };
+        let parabola = |a: f64| (0.5, [0.0, 8.0 * a, -16.0 * a, 0.0]);
+        let (track, phase) = match self {
+            Self::Sine(_) | Self::Fourier(_) => {
+                let earlier = |(j, (a, phi)): (usize, (f64, f64))| (size * a, phi + (j + 1) as f64 * lag);
+                let harmonics: Vec<_> =
+                    self.harmonics().into_iter().flatten().enumerate().map(earlier).collect();
+                return Track::sines(&harmonics).map_err(refuse);
             }
-            Self::Sawtooth { amplitude: a, rise, phase } => {
-                let legal = (1.0e-9..=1.0 - 1.0e-9).contains(&rise);
-                check(legal, "rise", rise, "[1e-9, 1 - 1e-9], a share of the period")?;
-                let (up, down) = (2.0 * a / rise, -2.0 * a / (1.0 - rise));
-                let pieces = vec![
-                    (0.5 * rise, line(0.0, up)),
-                    (1.0 - rise, line(a, down)),
-                    (0.5 * rise, line(-a, up)),
-                ];
-                (pieces, phase)
+            Self::Sampled(samples) => {
+                let samples: Vec<_> = samples.iter().map(|sample| size * sample).collect();
+                (Track::sampled(&samples), 0.0)
             }
-            Self::Parabolas { amplitude: a, phase } => {
-                let half = |a: f64| (0.5, [0.0, 8.0 * a, -16.0 * a, 0.0]);
-                (vec![half(a), half(-a)], phase)
-            }
-            Self::Cubics { amplitude: a, phase } => {
-                let rising = |a: f64| (0.25, [0.0, 6.0 * a, 0.0, -32.0 * a]);
-                let falling = |a: f64| (0.25, [a, 0.0, -24.0 * a, 32.0 * a]);
-                (vec![rising(a), falling(a), rising(-a), falling(-a)], phase)
-            }
-            Self::Sampled(ref samples) => {
-                // The pieces of the spline, so that they can be begun elsewhere.
-                let source = |source| Error::Waveform { of, source };
-                let spline = Track::sampled(samples).map_err(source)?;
-                let share = 1.0 / samples.len() as f64;
-                let piece = |knot: Option<crate::driven::track::Next>| {
-                    let at = spline.at(knot.map_or(0.0, |knot| knot.time));
-                    let c = [at.height, at.velocity, 0.5 * at.acceleration, at.jerk / 6.0];
-                    (share, [c[0], c[1] * TAU, c[2] * (TAU * TAU), c[3] * (TAU * TAU * TAU)])
-                };
-                let mut time = 0.0;
-                let mut pieces = vec![piece(None)];
-                while let Some(next) = spline.next_knot(time).filter(|next| next.time > time) {
-                    time = next.time;
-                    pieces.push(piece(Some(next)));
+            Self::Pieces(pieces) => {
+                let total = pieces.iter().fold(0.0, |sum, (duration, _)| sum + duration);
+                if pieces.iter().all(|(duration, _)| *duration > 0.0) {
+                    let legal = (total - 1.0).abs() <= 1.0e-12;
+                    check(legal, "sum of the durations of the pieces", total, "1 (in periods)")?;
                 }
-                (pieces, 0.0)
+                (pieces_of(pieces, size), 0.0)
             }
-            Self::Sine { .. } | Self::Fourier(_) => (Vec::new(), 0.0),
-        })
+            Self::Triangle(Swing { amplitude, phase }) => {
+                (pieces_of(&sawtooth(0.5, *amplitude), size), *phase)
+            }
+            Self::Sawtooth(rise, Swing { amplitude, phase }) => {
+                let legal = (1.0e-9..=1.0 - 1.0e-9).contains(rise);
+                check(legal, "rise", *rise, "[1e-9, 1 - 1e-9], a share of the period")?;
+                (pieces_of(&sawtooth(*rise, *amplitude), size), *phase)
+            }
+            Self::Parabolas(Swing { amplitude, phase }) => {
+                (pieces_of(&[parabola(*amplitude), parabola(-amplitude)], size), *phase)
+            }
+        };
+        track.and_then(|track| track.earlier(phase + lag)).map_err(refuse)
     }
 
     /// Checks what does not depend on the disk.
     fn check(&self, of: &'static str) -> Result<(), Error> {
-        match *self {
-            Self::Sine { amplitude, phase }
-            | Self::Triangle { amplitude, phase }
-            | Self::Sawtooth { amplitude, phase, .. }
-            | Self::Parabolas { amplitude, phase }
-            | Self::Cubics { amplitude, phase } => {
-                not_negative("amplitude", amplitude)?;
-                finite("phase", phase)?;
-            }
-            Self::Fourier(_) | Self::Pieces(_) | Self::Sampled(_) => {}
+        if let Self::Sine(swing) | Self::Triangle(swing) | Self::Sawtooth(_, swing) | Self::Parabolas(swing) =
+            self
+        {
+            not_negative("amplitude", swing.amplitude)?;
+            finite("phase", swing.phase)?;
         }
-        // In units of its own size, so that the largest acceleration is not in the way.
-        self.track(of, self.size(), 1.0, 0.0).map(|_| ())
-    }
-
-    /// A size far above all heights and accelerations over a period; 1 where there is none.
-    fn size(&self) -> f64 {
-        let largest =
-            |numbers: &mut dyn Iterator<Item = f64>| numbers.fold(0.0, |most: f64, x| most.max(x.abs()));
-        let size = match self {
-            Self::Fourier(harmonics) => largest(&mut harmonics.iter().map(|(a, _)| *a)),
-            Self::Pieces(pieces) => largest(&mut pieces.iter().flat_map(|(_, c)| c.iter().copied())),
+        // In units so large that no acceleration is in the way.
+        let largest = match self {
+            Self::Fourier(harmonics) => harmonics.iter().fold(0.0, |most: f64, (a, _)| most.max(a.abs())),
+            Self::Pieces(pieces) => {
+                pieces.iter().flat_map(|(_, c)| c).fold(0.0, |most: f64, c| most.max(c.abs()))
+            }
             Self::Sampled(samples) => {
                 let count = samples.len() as f64;
-                largest(&mut samples.iter().copied()) * count * count * 1.0e-4
+                samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs())) * count * count
             }
-            Self::Sine { amplitude, .. }
-            | Self::Triangle { amplitude, .. }
-            | Self::Sawtooth { amplitude, .. }
-            | Self::Parabolas { amplitude, .. }
-            | Self::Cubics { amplitude, .. } => *amplitude,
+            _ => 1.0,
         };
-        if size > 0.0 && size.is_finite() { size } else { 1.0 }
+        let unit = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
+        self.track(of, unit, 1.0, 0.0).map(|_| ())
     }
 }
 
-/// The same period begun at `phase` (rad): the piece in which that is is cut in two.
-fn earlier(pieces: PieceList, phase: f64) -> PieceList {
-    let mut left = wrapped_angle(phase) / TAU;
-    if left == 0.0 || !left.is_finite() {
-        return pieces;
-    }
-    let mut index = 0;
-    while index + 1 < pieces.len() && left >= pieces[index].0 {
-        left -= pieces[index].0;
-        index += 1;
-    }
-    let Some(&(duration, [c0, c1, c2, c3])) = pieces.get(index) else { return pieces };
-    let mut shifted = Vec::with_capacity(pieces.len() + 1);
-    if duration > left {
-        let c = [
-            c0 + left * (c1 + left * (c2 + left * c3)),
-            c1 + left * (2.0 * c2 + left * (3.0 * c3)),
-            c2 + 3.0 * left * c3,
-            c3,
-        ];
-        shifted.push((duration - left, c));
-    }
-    shifted.extend_from_slice(&pieces[index + 1..]);
-    shifted.extend_from_slice(&pieces[..index]);
-    if left > 0.0 {
-        shifted.push((left, [c0, c1, c2, c3]));
-    }
-    shifted
-}
-
-/// The parameters of a [`DrivenPlatform`], not yet checked.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct DrivenPlatformParameters {
-    /// Angular frequency of the fundamental (rad/s), positive: the period is 2 pi over it.
-    pub angular_frequency: f64,
-    /// The height (m) over a period.
-    pub height: Waveform,
-    /// The angle (rad) over a period; none if absent in a serialised form.
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub angle: Waveform,
-}
-
-impl DrivenPlatformParameters {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] for a number outside its range; [`Error::Waveform`] and [`Error::WaveformJump`] name
-    /// the waveform and its harmonic, piece or sample.
-    pub fn build(self) -> Result<DrivenPlatform, Error> {
-        positive("angular_frequency", self.angular_frequency)?;
-        self.height.check("height")?;
-        self.angle.check("angle")?;
-        Ok(DrivenPlatform { parameters: self })
-    }
+/// Pieces whose times are in periods and that are made `size` times as large.
+fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Track, bouncing_disk_core::Error> {
+    let scaled = |&(duration, [c0, c1, c2, c3]): &(f64, [f64; 4])| {
+        let c = [c0 * size, c1 * size / TAU, c2 * size / (TAU * TAU), c3 * size / (TAU * TAU * TAU)];
+        (duration * TAU, c)
+    };
+    Track::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
 /// A platform whose height and angle are any [`Waveform`]s of one period.
 ///
 /// ```
-/// use bouncing_disk::parameters::{DrivenPlatformParameters, Waveform};
+/// use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 ///
 /// // The hand of Table I, moved along straight lines.
-/// let hand = DrivenPlatformParameters {
-///     angular_frequency: 15.0,
-///     height: Waveform::Triangle { amplitude: 0.21, phase: 0.0 },
-///     angle: Waveform::Sine { amplitude: 0.97, phase: 0.0 },
-/// };
-/// assert!(hand.build().is_ok());
+/// assert!(DrivenPlatform::new(15.0, Waveform::triangle(0.21, 0.0), Waveform::sine(0.97, 0.0)).is_ok());
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(
-    feature = "serde",
-    serde(try_from = "DrivenPlatformParameters", into = "DrivenPlatformParameters")
-)]
+#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPlatform"))]
 pub struct DrivenPlatform {
-    parameters: DrivenPlatformParameters,
+    angular_frequency: f64,
+    height: Waveform,
+    angle: Waveform,
 }
 
+read_checked!(DrivenPlatform as UncheckedPlatform {
+    angular_frequency: f64,
+    height: Waveform,
+    #[serde(default)]
+    angle: Waveform,
+});
+
 impl DrivenPlatform {
-    /// The parameters, to be changed and built again.
-    #[must_use]
-    pub const fn parameters(&self) -> &DrivenPlatformParameters {
-        &self.parameters
+    /// A platform with this angular frequency of the fundamental (rad/s), height (m) and angle (rad; none if absent
+    /// in a file).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number outside its range; [`Error::Waveform`] and [`Error::WaveformJump`] name
+    /// the waveform and its harmonic, piece or sample.
+    pub fn new(angular_frequency: f64, height: Waveform, angle: Waveform) -> Result<Self, Error> {
+        let platform = Self { angular_frequency, height, angle };
+        platform.check().map(|()| platform)
     }
 
-    /// Angular frequency of the fundamental (rad/s).
+    fn check(&self) -> Result<(), Error> {
+        positive("angular_frequency", self.angular_frequency)?;
+        self.height.check("height")?;
+        self.angle.check("angle")
+    }
+
+    /// Angular frequency of the fundamental (rad/s): the period is 2 pi over it.
     #[must_use]
     pub const fn angular_frequency(&self) -> f64 {
-        self.parameters.angular_frequency
+        self.angular_frequency
     }
 
     /// The height (m) over a period.
     #[must_use]
     pub const fn height(&self) -> &Waveform {
-        &self.parameters.height
+        &self.height
     }
 
     /// The angle (rad) over a period.
     #[must_use]
     pub const fn angle(&self) -> &Waveform {
-        &self.parameters.angle
+        &self.angle
     }
 
     /// The SI values of the units in which a motion of this disk is computed.
     #[must_use]
     pub fn scales(&self, disk: &Disk) -> Scales {
-        Scales::of(self.angular_frequency(), disk)
+        Scales::of(self.angular_frequency, disk)
     }
 }
 
 impl From<Platform> for DrivenPlatform {
     /// The platform of Eq. (1).
     fn from(platform: Platform) -> Self {
-        let sine = |amplitude, phase| Waveform::Sine { amplitude, phase };
-        let parameters = DrivenPlatformParameters {
+        Self {
             angular_frequency: platform.angular_frequency(),
-            height: sine(platform.amplitude(), 0.0),
-            angle: sine(platform.twist_amplitude(), platform.phase_lag()),
-        };
-        Self { parameters }
-    }
-}
-
-impl TryFrom<DrivenPlatformParameters> for DrivenPlatform {
-    type Error = Error;
-
-    fn try_from(parameters: DrivenPlatformParameters) -> Result<Self, Error> {
-        parameters.build()
-    }
-}
-
-impl From<DrivenPlatform> for DrivenPlatformParameters {
-    fn from(platform: DrivenPlatform) -> Self {
-        platform.parameters
+            height: Waveform::sine(platform.amplitude(), 0.0),
+            angle: Waveform::sine(platform.twist_amplitude(), platform.phase_lag()),
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
 
-    fn refusal(height: Waveform) -> String {
-        let platform =
-            DrivenPlatformParameters { angular_frequency: 15.0, height, angle: Waveform::default() };
-        platform.build().expect_err("refused").to_string()
-    }
-
-    /// Each waveform `phase` earlier is the same motion read `phase` later.
+    /// Each waveform some phase earlier is the same motion read later.
     #[test]
     fn a_phase_begins_the_period_elsewhere() {
-        let shapes: [fn(f64) -> Waveform; 5] = [
-            |phase| Waveform::Sine { amplitude: 0.3, phase },
-            |phase| Waveform::Triangle { amplitude: 0.3, phase },
-            |phase| Waveform::Sawtooth { amplitude: 0.3, rise: 0.8, phase },
-            |phase| Waveform::Parabolas { amplitude: 0.3, phase },
-            |phase| Waveform::Cubics { amplitude: 0.3, phase },
-        ];
-        for shape in shapes {
-            let track = |phase| shape(phase).track("height", 0.1, 1.0, 0.0).expect("legal");
-            let (own, lag) = (track(0.0), shape(0.0).track("height", 0.1, 1.0, 0.7).expect("legal"));
-            for phase in [0.7, -2.0, 0.5 * TAU, 5.0] {
-                let shifted = track(phase);
+        let samples = || Waveform::Sampled(vec![0.1, 0.2, -0.3, 0.05, 0.0]);
+        let shapes: [fn(Swing) -> Waveform; 4] =
+            [Waveform::Sine, Waveform::Triangle, |swing| Waveform::Sawtooth(0.8, swing), Waveform::Parabolas];
+        let shapes = shapes.map(|shape| shape(Swing { amplitude: 0.3, phase: 0.4 }));
+        for shape in shapes.into_iter().chain([samples()]) {
+            let track = |lag| shape.track("height", 0.1, 1.0, lag).expect("legal");
+            let own = track(0.0);
+            for lag in [0.7, -2.0, 0.5 * TAU, 5.0, -0.4] {
+                let shifted = track(lag);
                 for k in 0..97 {
                     let time = 0.065 * f64::from(k);
-                    let error = shifted.at(time).height - own.at(time + phase).height;
-                    assert!(error.abs() < 1e-14, "{:?} {time}: {error:e}", shape(phase));
+                    let error = shifted.at(time).height - own.at(time + lag).height;
+                    assert!(error.abs() < 1e-13, "{shape:?} {time}: {error:e}");
                 }
             }
-            assert!((lag.at(1.0).height - own.at(1.7).height).abs() < 1e-14);
-            // The extremes and zeros of the sine, except for the sawtooth.
-            assert!(own.at(0.0).height.abs() < 1e-15 && own.at(0.5 * TAU).height.abs() < 1e-14);
-        }
-        let samples = Waveform::Sampled(vec![0.1, 0.2, -0.3, 0.05, 0.0]);
-        let own = samples.track("height", 0.1, 1.0, 0.0).expect("legal");
-        let shifted = samples.track("height", 0.1, 1.0, 2.0).expect("legal");
-        for k in 0..97 {
-            let time = 0.065 * f64::from(k);
-            assert!((shifted.at(time).velocity - own.at(time + 2.0).velocity).abs() < 1e-12);
         }
     }
 
     #[test]
     fn bad_waveforms_are_refused_with_their_place() {
         let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
+        let nan = Swing { amplitude: 0.1, phase: f64::NAN };
         for (height, words) in [
             (Waveform::Fourier(vec![(0.1, 0.0), (f64::NAN, 0.0)]), "height: harmonic number 1"),
             (Waveform::Fourier(vec![(0.1, 0.0); MAX_HARMONICS + 1]), "at most 32"),
@@ -421,26 +283,26 @@ mod tests {
             (Waveform::Sampled(vec![0.0, 0.1]), "number of samples = 2"),
             (Waveform::Sampled(vec![0.0, 0.1, f64::INFINITY]), "sample number 2 of 3"),
             (Waveform::Sampled(vec![0.0; MAX_PIECES + 1]), "samples"),
-            (Waveform::Sine { amplitude: -0.1, phase: 0.0 }, "amplitude = -0.1"),
-            (Waveform::Triangle { amplitude: 0.1, phase: f64::NAN }, "phase = NaN"),
-            (Waveform::Sawtooth { amplitude: 0.1, rise: 1.0, phase: 0.0 }, "rise = 1"),
+            (Waveform::sine(-0.1, 0.0), "amplitude = -0.1"),
+            (Waveform::Triangle(nan), "phase = NaN"),
+            (Waveform::Sawtooth(1.0, Swing { amplitude: 0.1, phase: 0.0 }), "rise = 1"),
         ] {
-            let text = refusal(height);
-            assert!(text.contains(words), "{text}");
+            let refused = DrivenPlatform::new(15.0, height, Waveform::default()).expect_err("refused");
+            assert!(refused.to_string().contains(words), "{refused}");
         }
+        assert!(DrivenPlatform::new(0.0, Waveform::default(), Waveform::default()).is_err());
     }
 
     #[cfg(feature = "json")]
     #[test]
     fn a_platform_is_read_as_it_is_written() {
         let text = r#"{"angular_frequency": 15, "height": {"fourier": [[0.2, 0], [0.02, 1.5]]},
-            "angle": {"sawtooth": {"amplitude": 0.9, "rise": 0.3}}}"#;
+            "angle": {"sawtooth": [0.3, {"amplitude": 0.9}]}}"#;
         let platform: DrivenPlatform = serde_json::from_str(text).expect("legal");
         assert_eq!(platform.height(), &Waveform::Fourier(vec![(0.2, 0.0), (0.02, 1.5)]));
         let again = serde_json::to_string(&platform).expect("written");
         assert_eq!(serde_json::from_str::<DrivenPlatform>(&again).expect("read"), platform);
-        let still = text.replace("0.02", "1e400");
-        assert!(serde_json::from_str::<DrivenPlatform>(&still).is_err());
-        assert!(serde_json::from_str::<DrivenPlatform>(&text.replace("rise", "raise")).is_err());
+        assert!(serde_json::from_str::<DrivenPlatform>(&text.replace("0.9", "-1")).is_err());
+        assert!(serde_json::from_str::<DrivenPlatform>(&text.replace("amplitude", "size")).is_err());
     }
 }

@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
-use crate::parameters::driven_platform::Waveform;
+use crate::parameters::driven_platform::{Swing, Waveform};
 use crate::testing;
 
 /// What rounding leaves, relative to the sizes of what is compared.
@@ -182,17 +182,12 @@ proptest! {
 }
 
 fn waveforms() -> impl Strategy<Value = Waveform> {
-    let amplitude = 0.0..4.0_f64;
-    let phase = 0.0..6.0_f64;
+    let swing = || (0.0..4.0_f64, 0.0..6.0_f64).prop_map(|(amplitude, phase)| Swing { amplitude, phase });
     prop_oneof![
-        (amplitude.clone(), phase.clone()).prop_map(|(amplitude, phase)| Waveform::Sine { amplitude, phase }),
-        (amplitude.clone(), phase.clone())
-            .prop_map(|(amplitude, phase)| Waveform::Triangle { amplitude, phase }),
-        (amplitude.clone(), 0.05..0.95_f64, phase.clone())
-            .prop_map(|(amplitude, rise, phase)| Waveform::Sawtooth { amplitude, rise, phase }),
-        (amplitude.clone(), phase.clone())
-            .prop_map(|(amplitude, phase)| Waveform::Parabolas { amplitude, phase }),
-        (amplitude.clone(), phase).prop_map(|(amplitude, phase)| Waveform::Cubics { amplitude, phase }),
+        swing().prop_map(Waveform::Sine),
+        swing().prop_map(Waveform::Triangle),
+        (0.05..0.95_f64, swing()).prop_map(|(rise, swing)| Waveform::Sawtooth(rise, swing)),
+        swing().prop_map(Waveform::Parabolas),
         proptest::collection::vec((-0.5..0.5_f64, 0.0..6.0_f64), 0..5).prop_map(Waveform::Fourier),
         proptest::collection::vec(-1.0..1.0_f64, 3..12).prop_map(Waveform::Sampled),
     ]

@@ -5,7 +5,6 @@ use bouncing_disk_core::{Phase, Unobserved};
 use super::*;
 use crate::driven::{DrivenEvent, speed_curve, transient};
 use crate::motor::TransientSettings;
-use crate::parameters::DrivenPlatformParameters;
 use crate::toss::{InitialSpin, MultiTossSettings};
 use crate::{Platform, System};
 
@@ -149,16 +148,10 @@ fn bad_schedules_are_refused_by_name() {
             "height: acceleration",
         ),
     ];
-    let triangle = DrivenPlatformParameters {
-        angular_frequency: 15.0,
-        height: Waveform::Triangle { amplitude: 0.2, phase: 0.0 },
-        angle: Waveform::default(),
-    };
+    let triangle =
+        DrivenPlatform::new(15.0, Waveform::triangle(0.2, 0.0), Waveform::default()).expect("legal");
     let ramp = schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Rest);
-    list.push((
-        Schedule { platform: triangle.build().expect("legal"), ..ramp },
-        "segment 0 is a ramp of pieces",
-    ));
+    list.push((Schedule { platform: triangle, ..ramp }, "segment 0 is a ramp of pieces"));
     for (schedule, words) in list {
         let found = ScheduledEngine::at_rest(&schedule, &dough(), 0.0, ChatterPolicy::Complete);
         let text = found.expect_err("refused").to_string();
