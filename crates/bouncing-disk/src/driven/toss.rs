@@ -98,8 +98,6 @@ pub struct DrivenTossOrbit {
     pub period: Option<usize>,
     /// How often the disk came to rest on the hand among them.
     pub attachments: u64,
-    /// Mean angular speed over them (rad/s); `None` for fewer than two.
-    pub mean_angular_speed: Option<f64>,
 }
 
 /// The orbit of a disk after many tosses from rest on the hand at `phase` with this angular speed (rad/s).
@@ -120,10 +118,8 @@ pub fn multi_toss(
     let start = DrivenStart::Contact { phase, angular_speed: spin };
     let mut engine = DrivenEngine::new(system, start, settings.policy)?;
     engine.with_energy = false;
-    let mut orbit =
-        DrivenTossOrbit { impacts: Vec::new(), period: None, attachments: 0, mean_angular_speed: None };
+    let mut orbit = DrivenTossOrbit { impacts: Vec::new(), period: None, attachments: 0 };
     let (mut skipped, mut contact_events, mut flight) = (0, 0, 0.0);
-    let (mut first, mut last, mut passed) = (0.0, 0.0, 0.0);
     while orbit.impacts.len() < examined && contact_events < MOST_CONTACT_EVENTS {
         let Some(record) = engine.advance()? else { break };
         flight += record.span.radians();
@@ -140,11 +136,6 @@ pub fn multi_toss(
         if skipped < settings.transient_impacts {
             skipped += 1;
         } else {
-            passed += if orbit.impacts.is_empty() { 0.0 } else { flight };
-            last = record.after.angle;
-            if orbit.impacts.is_empty() {
-                first = last;
-            }
             orbit.impacts.push(TossImpact {
                 phase: record.time.phase.angle(),
                 flight: flight * scales.time,
@@ -153,9 +144,6 @@ pub fn multi_toss(
             });
         }
         flight = 0.0;
-    }
-    if passed > 0.0 {
-        orbit.mean_angular_speed = Some((last - first) / passed * scales.angular_speed);
     }
     orbit.period = period_of(&orbit.impacts, settings);
     Ok(orbit)
