@@ -84,7 +84,7 @@ impl StartUp {
         ScheduledEngine::at_rest(&schedule, dough.disk(), 0.0, ChatterPolicy::Complete)
     }
 
-    /// Whether the last impacts come one in each period.
+    /// Whether the last impacts come one in each period; next to its doubling the orbit settles slowly.
     fn reaches_orbit(&self) -> Result<bool, Error> {
         let period = TAU / System::pizza_toss().platform().angular_frequency();
         let mut times = Vec::new();
@@ -99,7 +99,7 @@ impl StartUp {
                 break;
             }
         }
-        let steady = |two: &[f64]| ((two[1] - two[0]) / period - 1.0).abs() < 1e-3;
+        let steady = |two: &[f64]| ((two[1] - two[0]) / period - 1.0).abs() < 0.1;
         Ok(times.len() > 8 && times[times.len() - 8..].windows(2).all(steady))
     }
 
