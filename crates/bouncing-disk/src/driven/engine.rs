@@ -145,14 +145,20 @@ impl DrivenEngine {
     ) -> Result<Self, Error> {
         let mut engine = Self::begin(system, Clock { at, periods: 0 }, policy);
         engine.short_flights = short_flights;
-        let velocity = engine.system.height.at(at).velocity;
+        let jump = engine.state.axial_velocity - state.axial_velocity;
+        let size = engine.state.axial_velocity.abs() + state.axial_velocity.abs();
+        let height = engine.state.height;
         engine.resume(state)?;
-        if let Stage::Contact(contact) = &mut engine.stage {
-            let jump = velocity - state.axial_velocity;
-            if jump.abs() > 1.0e-12 * (velocity.abs() + state.axial_velocity.abs()) {
-                engine.state.axial_velocity = state.axial_velocity;
-                contact.end = Some((0.0, at, jump));
-            }
+        if state.mode != Mode::Flight && jump.abs() > 1.0e-12 * size {
+            // It lies there until its next event, a kick or a separation at once.
+            let slip = SlipDirection::of(engine.state.angular_speed - engine.system.angle.at(at).velocity);
+            engine.state = DiskState {
+                mode: mode_of(slip),
+                height,
+                axial_velocity: state.axial_velocity,
+                ..engine.state
+            };
+            engine.stage = Stage::Contact(Contact { slip, since: at, end: Some((0.0, at, jump)) });
         }
         Ok(engine)
     }
@@ -577,9 +583,6 @@ impl DrivenEngine {
         let record = self.moved(span, to, DrivenEvent::Separation, change.angle, (before, after), ledger);
         self.stage = if jump < 0.0 {
             Stage::Flight { gap: 0.0, velocity: -jump }
-        } else if contact.since.to_bits() == to.at.to_bits() {
-            // It has lain there for no time.
-            Stage::Flight { gap: 0.0, velocity: 0.0 }
         } else {
             Stage::Separated { since: contact.since }
         };

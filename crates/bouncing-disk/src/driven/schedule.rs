@@ -268,7 +268,7 @@ impl ScheduledEngine {
     /// # Errors
     /// Those of [`DrivenEngine::advance`].
     pub fn advance(&mut self) -> Result<Option<ScheduledRecord>, Error> {
-        let left = self.parts[self.segment].duration - self.elapsed;
+        let left = (self.parts[self.segment].duration - self.elapsed).max(0.0);
         let found = self.engine.advance_within(left)?;
         let record = match found {
             Some(record) => record,

@@ -230,3 +230,69 @@ fn the_comparison_meets_every_event() {
     }
     assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
 }
+
+/// A disk on a triangle of speed u and angular speed b, by hand: it is left behind at the crest and is back after 4 u
+/// with -2 u; at the trough it is hit with 2 u; where the angular speed drops by 2 b it slides for 2 b/mu and loses
+/// 2 b^2.
+#[test]
+fn kinks_leave_hit_and_turn_as_derived_by_hand() {
+    let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
+    let track =
+        |speed: f64| Waveform::triangle(speed * quarter, 0.0).track("height", 1.0, 1.0, 0.0).expect("legal");
+    let system =
+        DrivenSystem { height: track(u), angle: track(b), friction: 0.5, restitution: 0.4, load: 0.0 };
+    let still = DrivenSystem { height: track(0.0), ..system.clone() };
+    let near = |one: f64, other: f64| (one - other).abs() < 1e-14;
+    let start = |phase: f64, angular_speed| DrivenStart::Contact {
+        phase: bouncing_disk_core::Phase::new(phase).expect("finite"),
+        angular_speed,
+    };
+    let mut engine =
+        DrivenEngine::new(system.clone(), start(0.0, b), ChatterPolicy::Complete).expect("legal");
+    let parted = engine.advance().expect("no failure").expect("an event");
+    assert!(parted.event == DrivenEvent::Separation && near(parted.span.radians(), quarter), "{parted:?}");
+    let landed = engine.advance().expect("no failure").expect("an event");
+    let DrivenEvent::Impact(hit) = landed.event else { panic!("{landed:?}") };
+    assert!(near(landed.span.radians(), 4.0 * u) && near(hit.axial_impact_velocity, -2.0 * u), "{landed:?}");
+
+    let mut engine =
+        DrivenEngine::new(system, start(2.0 * quarter, -b), ChatterPolicy::Complete).expect("legal");
+    let kicked = engine.advance().expect("no failure").expect("an event");
+    let DrivenEvent::Kick(hit) = kicked.event else { panic!("{kicked:?}") };
+    assert!(near(hit.axial_impact_velocity, -2.0 * u) && near(hit.tangential_impact_velocity, -2.0 * b));
+    assert!(near(kicked.axial_impulse, 2.8 * u) && near(kicked.after.axial_velocity, 1.8 * u), "{kicked:?}");
+    // Friction can give 0.5 x 2.8 u = 0.42 of the 0.4 that ends the slip.
+    assert!(hit.capped && near(kicked.after.angular_speed, b) && kicked.ledger.relative_closure() < ROUNDING);
+
+    let mut engine = DrivenEngine::new(still, start(0.0, b), ChatterPolicy::Complete).expect("legal");
+    let slips = engine.advance().expect("no failure").expect("an event");
+    assert!(slips.event == DrivenEvent::StickToSlip(SlipDirection::Forward), "{slips:?}");
+    let sticks = engine.advance().expect("no failure").expect("an event");
+    assert!(sticks.event == DrivenEvent::SlipToStick && near(sticks.span.radians(), 4.0 * b), "{sticks:?}");
+    assert!(near(sticks.ledger.friction_loss, 2.0 * b * b), "{sticks:?}");
+}
+
+#[test]
+fn bad_starts_and_states_are_refused_by_name() {
+    let system = DrivenSystem::try_from(*crate::System::pizza_toss().dimensionless()).expect("legal");
+    let phase = bouncing_disk_core::Phase::new(1.0).expect("finite");
+    let policy = ChatterPolicy::Complete;
+    let start = |gap, relative_velocity, angular_speed| {
+        let start = DrivenStart::Flight { phase, gap, relative_velocity, angular_speed };
+        DrivenEngine::new(system.clone(), start, policy).expect_err("refused").to_string()
+    };
+    assert!(start(-1.0, 0.0, 0.0).contains("gap = -1"));
+    assert!(start(1.0, f64::NAN, 0.0).contains("relative_velocity"));
+    assert!(start(1.0, 0.0, f64::INFINITY).contains("angular_speed"));
+    let legal = DrivenStart::Flight { phase, gap: 1.0, relative_velocity: 0.0, angular_speed: 0.0 };
+    let engine = DrivenEngine::new(system.clone(), legal, policy).expect("legal");
+    let (time, state) = engine.state_after(0.1);
+    for (state, words) in [
+        (DiskState { height: -10.0, ..state }, "height above the platform"),
+        (DiskState { height: f64::NAN, ..state }, "height"),
+        (DiskState { angle: f64::INFINITY, ..state }, "angle"),
+    ] {
+        let refused = DrivenEngine::of_state(system.clone(), time, state, policy).expect_err("refused");
+        assert!(refused.to_string().contains(words), "{refused}");
+    }
+}
