@@ -93,24 +93,6 @@ impl DrivenSystem {
         self.angle.drive()
     }
 
-    /// Coefficient of friction.
-    #[must_use]
-    pub const fn friction(&self) -> f64 {
-        self.friction
-    }
-
-    /// Coefficient of restitution.
-    #[must_use]
-    pub const fn restitution(&self) -> f64 {
-        self.restitution
-    }
-
-    /// Load torque in units of m g a_e.
-    #[must_use]
-    pub const fn load(&self) -> f64 {
-        self.load
-    }
-
     fn is_ramp(&self) -> bool {
         self.height.duration().is_finite() || self.angle.duration().is_finite()
     }

@@ -16,6 +16,7 @@ use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 use super::DrivenSystem;
+use super::track::Bend;
 use crate::error::Error;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::SlipDirection;
@@ -89,13 +90,11 @@ impl DrivenSystem {
                     _ => -rate,
                 };
                 let error = if spare == 0.0 { 0.0 } else { doubt };
-                let mut terms = Vec::new();
-                self.height.add_acceleration(here, self.friction, &mut terms);
-                self.angle.add_acceleration(here, direction.sign(), &mut terms);
-                let start = [spare, -change];
-                Ok((spare >= -doubt && (spare > 0.0 || change < 0.0))
-                    .then(|| QuasiPolynomial::anchored(start, [error, change_doubt], [0.0; 2], terms))
-                    .transpose()?)
+                let mut bend = Bend::default();
+                self.height.add(2, here, self.friction, &mut bend);
+                self.angle.add(2, here, direction.sign(), &mut bend);
+                let holds = spare >= -doubt && (spare > 0.0 || change < 0.0);
+                Ok(holds.then(|| bend.from([spare, -change], [error, change_doubt])).transpose()?)
             })?;
             if let Some(after) = found
                 && first.is_none_or(|(earliest, _)| after < earliest)
@@ -180,10 +179,10 @@ impl DrivenSystem {
         let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
         // A slip that begins does not end by a rounding.
         let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
-        let (mut bends, mut terms) = ([0.0; 2], Vec::new());
-        self.height.add_velocity(here, -self.friction, &mut bends, &mut terms);
-        self.angle.add_velocity(here, -direction.sign(), &mut bends, &mut terms);
-        Ok(QuasiPolynomial::anchored([value, rate], [error, doubt], bends, terms)?)
+        let mut bend = Bend::default();
+        self.height.add(1, here, -self.friction, &mut bend);
+        self.angle.add(1, here, -direction.sign(), &mut bend);
+        Ok(bend.from([value, rate], [error, doubt])?)
     }
 
     /// Slip speed after a slide of this `span`.
@@ -268,8 +267,8 @@ impl DrivenSystem {
             let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
             let (slip, force, carrier) = (
                 self.slip_from(direction, here, value, 0.0),
-                self.height.acceleration_from(here, 1.0),
-                self.angle.velocity_from(here),
+                self.height.derivative(2, here, 1.0),
+                self.angle.derivative(1, here, 0.0),
             );
             let (Ok(slip), Ok(force), Ok(carrier)) = (slip, force, carrier) else { break };
             let half = 0.5 * stretch / panels;

@@ -163,13 +163,12 @@ impl Track {
     pub(crate) fn change(&self, time: f64, span: f64) -> (f64, f64) {
         let (mut here, mut left, mut velocity, mut height) = (time, span, 0.0, 0.0);
         if self.knots.is_empty() {
-            let slope = self.at(time).acceleration;
-            let mut terms = Vec::with_capacity(self.sines.len());
-            self.add_velocity(time, 1.0, &mut [0.0; 2], &mut terms);
-            velocity = value([0.0, slope], terms, span);
-            let mut terms = Vec::with_capacity(self.sines.len());
-            self.add_height(time, &mut terms);
-            return (velocity, value([0.0; 2], terms, span));
+            let value = |derivative, slope| {
+                let mut bend = Bend::default();
+                self.add(derivative, time, 1.0, &mut bend);
+                bend.from([0.0, slope], [0.0; 2]).map_or(f64::NAN, |function| function.at(span, span).value)
+            };
+            return (value(1, self.at(time).acceleration), value(0, 0.0));
         }
         while left > 0.0 {
             let (at, next) = (self.at(here), self.next_knot(here));
@@ -182,77 +181,55 @@ impl Track {
         (velocity, height)
     }
 
-    /// Adds the height about `time`, less its value and slope there, to the terms.
-    fn add_height(&self, time: f64, terms: &mut Vec<DampedSine>) {
-        for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
-            let (sin, cos) = sin_cos(number * time + angle);
-            let size = amplitude + rate * time;
-            push(terms, number, [size * sin, size * cos]);
-            push_with_time(terms, number, [rate * sin, rate * cos]);
-        }
-    }
-
-    /// Adds `factor` times the velocity about `time`, less its value and slope there, to polynomial (of degrees
-    /// 2 and 3) and terms.
-    pub(crate) fn add_velocity(
+    /// A derivative (1 or 2) from `time` to the next knot, and a constant.
+    pub(crate) fn derivative(
         &self,
+        derivative: usize,
         time: f64,
-        factor: f64,
-        bends: &mut [f64; 2],
-        terms: &mut Vec<DampedSine>,
-    ) {
-        if !self.knots.is_empty() {
-            bends[0] += 0.5 * factor * self.at(time).jerk;
+        constant: f64,
+    ) -> Result<QuasiPolynomial, Error> {
+        let (here, mut bend) = (self.at(time), Bend::default());
+        self.add(derivative, time, 1.0, &mut bend);
+        let values = [here.height, here.velocity, here.acceleration, here.jerk];
+        bend.from([constant + values[derivative], values[derivative + 1]], [0.0; 2])
+    }
+
+    /// Adds `factor` times a derivative (0 to 2) about `time`, less its value and slope there.
+    pub(crate) fn add(&self, derivative: usize, time: f64, factor: f64, bend: &mut Bend) {
+        if derivative == 1 && !self.knots.is_empty() {
+            bend.square += 0.5 * factor * self.at(time).jerk;
         }
         for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
+            // The sine of the derivative and that of the one below it, as coefficients of cosine and sine.
             let (sin, cos) = sin_cos(number * time + angle);
-            let swing = factor * number * (amplitude + rate * time);
-            let slope = factor * rate;
-            push(terms, number, [swing * cos + slope * sin, slope * cos - swing * sin]);
-            push_with_time(terms, number, [slope * number * cos, -slope * number * sin]);
-        }
-    }
-
-    /// The velocity from `time` to the next knot.
-    pub(crate) fn velocity_from(&self, time: f64) -> Result<QuasiPolynomial, Error> {
-        let (here, mut bends, mut terms) = (self.at(time), [0.0; 2], Vec::new());
-        self.add_velocity(time, 1.0, &mut bends, &mut terms);
-        QuasiPolynomial::anchored([here.velocity, here.acceleration], [0.0; 2], bends, terms)
-    }
-
-    /// The acceleration and a constant from `time` to the next knot.
-    pub(crate) fn acceleration_from(&self, time: f64, constant: f64) -> Result<QuasiPolynomial, Error> {
-        let (here, mut terms) = (self.at(time), Vec::new());
-        self.add_acceleration(time, 1.0, &mut terms);
-        QuasiPolynomial::anchored([constant + here.acceleration, here.jerk], [0.0; 2], [0.0; 2], terms)
-    }
-
-    /// Adds `factor` times the acceleration about `time`, less its value and slope there, to the terms: pieces
-    /// have none.
-    pub(crate) fn add_acceleration(&self, time: f64, factor: f64, terms: &mut Vec<DampedSine>) {
-        for &Sine { number, amplitude, rate, angle } in self.sines.iter() {
-            let (sin, cos) = sin_cos(number * time + angle);
-            let swing = factor * number * number * (amplitude + rate * time);
-            let slope = factor * number * rate;
-            push(terms, number, [2.0 * slope * cos - swing * sin, -2.0 * slope * sin - swing * cos]);
-            push_with_time(terms, number, [-slope * number * sin, -slope * number * cos]);
+            let (mut own, mut below, mut power) = ([sin, cos], [0.0; 2], factor);
+            for _ in 0..derivative {
+                (own, below) = ([own[1], -own[0]], own.map(|x| x * power));
+                power *= number;
+            }
+            let (size, turns) = (power * (amplitude + rate * time), derivative as f64 * rate);
+            let mut push = |[cosine, sine]: [f64; 2], with_time| {
+                bend.terms.push(DampedSine { cosine, sine, frequency: number, decay: 0.0, with_time });
+            };
+            push([size * own[0] + turns * below[0], size * own[1] + turns * below[1]], false);
+            if rate != 0.0 {
+                push(own.map(|x| power * rate * x), true);
+            }
         }
     }
 }
 
-/// The value after `span` of a function with this value and slope at its start.
-fn value(start: [f64; 2], terms: Vec<DampedSine>, span: f64) -> f64 {
-    let function = QuasiPolynomial::anchored(start, [0.0; 2], [0.0; 2], terms);
-    function.map_or(f64::NAN, |function| function.at(span, span).value)
+/// What bends a function away from its first value and slope: a square and sines.
+#[derive(Debug, Default)]
+pub(crate) struct Bend {
+    square: f64,
+    terms: Vec<DampedSine>,
 }
 
-fn push(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [f64; 2]) {
-    terms.push(DampedSine { cosine, sine, frequency, decay: 0.0, with_time: false });
-}
-
-fn push_with_time(terms: &mut Vec<DampedSine>, frequency: f64, [cosine, sine]: [f64; 2]) {
-    if cosine != 0.0 || sine != 0.0 {
-        terms.push(DampedSine { cosine, sine, frequency, decay: 0.0, with_time: true });
+impl Bend {
+    /// The function with this value and slope at its start, known to these errors.
+    pub(crate) fn from(self, start: [f64; 2], errors: [f64; 2]) -> Result<QuasiPolynomial, Error> {
+        QuasiPolynomial::anchored(start, errors, [self.square, 0.0], self.terms)
     }
 }
 
@@ -275,8 +252,8 @@ mod tests {
     fn the_terms_are_those_of_the_drive() {
         for track in tracks() {
             for time in [0.0, 0.7, 2.0, 4.4, 6.1] {
-                let velocity = track.velocity_from(time).expect("legal");
-                let acceleration = track.acceleration_from(time, 1.0).expect("legal");
+                let velocity = track.derivative(1, time, 0.0).expect("legal");
+                let acceleration = track.derivative(2, time, 1.0).expect("legal");
                 let span = track.next_knot(time).map_or(3.0, |next| next.after);
                 for step in 0..8 {
                     let after = span * f64::from(step) / 8.0;
