@@ -788,3 +788,136 @@ fn drive_costs() {
         println!("{name}: {:.1} ns, {:.2} times the sine", time * 1e9, time / least[0]);
     }
 }
+
+/// A flight that is interrupted at a random time goes on to the same impact, also as a disk in the air.
+#[test]
+fn an_interrupted_flight_lands_at_the_same_place() {
+    let mut random = SplitMix::new(97);
+    let mut compared = 0;
+    while compared < 20_000 {
+        let exact = KINDS[compared % KINDS.len()].draw(&mut random);
+        let drive = &exact.drive;
+        for _ in 0..20 {
+            let Some((time, speed)) = launch(&exact, &mut random) else { continue };
+            let landing = drive.first_impact_from(time, 0.0, speed).unwrap();
+            let t = landing.impact.duration() * random.uniform(0.05, 0.95);
+            let from = drive.at(time);
+            let (u, there) = (from.velocity + speed, drive.at(time + t));
+            let gap = from.height - there.height + t * (u - 0.5 * t);
+            let bounds = drive.bounds();
+            // How far the rounding of this point moves the impact.
+            let size = bounds.highest - bounds.lowest + (1.0 + t) * (bounds.speed + u.abs() + t);
+            let shift = 1e-14 * size / -landing.impact.velocity;
+            let grazes = landing.doubt.is_some() || landing.on_kink || shift > 1e-9;
+            if gap <= 1e-9 * size
+                || grazes
+                || exact.closest(time, speed, landing.impact.duration()) < 1e-9 * size
+            {
+                continue;
+            }
+            let again = drive.first_impact_from(time + t, gap, u - t - there.velocity).unwrap();
+            let apart = (again.impact.duration() + t - landing.impact.duration()).abs();
+            assert!(
+                apart < 100.0 * shift + 1e-12,
+                "{apart:e}: {landing:?}, from {t} on {again:?}, {drive:?}"
+            );
+            compared += 1;
+        }
+    }
+}
+
+impl Exact {
+    /// The lowest gap of a flight where it has a minimum, of samples: near a graze this is small.
+    fn closest(&self, time: f64, w: f64, duration: f64) -> f64 {
+        let from = self.drive.at(time);
+        let gap = |t: f64| from.height - self.drive.height(time + t) + t * (from.velocity + w - 0.5 * t);
+        let samples = 400.0;
+        let gaps: Vec<_> = (0..400_u32).map(|k| gap(duration * f64::from(k) / samples)).collect();
+        let dip = gaps.windows(3).filter(|three| three[1] <= three[0] && three[1] <= three[2]);
+        dip.fold(f64::INFINITY, |least, three| {
+            least.min(three[1] - (three[0] - three[1]).max(three[2] - three[1]))
+        })
+    }
+}
+
+/// An amplitude that grows or falls in time, as in a segment of a schedule.
+#[test]
+fn ramps_are_followed_to_their_end() {
+    let mut random = SplitMix::new(98);
+    let (mut landed, mut flown) = (0, 0);
+    for _ in 0..4_000 {
+        let duration = random.uniform(5.0, 60.0);
+        let harmonics: Vec<_> = (0..1 + below(&mut random, 3))
+            .map(|_| {
+                let (a, end) = (random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+                (a, (end - a) / duration, random.angle())
+            })
+            .collect();
+        let drive = Drive::ramped_fourier(&harmonics, duration).unwrap();
+        let (time, speed) = (duration * random.unit(), random.decades(-6.0, 1.3));
+        let ramp = Ramp { harmonics: &harmonics, time, speed };
+        match drive.first_impact_within(time, 0.0, speed, f64::INFINITY).unwrap() {
+            Some(landing) => {
+                landed += 1;
+                let h = dd(landing.impact.periods as f64) * (Dd::PI + Dd::PI) + dd(landing.impact.remainder);
+                has_root_at(&ramp, h, landing.error).unwrap();
+                let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
+                positive(&ramp, 0.0, h.high() - 4.0 * landing.error, raised).unwrap();
+            }
+            None => {
+                flown += 1;
+                positive(&ramp, 0.0, duration - time, 0.0).unwrap();
+                assert!(drive.first_impact_from(time, 0.0, speed).is_err());
+            }
+        }
+    }
+    assert!(landed > 500 && flown > 500, "{landed} {flown}");
+}
+
+/// The gap above a ramp after a launch.
+struct Ramp<'a> {
+    harmonics: &'a [(f64, f64, f64)],
+    time: f64,
+    speed: f64,
+}
+
+impl Ramp<'_> {
+    fn height(&self, time: Dd) -> (Dd, Dd) {
+        let (mut height, mut velocity) = (dd(0.0), dd(0.0));
+        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
+            let j = dd(f64::from(j));
+            let (sin, cos) = (j * time + dd(angle)).sin_cos();
+            let size = dd(a) + dd(b) * time;
+            height = height + size * sin;
+            velocity = velocity + size * j * cos + dd(b) * sin;
+        }
+        (height, velocity)
+    }
+}
+
+impl Gap for Ramp<'_> {
+    fn at(&self, t: Dd) -> (Dd, Dd) {
+        let (from, to) = (self.height(dd(self.time)), self.height(dd(self.time) + t));
+        let w = dd(self.speed);
+        (t * (w + from.1 - dd(0.5) * t) - (to.0 - from.0), w + from.1 - to.1 - t)
+    }
+
+    fn bend(&self, _: f64, to: f64) -> f64 {
+        let end = self.time + to;
+        1.0 + (1..)
+            .zip(self.harmonics)
+            .map(|(j, (a, b, _))| (a.abs() + b.abs() * end) * f64::from(j * j) + 2.0 * b.abs() * f64::from(j))
+            .sum::<f64>()
+    }
+
+    fn start(&self) -> (f64, f64) {
+        let (mut bend, mut third) = (-1.0, 0.0);
+        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
+            let j = f64::from(j);
+            let (sin, cos) = libm::sincos(j * self.time + angle);
+            bend += j * ((a + b * self.time) * j * sin - 2.0 * b * cos);
+            third += j * j * ((a.abs() + b.abs() * (self.time + 70.0)) * j + 3.0 * b.abs());
+        }
+        (bend, third)
+    }
+}

@@ -12,7 +12,7 @@ use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::{Impact, Launch};
 use crate::numerics::elementary::{nearest_periods, wrapped_angle};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial, Root};
+use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
 /// Four roundoffs.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -129,7 +129,7 @@ impl Drive {
             start.time = wrapped_angle(start.time);
         }
         let limit = limit.min(self.duration() - start.time);
-        let here = self.at(start.time);
+        let (here, terms) = self.at_with_terms(start.time);
         let bounds = self.bounds();
         if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
             return Err(self.no_lift_off(start.time));
@@ -156,7 +156,7 @@ impl Drive {
         }
         let mut found = Found::default();
         if up > 0.0 {
-            found = self.window(start, [0.0; 2], up.min(limit))?;
+            found = self.window(start, [0.0; 2], terms, up.min(limit))?;
             if found.root.is_some() || limit <= up {
                 return Ok(found.root.map(|root| self.landed(start.time, (0.0, 0.0), root, &found)));
             }
@@ -166,7 +166,7 @@ impl Drive {
         }
         let (periods, rest) = if periodic && down > TAU { nearest_periods(down) } else { (0.0, down) };
         let time = start.time + rest;
-        let there = self.at(time);
+        let (there, terms) = self.at_with_terms(time);
         // Time and speed at which the disk is back are rounded, and so were height and speed before.
         let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
         let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;
@@ -182,16 +182,17 @@ impl Drive {
             separates: false,
         };
         let (before, doubt) = (found.evaluations, found.doubt);
-        found = self.window(descent, error, limit - down)?;
+        found = self.window(descent, error, terms, limit - down)?;
         found.evaluations += before;
         found.doubt = doubt.or(found.doubt.map(|doubt| Doubt { at: doubt.at + down, ..doubt }));
         Ok(found.root.map(|root| self.landed(start.time, (periods, rest), root, &found)))
     }
 
-    /// The first root of the gap within `to`; its value and slope at the start have these errors.
-    fn window(&self, start: Start, error: [f64; 2], to: f64) -> Result<Found, Error> {
+    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms` are
+    /// those of the drive there.
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         match &self.shape {
-            Shape::Fourier(fourier) => fourier.window(start, error, to),
+            Shape::Fourier(fourier) => fourier.window(start, error, terms, to),
             Shape::Pieces(pieces) => pieces.window(start, error, to),
         }
     }
@@ -244,25 +245,15 @@ impl Drive {
 }
 
 impl Fourier {
-    /// The gap from this start on.
-    fn gap(&self, start: Start, error: [f64; 2]) -> QuasiPolynomial {
-        let terms = self.falling_terms(start.time);
-        let gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
-        if !start.separates {
-            return gap;
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
+        let mut gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
+        if start.separates {
+            let pull = gap.at(0.0, 0.0).bend;
+            if pull < 0.0 && pull >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration) {
+                gap = gap.bent_by(-pull);
+            }
         }
-        let pull = gap.at(0.0, 0.0).bend;
-        if pull < 0.0 && pull >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration) {
-            gap.bent_by(-pull)
-        } else {
-            gap
-        }
-    }
-
-    fn window(&self, start: Start, error: [f64; 2], to: f64) -> Result<Found, Error> {
-        let gap = self.gap(start, error);
-        let to = if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION };
-        decided(&gap, to)
+        decided(&gap, if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION })
     }
 }
 

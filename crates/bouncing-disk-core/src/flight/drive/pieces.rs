@@ -21,7 +21,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// No pieces are passed over sooner than this after the start of a search (rad): heights above the platform
 /// are then taken from the height of both, whose rounding a shorter flight would feel.
-const FIRST_PASS: f64 = 0.25;
+const FIRST_PASS: f64 = 0.05;
 
 #[derive(Debug, PartialEq)]
 pub(crate) struct Pieces {
@@ -403,7 +403,7 @@ impl Pieces {
             gap = gap.max(0.0);
             (piece, x, at_joint) = (next, 0.0, true);
             left = self.length(piece);
-            if elapsed >= FIRST_PASS
+            if (elapsed >= FIRST_PASS || first_error[0] > 0.0)
                 && let Some((passed, after)) = self.pass(piece, elapsed, disk_height, disk_speed)
             {
                 if after >= to {
