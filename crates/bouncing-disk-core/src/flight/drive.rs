@@ -44,6 +44,7 @@ enum Shape {
 
 /// Heights, velocity, acceleration and third derivative of a platform at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveState {
     /// Height, in units of g/omega^2.
     pub height: f64,
@@ -57,6 +58,7 @@ pub struct DriveState {
 
 /// Bounds of a drive over all times.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveBounds {
     /// The platform is nowhere lower.
     pub lowest: f64,

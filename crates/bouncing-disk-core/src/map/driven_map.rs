@@ -136,6 +136,7 @@ impl DrivenMap {
 
 /// One event of the vertical motion on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum DrivenEvent {
     /// The disk hits the platform.
@@ -156,6 +157,7 @@ pub enum DrivenEvent {
 
 /// The end of a contact as an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactChange {
     /// The time since the disk came to rest, in radians.
     pub duration: f64,
@@ -302,7 +304,7 @@ impl DrivenOrbit {
 
 /// How often the phase passes 0 in a contact of at most one period.
 fn turns(since: f64, end: ContactEnd) -> u64 {
-    u64::from(end.time < since || end.time == since && end.duration > 0.5 * TAU)
+    u64::from(end.time < since || end.time <= since && end.duration > 0.5 * TAU)
 }
 
 impl Iterator for DrivenOrbit {

@@ -507,7 +507,7 @@ fn a_sine_as_a_fourier_sum_gives_the_events_of_the_sine() {
                         _ => None,
                     });
                     let apart = (end.unwrap().phase.angle() - attachment.accumulation.phase.angle()).abs();
-                    assert!(apart < 1e-12 || apart > 6.28, "{forcing} {restitution}: {apart:e}");
+                    assert!(apart.min((TAU - apart).abs()) < 1e-12, "{forcing} {restitution}: {apart:e}");
                     let separation = orbit.next().map(|event| match event.unwrap() {
                         DrivenEvent::Separation(change) => change.phase.angle(),
                         other => panic!("{other:?}"),
@@ -687,7 +687,9 @@ fn a_triangle_leaves_the_disk_behind_and_hits_it() {
     // On the falling slope it stays until the trough hits it, and then sticks (r = 0) until the next crest.
     let Some(Ok(DrivenEvent::Attachment { .. })) = orbit.next() else { panic!("attaches") };
     let Some(Ok(DrivenEvent::Kick(trough))) = orbit.next() else { panic!("is hit") };
-    assert!((trough.velocity + drop).abs() < 1e-15 && trough.phase.angle() == 0.75 * TAU);
+    assert!(
+        (trough.velocity + drop).abs() < 1e-15 && trough.phase.angle().to_bits() == (0.75 * TAU).to_bits()
+    );
     let Some(Ok(DrivenEvent::Attachment { .. })) = orbit.next() else { panic!("attaches") };
     let Some(Ok(DrivenEvent::Separation(again))) = orbit.next() else { panic!("leaves again") };
     assert!(again.turns == 1 && (again.duration - 0.5 * TAU).abs() < 1e-14);
@@ -871,7 +873,7 @@ fn ramps_are_followed_to_their_end() {
             }
         }
     }
-    assert!(landed > 500 && flown > 500, "{landed} {flown}");
+    assert!(landed > 300 && flown > 300, "{landed} {flown}");
 }
 
 /// The gap above a ramp after a launch.

@@ -10,7 +10,8 @@ use core::f64::consts::TAU;
 use super::{Drive, Fourier, Shape};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::{Impact, Launch};
-use crate::numerics::elementary::{nearest_periods, wrapped_angle};
+use crate::flight::platform::phase::Phase;
+use crate::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
@@ -22,6 +23,7 @@ pub(crate) const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenImpact {
     /// When, and how fast.
     pub impact: Impact,
@@ -35,6 +37,7 @@ pub struct DrivenImpact {
 
 /// A graze that rounding does not decide: it counts as the evaluated sign says.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Doubt {
     /// When, in radians after the start.
     pub at: f64,
@@ -201,26 +204,15 @@ impl Drive {
     fn landed(&self, from: f64, (periods, rest): (f64, f64), root: Root, found: &Found) -> DrivenImpact {
         let after = rest + root.at;
         let angle = from + after;
-        let (mut turns, mut wrapped) = (periods + libm::floor(angle / TAU), wrapped_angle(angle));
-        // The two may round to different sides of a whole turn.
-        if wrapped < 1.0 && angle - (turns - periods) * TAU > 0.5 * TAU {
-            turns += 1.0;
-        } else if wrapped > TAU - 1.0 && angle - (turns - periods) * TAU < 0.5 * TAU {
-            turns -= 1.0;
-        }
-        if let Some((begin, end)) = found.piece {
+        let mut wrapped = wrapped_angle(angle);
+        if let Some((begin, end)) = found.piece
+            && !(begin..end).contains(&wrapped)
+        {
             // Rounding must not put the impact on another piece.
-            let (from, to) = (begin - wrapped, wrapped - end);
-            if wrapped < begin && from < 1.0 {
-                wrapped = begin;
-            } else if to >= 0.0 && to < 1.0 {
-                wrapped = end.next_down();
-            } else if wrapped < 1.0 && end == TAU && begin > wrapped {
-                (wrapped, turns) = (TAU.next_down(), turns - 1.0);
-            } else if begin == 0.0 && wrapped > TAU - 1.0 && wrapped >= end {
-                (wrapped, turns) = (0.0, turns + 1.0);
-            }
+            let apart = |joint: f64| (wrapped - joint).abs().min(TAU - (wrapped - joint).abs());
+            wrapped = if apart(begin) <= apart(end) { begin } else { end.next_down() };
         }
+        let turns = periods + nearest_whole((angle - wrapped) / TAU);
         let (mut whole, mut remainder) = (periods, after);
         if remainder < 0.0 {
             (whole, remainder) = (whole - 1.0, remainder + TAU);
@@ -233,7 +225,7 @@ impl Drive {
                 periods: whole as u64,
                 remainder,
                 turns: turns as u64,
-                phase: crate::flight::platform::phase::Phase::of_angle(wrapped),
+                phase: Phase::of_angle(wrapped),
                 velocity: root.slope.min(0.0),
                 evaluations: found.evaluations,
             },
