@@ -174,9 +174,16 @@ impl Drive {
         let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
         let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;
         let fall_error = (radicand_error / fall).min((2.0 * radicand_error).sqrt());
+        let [joint_height, joint_speed] = match &self.shape {
+            Shape::Fourier(_) => [0.0; 2],
+            Shape::Pieces(pieces) => pieces.joint_rounding,
+        };
         let error = [
-            height_error + ROUNDING * ((fall + bounds.speed) * (1.0 + down) + speed.abs() * down),
-            fall_error + ROUNDING * (fall + bounds.speed + bounds.acceleration),
+            joint_height
+                + joint_speed * down.min(TAU)
+                + height_error
+                + ROUNDING * ((fall + bounds.speed) * (1.0 + down) + speed.abs() * down),
+            joint_speed + fall_error + ROUNDING * (fall + bounds.speed + bounds.acceleration),
         ];
         let descent = Start {
             time,

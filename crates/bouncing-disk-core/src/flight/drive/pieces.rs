@@ -33,6 +33,9 @@ pub(crate) struct Pieces {
     /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
     /// of pieces where it never ends.
     exits: Vec<u32>,
+    /// The jumps of height and velocity that count as rounding, all of one period together: by as much the gap
+    /// that is carried from joint to joint differs from that of the heights.
+    pub(super) joint_rounding: [f64; 2],
     /// The highest point of each piece, of each two, of each four, and so on.
     tops: Vec<Vec<f64>>,
     pub(super) bounds: DriveBounds,
@@ -90,6 +93,7 @@ impl Drive {
             coefficients,
             jumps: Vec::new(),
             exits: Vec::new(),
+            joint_rounding: [0.0; 2],
             tops: Vec::new(),
             bounds: NONE,
         };
@@ -260,8 +264,11 @@ impl Pieces {
             if jump.abs() > JOINT_ROUNDING * height {
                 return Err(Error::HeightJump { piece, jump });
             }
+            self.joint_rounding[0] += jump.abs();
             let jump = c1 - before.velocity;
-            self.jumps.push(if jump.abs() > JOINT_ROUNDING * self.bounds.speed { jump } else { 0.0 });
+            let is_kink = jump.abs() > JOINT_ROUNDING * self.bounds.speed;
+            self.jumps.push(if is_kink { jump } else { 0.0 });
+            self.joint_rounding[1] += if is_kink { 0.0 } else { jump.abs() };
         }
         Ok(())
     }
@@ -417,9 +424,14 @@ impl Pieces {
                 velocity = (disk_speed - t) - platform.velocity;
                 let size = self.bounds.highest.abs() + self.bounds.lowest.abs();
                 let speed = disk_speed.abs() + t + self.bounds.speed;
+                let [height_rounding, speed_rounding] = self.joint_rounding;
                 error = [
-                    first_error[0] + t * first_error[1] + ROUNDING * (disk_height.abs() + size + t * speed),
-                    first_error[1] + ROUNDING * speed,
+                    height_rounding
+                        + t * speed_rounding
+                        + first_error[0]
+                        + t * first_error[1]
+                        + ROUNDING * (disk_height.abs() + size + t * speed),
+                    speed_rounding + first_error[1] + ROUNDING * speed,
                 ];
             }
         }
