@@ -28,9 +28,9 @@ const SMALLEST_SPEED: f64 = 1.0e-18;
 /// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactState};
 ///
 /// let map = DrivenMap::new(Drive::fourier(&[(1.6, 0.0)])?, 0.5)?;
-/// let start = ImpactState::from_normalised(3.0, 0.1)?;
+/// let start = ImpactState::from_normalised(4.0, 0.01)?;
 /// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment(_)));
-/// assert!(map.orbit(start, ChatterPolicy::Complete).take(1000).any(rests));
+/// assert!(map.orbit(start, ChatterPolicy::Complete).take(60).any(rests));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

@@ -51,7 +51,7 @@ impl Drive {
     ///
     /// use bouncing_disk_core::{Drive, Error};
     ///
-    /// let step = Drive::pieces(&[(PI, [0.0, 1.0, 0.0, 0.0]), (PI, [3.0, -1.0, 0.0, 0.0])]);
+    /// let step = Drive::pieces(&[(PI, [0.0, 1.0, 0.0, 0.0]), (PI, [3.0, -3.0 / PI, 0.0, 0.0])]);
     /// assert!(matches!(step, Err(Error::HeightJump { piece: 1, jump }) if (jump - (3.0 - PI)).abs() < 1e-15));
     /// ```
     ///
