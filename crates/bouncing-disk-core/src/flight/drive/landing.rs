@@ -143,8 +143,8 @@ impl Drive {
         let radicand = speed * speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         // When the disk rises above all heights of the platform, and when it is back.
-        let (up, down) = if start.gap == 0.0 && depth <= 0.0 {
-            // The platform stands still: the flight is brief or long, but relative to its start.
+        let (up, down) = if start.gap == 0.0 && depth <= 0.0 && speed < 1.0 {
+            // The platform stands still: a brief flight is followed from its start.
             (f64::INFINITY, f64::INFINITY)
         } else if depth <= 0.0 {
             (0.0, if speed >= 0.0 { speed + fall } else { -2.0 * depth / (fall - speed) })

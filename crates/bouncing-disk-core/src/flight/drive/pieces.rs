@@ -365,8 +365,9 @@ impl Pieces {
         let mut elapsed = 0.0;
         let mut found = Found::default();
         let mut at_joint = x == 0.0;
-        // The window ends within some periods; each piece is entered once in each.
-        for entered in 0..u64::MAX {
+        // The highest piece hits the disk at the latest: one period, two with the ends of both.
+        let most = 4 * self.count() + 16;
+        for entered in 0..most {
             let [_, _, c2, c3] = self.coefficients[piece];
             let mut bend = -1.0 - (2.0 * c2 + x * (6.0 * c3));
             let bend_error = ROUNDING * (1.0 + 2.0 * c2.abs() + 6.0 * (x * c3).abs());
@@ -435,7 +436,7 @@ impl Pieces {
                 ];
             }
         }
-        Ok(found)
+        Err(Error::NoConvergence { evaluations: found.evaluations, time: elapsed, gap })
     }
 
     /// The piece up to which the disk is certain to be above the platform, and when it begins: a parabola is
