@@ -44,6 +44,7 @@ enum Shape {
 
 /// Heights, velocity, acceleration and third derivative of a platform at one time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveState {
     /// Height, in units of g/omega^2.
     pub height: f64,
@@ -57,6 +58,7 @@ pub struct DriveState {
 
 /// Bounds of a drive over all times.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DriveBounds {
     /// The platform is nowhere lower.
     pub lowest: f64,
@@ -163,6 +165,16 @@ impl Drive {
         }
     }
 
+    /// [`Self::at`], and what the gap of a flight from there on needs.
+    pub(super) fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+        match &self.shape {
+            Shape::Fourier(fourier) => {
+                fourier.at_with_terms(if fourier.is_periodic() { wrapped_angle(time) } else { time })
+            }
+            Shape::Pieces(pieces) => (pieces.at(wrapped_angle(time)), Vec::new()),
+        }
+    }
+
     /// Height at this time, in units of g/omega^2.
     #[must_use]
     pub fn height(&self, time: f64) -> f64 {
@@ -235,6 +247,20 @@ fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
     (sin + lost * cos, cos - lost * sin)
 }
 
+impl Harmonic {
+    /// Adds the harmonic at this time; its sine and cosine.
+    fn add(&self, time: f64, state: &mut DriveState) -> (f64, f64) {
+        let &Self { number, amplitude, rate, angle } = self;
+        let (sin, cos) = turned(number, time, angle);
+        let size = amplitude + rate * time;
+        state.height += size * sin;
+        state.velocity += size * number * cos + rate * sin;
+        state.acceleration += number * (2.0 * rate * cos - size * number * sin);
+        state.jerk -= number * number * (3.0 * rate * sin + size * number * cos);
+        (sin, cos)
+    }
+}
+
 impl Fourier {
     fn is_periodic(&self) -> bool {
         self.duration == f64::INFINITY
@@ -242,31 +268,27 @@ impl Fourier {
 
     fn at(&self, time: f64) -> DriveState {
         let mut state = DriveState::default();
-        for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = turned(number, time, angle);
-            let size = amplitude + rate * time;
-            state.height += size * sin;
-            state.velocity += size * number * cos + rate * sin;
-            state.acceleration += number * (2.0 * rate * cos - size * number * sin);
-            state.jerk -= number * number * (3.0 * rate * sin + size * number * cos);
+        for harmonic in &self.harmonics {
+            harmonic.add(time, &mut state);
         }
         state
     }
 
-    /// Minus the height from `time` on, as terms of a quasi-polynomial.
-    fn falling_terms(&self, time: f64) -> Vec<DampedSine> {
+    /// [`Self::at`], and minus the height from `time` on as terms of a quasi-polynomial.
+    fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+        let mut state = DriveState::default();
         let mut terms = Vec::with_capacity(self.harmonics.len());
-        for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = turned(number, time, angle);
-            let size = -(amplitude + rate * time);
-            terms.push(DampedSine::steady(size * sin, size * cos, number));
-            if rate != 0.0 {
-                let slope = -rate;
-                let steady = DampedSine::steady(slope * sin, slope * cos, number);
+        for harmonic in &self.harmonics {
+            let (sin, cos) = harmonic.add(time, &mut state);
+            let size = -(harmonic.amplitude + harmonic.rate * time);
+            terms.push(DampedSine::steady(size * sin, size * cos, harmonic.number));
+            if harmonic.rate != 0.0 {
+                let slope = -harmonic.rate;
+                let steady = DampedSine::steady(slope * sin, slope * cos, harmonic.number);
                 terms.push(DampedSine { with_time: true, ..steady });
             }
         }
-        terms
+        (state, terms)
     }
 
     /// Bounds on the height: between two samples it differs from the line between them by at most s'' d^2/8.

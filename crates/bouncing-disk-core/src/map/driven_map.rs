@@ -28,9 +28,9 @@ const SMALLEST_SPEED: f64 = 1.0e-18;
 /// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactState};
 ///
 /// let map = DrivenMap::new(Drive::fourier(&[(1.6, 0.0)])?, 0.5)?;
-/// let start = ImpactState::from_normalised(3.0, 0.1)?;
+/// let start = ImpactState::from_normalised(4.0, 0.01)?;
 /// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment(_)));
-/// assert!(map.orbit(start, ChatterPolicy::Complete).take(1000).any(rests));
+/// assert!(map.orbit(start, ChatterPolicy::Complete).take(60).any(rests));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
@@ -43,8 +43,17 @@ impl DrivenMap {
     /// The map of a disk with `restitution` in [0, 1).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a restitution outside [0, 1).
+    /// [`Error::OutOfRange`] for a restitution outside [0, 1), and for a ramp, which has no phase: its flights and
+    /// contacts are [`Drive::first_impact_within`] and [`Drive::contact_end`].
     pub fn new(drive: Drive, restitution: f64) -> Result<Self, Error> {
+        let forever = f64::INFINITY;
+        within(
+            "duration of a drive",
+            drive.duration(),
+            forever,
+            forever,
+            "infinite: a ramp has no impact map",
+        )?;
         within("restitution", restitution, 0.0, 1.0_f64.next_down(), "[0, 1)")?;
         Ok(Self { drive, restitution })
     }
@@ -136,6 +145,7 @@ impl DrivenMap {
 
 /// One event of the vertical motion on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum DrivenEvent {
     /// The disk hits the platform.
@@ -156,6 +166,7 @@ pub enum DrivenEvent {
 
 /// The end of a contact as an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactChange {
     /// The time since the disk came to rest, in radians.
     pub duration: f64,
@@ -302,7 +313,7 @@ impl DrivenOrbit {
 
 /// How often the phase passes 0 in a contact of at most one period.
 fn turns(since: f64, end: ContactEnd) -> u64 {
-    u64::from(end.time < since || end.time == since && end.duration > 0.5 * TAU)
+    u64::from(end.time < since || end.time <= since && end.duration > 0.5 * TAU)
 }
 
 impl Iterator for DrivenOrbit {

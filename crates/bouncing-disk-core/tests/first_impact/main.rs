@@ -5,6 +5,7 @@
 mod attack;
 mod campaign;
 mod cases;
+mod driven;
 mod drives;
 mod drops;
 mod elementary;

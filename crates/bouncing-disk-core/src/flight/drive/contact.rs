@@ -10,6 +10,7 @@ use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
 
 /// The end of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ContactEnd {
     /// How long the contact lasts, in radians.
     pub duration: f64,
@@ -22,6 +23,7 @@ pub struct ContactEnd {
 
 /// How long a chatter lasts, from a launch to the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct ChatterDuration {
     /// In radians, from the Taylor series of the acceleration at the launch.
     pub duration: f64,

@@ -10,9 +10,10 @@ use core::f64::consts::TAU;
 use super::{Drive, Fourier, Shape};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::{Impact, Launch};
-use crate::numerics::elementary::{nearest_periods, wrapped_angle};
+use crate::flight::platform::phase::Phase;
+use crate::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle};
 use crate::numerics::error::{Error, finite, not_negative, within};
-use crate::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial, Root};
+use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
 /// Four roundoffs.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
@@ -22,6 +23,7 @@ pub(crate) const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenImpact {
     /// When, and how fast.
     pub impact: Impact,
@@ -35,6 +37,7 @@ pub struct DrivenImpact {
 
 /// A graze that rounding does not decide: it counts as the evaluated sign says.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Doubt {
     /// When, in radians after the start.
     pub at: f64,
@@ -129,7 +132,7 @@ impl Drive {
             start.time = wrapped_angle(start.time);
         }
         let limit = limit.min(self.duration() - start.time);
-        let here = self.at(start.time);
+        let (here, terms) = self.at_with_terms(start.time);
         let bounds = self.bounds();
         if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
             return Err(self.no_lift_off(start.time));
@@ -140,7 +143,10 @@ impl Drive {
         let radicand = speed * speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         // When the disk rises above all heights of the platform, and when it is back.
-        let (up, down) = if depth <= 0.0 {
+        let (up, down) = if start.gap == 0.0 && depth <= 0.0 && speed < 1.0 {
+            // The platform stands still: a brief flight is followed from its start.
+            (f64::INFINITY, f64::INFINITY)
+        } else if depth <= 0.0 {
             (0.0, if speed >= 0.0 { speed + fall } else { -2.0 * depth / (fall - speed) })
         } else if speed > 0.0 && radicand > 0.0 {
             (2.0 * depth / (speed + fall), speed + fall)
@@ -156,7 +162,7 @@ impl Drive {
         }
         let mut found = Found::default();
         if up > 0.0 {
-            found = self.window(start, [0.0; 2], up.min(limit))?;
+            found = self.window(start, [0.0; 2], terms, up.min(limit))?;
             if found.root.is_some() || limit <= up {
                 return Ok(found.root.map(|root| self.landed(start.time, (0.0, 0.0), root, &found)));
             }
@@ -166,14 +172,21 @@ impl Drive {
         }
         let (periods, rest) = if periodic && down > TAU { nearest_periods(down) } else { (0.0, down) };
         let time = start.time + rest;
-        let there = self.at(time);
+        let (there, terms) = self.at_with_terms(time);
         // Time and speed at which the disk is back are rounded, and so were height and speed before.
         let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
         let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;
         let fall_error = (radicand_error / fall).min((2.0 * radicand_error).sqrt());
+        let [joint_height, joint_speed] = match &self.shape {
+            Shape::Fourier(_) => [0.0; 2],
+            Shape::Pieces(pieces) => pieces.joint_rounding,
+        };
         let error = [
-            height_error + ROUNDING * ((fall + bounds.speed) * (1.0 + down) + speed.abs() * down),
-            fall_error + ROUNDING * (fall + bounds.speed + bounds.acceleration),
+            joint_height
+                + joint_speed * down.min(TAU)
+                + height_error
+                + ROUNDING * ((fall + bounds.speed) * (1.0 + down) + speed.abs() * down),
+            joint_speed + fall_error + ROUNDING * (fall + bounds.speed + bounds.acceleration),
         ];
         let descent = Start {
             time,
@@ -182,16 +195,17 @@ impl Drive {
             separates: false,
         };
         let (before, doubt) = (found.evaluations, found.doubt);
-        found = self.window(descent, error, limit - down)?;
+        found = self.window(descent, error, terms, limit - down)?;
         found.evaluations += before;
         found.doubt = doubt.or(found.doubt.map(|doubt| Doubt { at: doubt.at + down, ..doubt }));
         Ok(found.root.map(|root| self.landed(start.time, (periods, rest), root, &found)))
     }
 
-    /// The first root of the gap within `to`; its value and slope at the start have these errors.
-    fn window(&self, start: Start, error: [f64; 2], to: f64) -> Result<Found, Error> {
+    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms` are
+    /// those of the drive there.
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         match &self.shape {
-            Shape::Fourier(fourier) => fourier.window(start, error, to),
+            Shape::Fourier(fourier) => fourier.window(start, error, terms, to),
             Shape::Pieces(pieces) => pieces.window(start, error, to),
         }
     }
@@ -200,26 +214,15 @@ impl Drive {
     fn landed(&self, from: f64, (periods, rest): (f64, f64), root: Root, found: &Found) -> DrivenImpact {
         let after = rest + root.at;
         let angle = from + after;
-        let (mut turns, mut wrapped) = (periods + libm::floor(angle / TAU), wrapped_angle(angle));
-        // The two may round to different sides of a whole turn.
-        if wrapped < 1.0 && angle - (turns - periods) * TAU > 0.5 * TAU {
-            turns += 1.0;
-        } else if wrapped > TAU - 1.0 && angle - (turns - periods) * TAU < 0.5 * TAU {
-            turns -= 1.0;
-        }
-        if let Some((begin, end)) = found.piece {
+        let mut wrapped = wrapped_angle(angle);
+        if let Some((begin, end)) = found.piece
+            && !(begin..end).contains(&wrapped)
+        {
             // Rounding must not put the impact on another piece.
-            let (from, to) = (begin - wrapped, wrapped - end);
-            if wrapped < begin && from < 1.0 {
-                wrapped = begin;
-            } else if to >= 0.0 && to < 1.0 {
-                wrapped = end.next_down();
-            } else if wrapped < 1.0 && end == TAU && begin > wrapped {
-                (wrapped, turns) = (TAU.next_down(), turns - 1.0);
-            } else if begin == 0.0 && wrapped > TAU - 1.0 && wrapped >= end {
-                (wrapped, turns) = (0.0, turns + 1.0);
-            }
+            let apart = |joint: f64| (wrapped - joint).abs().min(TAU - (wrapped - joint).abs());
+            wrapped = if apart(begin) <= apart(end) { begin } else { end.next_down() };
         }
+        let turns = periods + nearest_whole((angle - wrapped) / TAU);
         let (mut whole, mut remainder) = (periods, after);
         if remainder < 0.0 {
             (whole, remainder) = (whole - 1.0, remainder + TAU);
@@ -232,7 +235,7 @@ impl Drive {
                 periods: whole as u64,
                 remainder,
                 turns: turns as u64,
-                phase: crate::flight::platform::phase::Phase::of_angle(wrapped),
+                phase: Phase::of_angle(wrapped),
                 velocity: root.slope.min(0.0),
                 evaluations: found.evaluations,
             },
@@ -244,25 +247,15 @@ impl Drive {
 }
 
 impl Fourier {
-    /// The gap from this start on.
-    fn gap(&self, start: Start, error: [f64; 2]) -> QuasiPolynomial {
-        let terms = self.falling_terms(start.time);
-        let gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
-        if !start.separates {
-            return gap;
+    fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
+        let mut gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
+        if start.separates {
+            let pull = gap.at(0.0, 0.0).bend;
+            if pull < 0.0 && pull >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration) {
+                gap = gap.bent_by(-pull);
+            }
         }
-        let pull = gap.at(0.0, 0.0).bend;
-        if pull < 0.0 && pull >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration) {
-            gap.bent_by(-pull)
-        } else {
-            gap
-        }
-    }
-
-    fn window(&self, start: Start, error: [f64; 2], to: f64) -> Result<Found, Error> {
-        let gap = self.gap(start, error);
-        let to = if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION };
-        decided(&gap, to)
+        decided(&gap, if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION })
     }
 }
 

@@ -21,7 +21,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// No pieces are passed over sooner than this after the start of a search (rad): heights above the platform
 /// are then taken from the height of both, whose rounding a shorter flight would feel.
-const FIRST_PASS: f64 = 0.25;
+const FIRST_PASS: f64 = 0.05;
 
 #[derive(Debug, PartialEq)]
 pub(crate) struct Pieces {
@@ -33,6 +33,9 @@ pub(crate) struct Pieces {
     /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
     /// of pieces where it never ends.
     exits: Vec<u32>,
+    /// The jumps of height and velocity that count as rounding, all of one period together: by as much the gap
+    /// that is carried from joint to joint differs from that of the heights.
+    pub(super) joint_rounding: [f64; 2],
     /// The highest point of each piece, of each two, of each four, and so on.
     tops: Vec<Vec<f64>>,
     pub(super) bounds: DriveBounds,
@@ -48,7 +51,7 @@ impl Drive {
     ///
     /// use bouncing_disk_core::{Drive, Error};
     ///
-    /// let step = Drive::pieces(&[(PI, [0.0, 1.0, 0.0, 0.0]), (PI, [3.0, -1.0, 0.0, 0.0])]);
+    /// let step = Drive::pieces(&[(PI, [0.0, 1.0, 0.0, 0.0]), (PI, [3.0, -3.0 / PI, 0.0, 0.0])]);
     /// assert!(matches!(step, Err(Error::HeightJump { piece: 1, jump }) if (jump - (3.0 - PI)).abs() < 1e-15));
     /// ```
     ///
@@ -90,6 +93,7 @@ impl Drive {
             coefficients,
             jumps: Vec::new(),
             exits: Vec::new(),
+            joint_rounding: [0.0; 2],
             tops: Vec::new(),
             bounds: NONE,
         };
@@ -260,8 +264,11 @@ impl Pieces {
             if jump.abs() > JOINT_ROUNDING * height {
                 return Err(Error::HeightJump { piece, jump });
             }
+            self.joint_rounding[0] += jump.abs();
             let jump = c1 - before.velocity;
-            self.jumps.push(if jump.abs() > JOINT_ROUNDING * self.bounds.speed { jump } else { 0.0 });
+            let is_kink = jump.abs() > JOINT_ROUNDING * self.bounds.speed;
+            self.jumps.push(if is_kink { jump } else { 0.0 });
+            self.joint_rounding[1] += if is_kink { 0.0 } else { jump.abs() };
         }
         Ok(())
     }
@@ -358,8 +365,9 @@ impl Pieces {
         let mut elapsed = 0.0;
         let mut found = Found::default();
         let mut at_joint = x == 0.0;
-        // The window ends within some periods; each piece is entered once in each.
-        for entered in 0..u64::MAX {
+        // The highest piece hits the disk at the latest: one period, two with the ends of both.
+        let most = 4 * self.count() + 16;
+        for entered in 0..most {
             let [_, _, c2, c3] = self.coefficients[piece];
             let mut bend = -1.0 - (2.0 * c2 + x * (6.0 * c3));
             let bend_error = ROUNDING * (1.0 + 2.0 * c2.abs() + 6.0 * (x * c3).abs());
@@ -403,7 +411,7 @@ impl Pieces {
             gap = gap.max(0.0);
             (piece, x, at_joint) = (next, 0.0, true);
             left = self.length(piece);
-            if elapsed >= FIRST_PASS
+            if (elapsed >= FIRST_PASS || first_error[0] > 0.0)
                 && let Some((passed, after)) = self.pass(piece, elapsed, disk_height, disk_speed)
             {
                 if after >= to {
@@ -417,13 +425,18 @@ impl Pieces {
                 velocity = (disk_speed - t) - platform.velocity;
                 let size = self.bounds.highest.abs() + self.bounds.lowest.abs();
                 let speed = disk_speed.abs() + t + self.bounds.speed;
+                let [height_rounding, speed_rounding] = self.joint_rounding;
                 error = [
-                    first_error[0] + t * first_error[1] + ROUNDING * (disk_height.abs() + size + t * speed),
-                    first_error[1] + ROUNDING * speed,
+                    height_rounding
+                        + t * speed_rounding
+                        + first_error[0]
+                        + t * first_error[1]
+                        + ROUNDING * (disk_height.abs() + size + t * speed),
+                    speed_rounding + first_error[1] + ROUNDING * speed,
                 ];
             }
         }
-        Ok(found)
+        Err(Error::NoConvergence { evaluations: found.evaluations, time: elapsed, gap })
     }
 
     /// The piece up to which the disk is certain to be above the platform, and when it begins: a parabola is
