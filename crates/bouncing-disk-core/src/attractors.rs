@@ -24,6 +24,7 @@
 
 pub(crate) mod attraction;
 pub(crate) mod basin;
+mod driven;
 pub(crate) mod search;
 pub(crate) mod verdict;
 
@@ -33,6 +34,7 @@ pub use basin::{
     ATTACHED, Axis, BasinRun, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS,
     UNDECIDED,
 };
+pub use driven::driven_diagram;
 pub use search::cells::VisitedCells;
 pub use search::over_forcing::{
     AttractorsAt, BasinFractions, FollowedAttractor, MAX_FORCINGS, basin_fractions_over,

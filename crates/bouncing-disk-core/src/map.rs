@@ -17,10 +17,12 @@
 //! Orbits that repeat are in [`orbits`](crate::orbits), many at a time in [`sweep`](mod@crate::sweep).
 
 mod chattering;
+pub(crate) mod driven_map;
 pub(crate) mod impact_map;
 mod inverse;
 pub(crate) mod restitution_law;
 mod trapping_region;
 
+pub use driven_map::ContactChange;
 pub use restitution_law::kuwabara_kono::KuwabaraKono;
 pub use restitution_law::{Constant, RestitutionLaw};

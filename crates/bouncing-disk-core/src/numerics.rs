@@ -11,6 +11,7 @@ pub mod elementary;
 pub(crate) mod error;
 pub mod fraction;
 pub mod power_law;
+pub mod quasi_polynomial;
 pub mod random;
 pub mod real;
 pub mod roots;

@@ -124,6 +124,40 @@ pub enum Error {
         /// The parameter.
         parameter: &'static str,
     },
+    /// The waveform of a platform's height or angle is not legal.
+    #[error("the {of}: {source}")]
+    Waveform {
+        /// Height or angle.
+        of: &'static str,
+        /// What is wrong.
+        source: bouncing_disk_core::Error,
+    },
+    /// The pieces of a waveform do not join.
+    #[error("the {of} jumps by {jump:?} (m or rad) where piece {piece} begins: it must be continuous")]
+    WaveformJump {
+        /// Height or angle.
+        of: &'static str,
+        /// Which piece, from 0; the first one follows on the last.
+        piece: usize,
+        /// By how much (m or rad).
+        jump: f64,
+    },
+    /// The segments of a schedule do not join.
+    #[error(
+        "the platform jumps by {jump:?} m where segment {segment} begins: let the one before end where both are equally high"
+    )]
+    ScheduleJump {
+        /// Which segment, from 0.
+        segment: usize,
+        /// By how much (m).
+        jump: f64,
+    },
+    /// A segment of a schedule cannot be a ramp.
+    #[error("segment {segment} is a ramp of pieces or samples: only a sine or a Fourier sum can be one")]
+    RampOfPieces {
+        /// Which segment, from 0.
+        segment: usize,
+    },
     /// An error of the math core.
     #[error(transparent)]
     Core(#[from] bouncing_disk_core::Error),

@@ -23,6 +23,7 @@
 //! | --- | --- |
 //! | [`parameters`] | stroke, units, and the numbers without units that decide the motion |
 //! | [`motion`] | states, segments and energies between events |
+//! | [`driven`] | platforms that move in any way: waveforms, schedules, their tosses and motors |
 //! | [`toss`] | single tosses, many tosses, the best toss |
 //! | [`motor`] | motors: run-up, speed under a load, sweeps, sensitivities |
 //! | [`estimate`] | fits of computed and measured speeds, with intervals |
@@ -53,6 +54,7 @@
 #[doc(hidden)]
 pub mod csv_records;
 mod display;
+pub mod driven;
 mod error;
 pub mod estimate;
 pub mod motion;

@@ -23,6 +23,7 @@
 
 pub(crate) mod dimensionless;
 pub(crate) mod disk;
+pub(crate) mod driven_platform;
 pub(crate) mod platform;
 pub(crate) mod presets;
 pub(crate) mod scales;
@@ -30,5 +31,6 @@ pub(crate) mod stroke;
 pub(crate) mod system;
 
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
+pub use driven_platform::{DrivenPlatform, Swing, Waveform};
 pub use scales::Scales;
 pub use stroke::{LaunchSpeeds, Stroke};

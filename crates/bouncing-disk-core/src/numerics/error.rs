@@ -39,6 +39,22 @@ pub enum Error {
         /// The largest duration in radians.
         limit: f64,
     },
+    /// The pieces of a drive do not join.
+    #[error(
+        "the platform jumps by {jump:?} g/omega^2 where piece {piece} begins: its height must be continuous"
+    )]
+    HeightJump {
+        /// Which piece, from 0; the first one follows on the last.
+        piece: usize,
+        /// Its height at its start less that of the piece before at its end.
+        jump: f64,
+    },
+    /// An impact on a kink of the platform's velocity has no derivative, and so no multipliers.
+    #[error("the impact at phase {phase:?} rad is on a kink of the drive: it has no derivative")]
+    ImpactOnKink {
+        /// The phase of the impact in radians.
+        phase: f64,
+    },
     /// The root finder used up its evaluations. This is a defect of the solver; please report the numbers.
     #[error("no convergence after {evaluations} evaluations: gap {gap:?} after {time:?} rad")]
     NoConvergence {

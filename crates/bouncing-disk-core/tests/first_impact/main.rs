@@ -5,6 +5,8 @@
 mod attack;
 mod campaign;
 mod cases;
+mod driven;
+mod drives;
 mod drops;
 mod elementary;
 mod launches;
@@ -15,3 +17,4 @@ mod paper;
 mod properties;
 mod seams;
 mod shards;
+mod sums;

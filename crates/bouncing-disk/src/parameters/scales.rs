@@ -28,7 +28,11 @@ pub struct Scales {
 
 impl Scales {
     pub(crate) fn new(platform: &Platform, disk: &Disk) -> Self {
-        let omega = platform.angular_frequency();
+        Self::of(platform.angular_frequency(), disk)
+    }
+
+    /// The units of a disk on a platform with the angular frequency `omega` (rad/s).
+    pub(crate) fn of(omega: f64, disk: &Disk) -> Self {
         let preload = disk.preload_acceleration();
         let velocity = preload / omega;
         let gyration = disk.gyration_radius();

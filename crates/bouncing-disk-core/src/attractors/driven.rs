@@ -1,0 +1,133 @@
+//! Orbit diagrams and basins of attraction on drives.
+
+use core::f64::consts::PI;
+
+use super::basin::{
+    ATTACHED, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
+    check_number_of,
+};
+use crate::chatter::policy::ChatterPolicy;
+use crate::flight::platform::phase::Phase;
+use crate::map::driven_map::{DrivenEvent, DrivenMap};
+use crate::map::impact_map::ImpactState;
+use crate::numerics::error::Error;
+use crate::orbits::periodic::phase_difference;
+use crate::run::{Observer, Watch, in_parallel};
+
+/// The columns of an orbit diagram: for each map the `recorded` impacts after the first `transient` ones of
+/// the orbit from `start`. A disk that comes to rest continues with its next separation; one that rests for
+/// ever has fewer impacts.
+///
+/// The items of `observer` are the maps.
+///
+/// ```
+/// use bouncing_disk_core::attractors::driven_diagram;
+/// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactState, Unobserved};
+///
+/// let maps = [1.2, 1.6].map(|a| DrivenMap::new(Drive::triangle(a).unwrap(), 0.5).unwrap());
+/// let start = ImpactState::from_normalised(1.0, 1.3)?;
+/// let columns = driven_diagram(&maps, start, 100, 50, ChatterPolicy::Complete, &Unobserved)?;
+/// assert_eq!(columns.len(), 2);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+///
+/// # Errors
+/// That of the first map whose orbit fails; [`Error::Stopped`].
+pub fn driven_diagram(
+    maps: &[DrivenMap],
+    start: ImpactState,
+    transient: usize,
+    recorded: usize,
+    policy: ChatterPolicy,
+    observer: &dyn Observer,
+) -> Result<Vec<Vec<ImpactState>>, Error> {
+    let watch = Watch::begin(observer, 0, maps.len() as u64)?;
+    let columns = in_parallel(maps.len(), |index| {
+        watch.ask()?;
+        let impacts = maps[index].orbit(start, policy).filter_map(|event| match event {
+            Ok(DrivenEvent::Impact(landing)) => Some(Ok(ImpactState::from(landing.impact))),
+            Ok(_) => None,
+            Err(error) => Some(Err(error)),
+        });
+        let column = impacts.skip(transient).take(recorded).collect::<Result<Vec<_>, _>>();
+        watch.finish(1);
+        column
+    });
+    let columns = columns.into_iter().collect();
+    watch.end();
+    columns
+}
+
+impl DrivenMap {
+    /// The labels of all starts of a grid: at rest, or the known orbit within whose radius an impact is the
+    /// first to be (a radian counts as much as the largest speed of the platform).
+    ///
+    /// The items of `observer` are the rows.
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] beyond [`MAX_CELLS`]; [`Error::OutOfRange`] for more than 250 known orbits; the
+    /// first error of an orbit; [`Error::Stopped`].
+    pub fn basins(
+        &self,
+        grid: Grid,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Basins, Error> {
+        check_number_of(known)?;
+        let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
+        let count = columns as u64 * rows as u64;
+        if count > MAX_CELLS {
+            return Err(Error::TooLarge { what: "cells of basins", count, limit: MAX_CELLS });
+        }
+        let watch = Watch::begin(observer, 0, rows as u64)?;
+        let labels = in_parallel(rows, |row| {
+            let labels = (0..columns).map(|column| {
+                watch.ask()?;
+                let phase = Phase::new(grid.impact_angle(column))?;
+                let start = ImpactState::new(phase, -PI * grid.speed().centre(row))?;
+                self.label(start, known, settings)
+            });
+            let labels = labels.collect::<Result<Vec<_>, Error>>();
+            watch.finish(1);
+            labels
+        });
+        let labels = labels.into_iter().collect::<Result<Vec<_>, _>>()?.concat();
+        watch.end();
+        Basins::of_labels(labels, columns)
+    }
+
+    fn label(
+        &self,
+        start: ImpactState,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+    ) -> Result<Label, Error> {
+        let speed = self.drive().bounds().speed;
+        let mut impacts = 0;
+        for event in self.orbit(start, settings.policy) {
+            match event? {
+                DrivenEvent::Impact(landing) => {
+                    let (angle, velocity) = (landing.impact.phase.angle(), landing.impact.velocity);
+                    let caught = known.iter().zip(FIRST_ORBIT..).find(|(known, _)| {
+                        known.orbit().states.iter().any(|state| {
+                            let apart = phase_difference(angle, state.phase().angle());
+                            let faster = (velocity - state.velocity()) / speed;
+                            apart * apart + faster * faster <= known.radius() * known.radius()
+                        })
+                    });
+                    if let Some((_, label)) = caught {
+                        return Ok(label);
+                    }
+                    impacts += 1;
+                    if impacts >= settings.max_impacts {
+                        return Ok(UNDECIDED);
+                    }
+                }
+                DrivenEvent::Attachment { .. } => return Ok(ATTACHED),
+                DrivenEvent::Separation(_) | DrivenEvent::Kick(_) => {}
+            }
+        }
+        Ok(ATTACHED)
+    }
+}

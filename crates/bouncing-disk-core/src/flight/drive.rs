@@ -1,0 +1,309 @@
+//! A platform that moves in any periodic way: Fourier sums, ramps of them, and pieces of polynomials.
+
+use core::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::flight::drive::pieces::Pieces;
+use crate::flight::platform::vibration::Vibration;
+use crate::numerics::elementary::{sin_cos, wrapped_angle};
+use crate::numerics::error::{Error, within};
+use crate::numerics::quasi_polynomial::DampedSine;
+
+pub(crate) mod contact;
+pub(crate) mod landing;
+pub(crate) mod pieces;
+mod spline;
+
+/// Most harmonics of a Fourier drive.
+pub const MAX_HARMONICS: usize = 32;
+
+/// The height of a platform over time: time in radians of the drive's fundamental, one period being 2 pi;
+/// height in g/omega^2.
+///
+/// Where the velocity jumps (a kink) the later piece holds. Clones share their numbers.
+///
+/// ```
+/// use bouncing_disk_core::{Drive, Launch, Phase};
+///
+/// // A sine with a third harmonic.
+/// let drive = Drive::fourier(&[(1.4, 0.0), (0.0, 0.0), (0.1, 0.5)])?;
+/// let impact = drive.first_impact(Launch::new(Phase::new(1.0)?, 3.0)?)?;
+/// assert!(impact.impact.velocity < 0.0 && impact.error < 1e-13);
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drive {
+    shape: Shape,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Shape {
+    Fourier(Arc<Fourier>),
+    Pieces(Arc<Pieces>),
+}
+
+/// Heights, velocity, acceleration and third derivative of a platform at one time.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct DriveState {
+    /// Height, in units of g/omega^2.
+    pub height: f64,
+    /// Velocity, in units of g/omega.
+    pub velocity: f64,
+    /// Acceleration, in units of g.
+    pub acceleration: f64,
+    /// Its derivative.
+    pub jerk: f64,
+}
+
+/// Bounds of a drive over all times.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct DriveBounds {
+    /// The platform is nowhere lower.
+    pub lowest: f64,
+    /// The platform is nowhere higher; at most 1e-4 of the amplitudes above its highest point.
+    pub highest: f64,
+    /// Bound on the speed.
+    pub speed: f64,
+    /// Bound on the acceleration.
+    pub acceleration: f64,
+    /// Bound on the derivative of the acceleration between kinks.
+    pub jerk: f64,
+}
+
+/// A harmonic: (amplitude + rate t) sin(number t + angle).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Harmonic {
+    number: f64,
+    amplitude: f64,
+    rate: f64,
+    angle: f64,
+}
+
+#[derive(Debug, PartialEq)]
+pub(crate) struct Fourier {
+    harmonics: Vec<Harmonic>,
+    /// Until when a ramp holds; infinite for a periodic sum.
+    duration: f64,
+    bounds: DriveBounds,
+}
+
+impl Drive {
+    /// The sum of a_j sin(j t + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most [`MAX_HARMONICS`].
+    ///
+    /// # Errors
+    /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names one whose numbers are not finite;
+    /// [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
+    pub fn fourier(harmonics: &[(f64, f64)]) -> Result<Self, Error> {
+        let ramps: Vec<_> = harmonics.iter().map(|&(amplitude, angle)| (amplitude, 0.0, angle)).collect();
+        Self::sum(&ramps, f64::INFINITY)
+    }
+
+    /// The sum of (a_j + b_j t) sin(j t + phi_j) of these (a_j, b_j, phi_j), for t in [0, `duration`]: a
+    /// segment of a schedule. Its times are counted from its start and are not reduced to a period.
+    ///
+    /// # Errors
+    /// As [`Self::fourier`]; [`Error::OutOfRange`] for a duration that is not in (0, 1e6].
+    pub fn ramped_fourier(harmonics: &[(f64, f64, f64)], duration: f64) -> Result<Self, Error> {
+        let legal = "(0, 1e6] (rad)";
+        within("duration of a ramp", duration, f64::MIN_POSITIVE, 1.0e6, legal)?;
+        Self::sum(harmonics, duration)
+    }
+
+    fn sum(harmonics: &[(f64, f64, f64)], duration: f64) -> Result<Self, Error> {
+        let (count, limit) = (harmonics.len(), MAX_HARMONICS);
+        if count > limit {
+            return Err(Error::TooLarge { what: "harmonics", count: count as u64, limit: limit as u64 });
+        }
+        let mut kept = Vec::new();
+        let end = if duration.is_finite() { duration } else { 0.0 };
+        let (mut acceleration, mut jerk, mut speed, mut ramps) = (0.0, 0.0, 0.0, 0.0);
+        for (index, &(amplitude, rate, angle)) in harmonics.iter().enumerate() {
+            if !(amplitude.is_finite() && rate.is_finite() && angle.is_finite()) {
+                let expected = "finite in amplitude and angle";
+                return Err(Error::NotOfKind { what: "harmonic", index, count, expected });
+            }
+            if amplitude == 0.0 && rate == 0.0 {
+                continue;
+            }
+            let number = (index + 1) as f64;
+            let size = amplitude.abs().max((amplitude + rate * end).abs());
+            speed += size * number + rate.abs();
+            acceleration += (size * number + 2.0 * rate.abs()) * number;
+            jerk += (size * number + 3.0 * rate.abs()) * number * number;
+            ramps += rate.abs();
+            kept.push(Harmonic { number, amplitude, rate, angle: wrapped_angle(angle) });
+        }
+        let most = Vibration::MAX_PEAK_ACCELERATION;
+        within("acceleration of a drive", acceleration, 0.0, most, "[0, 1e8] (units of g)")?;
+        let none = DriveBounds { lowest: 0.0, highest: 0.0, speed, acceleration, jerk };
+        let mut fourier = Fourier { harmonics: kept, duration, bounds: none };
+        (fourier.bounds.lowest, fourier.bounds.highest) = if ramps > 0.0 {
+            let size: f64 = fourier
+                .harmonics
+                .iter()
+                .map(|h| h.amplitude.abs().max((h.amplitude + h.rate * end).abs()))
+                .sum();
+            (-size, size)
+        } else {
+            fourier.height_bounds()
+        };
+        Ok(Self { shape: Shape::Fourier(Arc::new(fourier)) })
+    }
+
+    /// Height, velocity, acceleration and its derivative at this time, in closed form.
+    ///
+    /// Any finite time of a periodic drive is reduced to a period.
+    #[must_use]
+    pub fn at(&self, time: f64) -> DriveState {
+        match &self.shape {
+            Shape::Fourier(fourier) => {
+                fourier.at(if fourier.is_periodic() { wrapped_angle(time) } else { time })
+            }
+            Shape::Pieces(pieces) => pieces.at(wrapped_angle(time)),
+        }
+    }
+
+    /// [`Self::at`], and what the gap of a flight from there on needs.
+    pub(super) fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+        match &self.shape {
+            Shape::Fourier(fourier) => {
+                fourier.at_with_terms(if fourier.is_periodic() { wrapped_angle(time) } else { time })
+            }
+            Shape::Pieces(pieces) => (pieces.at(wrapped_angle(time)), Vec::new()),
+        }
+    }
+
+    /// Height at this time, in units of g/omega^2.
+    #[must_use]
+    pub fn height(&self, time: f64) -> f64 {
+        self.at(time).height
+    }
+
+    /// Velocity at this time, in units of g/omega; at a kink that of the later piece.
+    #[must_use]
+    pub fn velocity(&self, time: f64) -> f64 {
+        self.at(time).velocity
+    }
+
+    /// Acceleration at this time, in units of g.
+    #[must_use]
+    pub fn acceleration(&self, time: f64) -> f64 {
+        self.at(time).acceleration
+    }
+
+    /// The height that the platform does not exceed, in units of g/omega^2.
+    #[must_use]
+    pub fn max_height(&self) -> f64 {
+        self.bounds().highest
+    }
+
+    /// Bounds over all times.
+    #[must_use]
+    pub fn bounds(&self) -> DriveBounds {
+        match &self.shape {
+            Shape::Fourier(fourier) => fourier.bounds,
+            Shape::Pieces(pieces) => pieces.bounds,
+        }
+    }
+
+    /// Until when the drive is defined, counted from its start: infinite unless it is a ramp.
+    #[must_use]
+    pub fn duration(&self) -> f64 {
+        match &self.shape {
+            Shape::Fourier(fourier) => fourier.duration,
+            Shape::Pieces(_) => f64::INFINITY,
+        }
+    }
+
+    /// The times in [0, 2 pi) at which the velocity jumps, and by how much.
+    pub fn kinks(&self) -> impl Iterator<Item = (f64, f64)> {
+        let pieces = match &self.shape {
+            Shape::Fourier(_) => None,
+            Shape::Pieces(pieces) => Some(pieces),
+        };
+        pieces.into_iter().flat_map(|pieces| pieces.kinks())
+    }
+}
+
+impl From<Vibration> for Drive {
+    /// The sine as a Fourier sum.
+    fn from(vibration: Vibration) -> Self {
+        Self::sum(&[(vibration.peak_acceleration(), 0.0, 0.0)], f64::INFINITY).expect("a legal vibration")
+    }
+}
+
+/// Sine and cosine of number times time + angle, for a whole number up to 32: the rounding of the product and
+/// of the sum is made good.
+fn turned(number: f64, time: f64, angle: f64) -> (f64, f64) {
+    // With 47 bits the product is exact.
+    let head = f64::from_bits(time.to_bits() & !0x3f);
+    let product = number * head;
+    let sum = product + angle;
+    let back = sum - product;
+    let lost = ((product - (sum - back)) + (angle - back)) + number * (time - head);
+    let (sin, cos) = sin_cos(sum);
+    (sin + lost * cos, cos - lost * sin)
+}
+
+impl Harmonic {
+    /// Adds the harmonic at this time; its sine and cosine.
+    fn add(&self, time: f64, state: &mut DriveState) -> (f64, f64) {
+        let &Self { number, amplitude, rate, angle } = self;
+        let (sin, cos) = turned(number, time, angle);
+        let size = amplitude + rate * time;
+        state.height += size * sin;
+        state.velocity += size * number * cos + rate * sin;
+        state.acceleration += number * (2.0 * rate * cos - size * number * sin);
+        state.jerk -= number * number * (3.0 * rate * sin + size * number * cos);
+        (sin, cos)
+    }
+}
+
+impl Fourier {
+    fn is_periodic(&self) -> bool {
+        self.duration == f64::INFINITY
+    }
+
+    fn at(&self, time: f64) -> DriveState {
+        let mut state = DriveState::default();
+        for harmonic in &self.harmonics {
+            harmonic.add(time, &mut state);
+        }
+        state
+    }
+
+    /// [`Self::at`], and minus the height from `time` on as terms of a quasi-polynomial.
+    fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+        let mut state = DriveState::default();
+        let mut terms = Vec::with_capacity(self.harmonics.len());
+        for harmonic in &self.harmonics {
+            let (sin, cos) = harmonic.add(time, &mut state);
+            let size = -(harmonic.amplitude + harmonic.rate * time);
+            terms.push(DampedSine::steady(size * sin, size * cos, harmonic.number));
+            if harmonic.rate != 0.0 {
+                let slope = -harmonic.rate;
+                let steady = DampedSine::steady(slope * sin, slope * cos, harmonic.number);
+                terms.push(DampedSine { with_time: true, ..steady });
+            }
+        }
+        (state, terms)
+    }
+
+    /// Bounds on the height: between two samples it differs from the line between them by at most s'' d^2/8.
+    fn height_bounds(&self) -> (f64, f64) {
+        let highest = self.harmonics.iter().fold(1.0, |most: f64, h| most.max(h.number));
+        let count = 512.0 * highest;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut k = 0.0;
+        while k < count {
+            let height = self.at(k * (TAU / count)).height;
+            (low, high) = (low.min(height), high.max(height));
+            k += 1.0;
+        }
+        let spacing = TAU / count * (1.0 + 1.0e-9);
+        let slack = self.bounds.acceleration * (spacing * spacing * 0.125 + 1.0e-14);
+        (low - slack, high + slack)
+    }
+}

@@ -1,0 +1,325 @@
+//! The impact map of a platform that moves in any way, its derivative, and its orbits with contact and
+//! chatter.
+
+use core::f64::consts::TAU;
+
+use glam::{DMat2, DVec2};
+
+use crate::chatter::accumulation::Accumulation;
+use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
+use crate::flight::drive::Drive;
+use crate::flight::drive::contact::ContactEnd;
+use crate::flight::drive::landing::DrivenImpact;
+use crate::flight::platform::phase::Phase;
+use crate::map::impact_map::ImpactState;
+use crate::numerics::elementary::wrapped_angle;
+use crate::numerics::error::{Error, within};
+
+/// Largest error of the end of a chatter (rad) with which [`ChatterPolicy::Complete`] is content.
+const COMPLETION_ERROR: f64 = 1.0e-14;
+
+/// A disk launched slower than this (g/omega), on a platform that pulls it, is put on it where no bound proves
+/// that its chatter ends.
+const SMALLEST_SPEED: f64 = 1.0e-18;
+
+/// The vertical impact map of a disk with a constant restitution on a [`Drive`].
+///
+/// ```
+/// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactState};
+///
+/// let map = DrivenMap::new(Drive::fourier(&[(1.6, 0.0)])?, 0.5)?;
+/// let start = ImpactState::from_normalised(4.0, 0.01)?;
+/// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment(_)));
+/// assert!(map.orbit(start, ChatterPolicy::Complete).take(60).any(rests));
+/// # Ok::<(), bouncing_disk_core::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrivenMap {
+    drive: Drive,
+    restitution: f64,
+}
+
+impl DrivenMap {
+    /// The map of a disk with `restitution` in [0, 1).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a restitution outside [0, 1), and for a ramp, which has no phase: its flights and
+    /// contacts are [`Drive::first_impact_within`] and [`Drive::contact_end`].
+    pub fn new(drive: Drive, restitution: f64) -> Result<Self, Error> {
+        let forever = f64::INFINITY;
+        within(
+            "duration of a drive",
+            drive.duration(),
+            forever,
+            forever,
+            "infinite: a ramp has no impact map",
+        )?;
+        within("restitution", restitution, 0.0, 1.0_f64.next_down(), "[0, 1)")?;
+        Ok(Self { drive, restitution })
+    }
+
+    /// The drive of the platform.
+    #[must_use]
+    pub const fn drive(&self) -> &Drive {
+        &self.drive
+    }
+
+    /// Coefficient of restitution.
+    #[must_use]
+    pub const fn restitution(&self) -> f64 {
+        self.restitution
+    }
+
+    /// The impact that follows the one in `state`, without any chattering policy.
+    ///
+    /// # Errors
+    /// [`Error::NoLiftOff`] if the disk stays on the platform, and those of [`Drive::first_impact`].
+    pub fn step(&self, state: ImpactState) -> Result<DrivenImpact, Error> {
+        self.drive.first_impact_from(state.phase().angle(), 0.0, -self.restitution * state.velocity())
+    }
+
+    /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity).
+    /// Column-major: `x_axis` is the derivative by the phase.
+    ///
+    /// # Errors
+    /// Those of [`Self::step`]; [`Error::ImpactOnKink`] where this impact or the next is on a kink.
+    pub fn step_with_derivative(&self, state: ImpactState) -> Result<(DrivenImpact, DMat2), Error> {
+        let landing = self.step(state)?;
+        let on_kink = |phase: f64| Err(Error::ImpactOnKink { phase });
+        if landing.on_kink {
+            return on_kink(landing.impact.phase.angle());
+        }
+        if self.drive.kinks().any(|(time, _)| time.to_bits() == state.phase().angle().to_bits()) {
+            return on_kink(state.phase().angle());
+        }
+        let (from, to) = (self.drive.at(state.phase().angle()), self.drive.at(landing.impact.phase.angle()));
+        let (h, arrival) = (landing.impact.duration(), landing.impact.velocity);
+        // gap(h; tau, w) = 0: dh = -(gap_tau dtau + h dw)/arrival, dw = -r dv.
+        let gap_by_phase = from.acceleration * h + (from.velocity - to.velocity);
+        let duration_by = DVec2::new(-gap_by_phase / arrival, self.restitution * h / arrival);
+        let phase_by = DVec2::new(1.0 + duration_by.x, duration_by.y);
+        let velocity_by = DVec2::new(
+            from.acceleration - duration_by.x - to.acceleration * phase_by.x,
+            -self.restitution - duration_by.y - to.acceleration * phase_by.y,
+        );
+        let derivative =
+            DMat2::from_cols(DVec2::new(phase_by.x, velocity_by.x), DVec2::new(phase_by.y, velocity_by.y));
+        Ok((landing, derivative))
+    }
+
+    /// The orbit that starts with the impact in `state`; the first item is the next event.
+    #[must_use]
+    pub fn orbit(&self, state: ImpactState, policy: ChatterPolicy) -> DrivenOrbit {
+        let mut orbit = self.start(policy);
+        orbit.after(state.phase().angle(), state.velocity(), f64::INFINITY);
+        orbit
+    }
+
+    /// The orbit of a disk that is in the air, `gap` >= 0 above the platform at `time`, with this velocity
+    /// relative to it; without a gap it leaves the platform with that velocity >= 0.
+    ///
+    /// # Errors
+    /// Those of [`Drive::first_impact_from`].
+    pub fn of_flight(
+        &self,
+        time: f64,
+        gap: f64,
+        relative_velocity: f64,
+        policy: ChatterPolicy,
+    ) -> Result<DrivenOrbit, Error> {
+        let mut orbit = self.start(policy);
+        orbit.next = Next::Report(self.drive.first_impact_from(time, gap, relative_velocity)?);
+        Ok(orbit)
+    }
+
+    /// The orbit of a disk that rests on the platform at `time`.
+    #[must_use]
+    pub fn of_contact(&self, time: f64, policy: ChatterPolicy) -> DrivenOrbit {
+        DrivenOrbit { next: Next::Contact(wrapped_angle(time)), ..self.start(policy) }
+    }
+
+    fn start(&self, policy: ChatterPolicy) -> DrivenOrbit {
+        DrivenOrbit { map: self.clone(), policy, short_flights: ShortFlightCount::new(), next: Next::End }
+    }
+}
+
+/// One event of the vertical motion on a [`Drive`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub enum DrivenEvent {
+    /// The disk hits the platform.
+    Impact(DrivenImpact),
+    /// A chatter ends: the disk comes to rest on the platform.
+    Attachment {
+        /// When. Under [`ChatterPolicy::Cut`] the last impact itself; the error is infinite where no bound
+        /// proves that the disk stays.
+        accumulation: Accumulation,
+        /// Launch speed after the last impact, in units of g/omega, from which the chatter started.
+        last_speed: f64,
+    },
+    /// The contact force falls to zero, or the velocity of the platform drops: the disk leaves.
+    Separation(ContactChange),
+    /// The velocity of the platform rises: it hits the disk that rests on it, at zero distance.
+    Kick(ContactChange),
+}
+
+/// The end of a contact as an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ContactChange {
+    /// The time since the disk came to rest, in radians.
+    pub duration: f64,
+    /// When.
+    pub phase: Phase,
+    /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
+    pub turns: u64,
+    /// The velocity of the disk relative to the platform just after the platform's velocity has jumped, before
+    /// any law of impact: zero or positive for a separation, negative for a kick.
+    pub velocity: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Next {
+    Launch { time: f64, speed: f64, separates: bool },
+    Report(DrivenImpact),
+    Attach(Accumulation, f64),
+    Contact(f64),
+    End,
+}
+
+/// The lazy sequence of [`DrivenEvent`]s of one orbit. It ends if the disk rests for ever, and after an error.
+#[derive(Debug, Clone)]
+pub struct DrivenOrbit {
+    map: DrivenMap,
+    policy: ChatterPolicy,
+    short_flights: ShortFlightCount,
+    next: Next,
+}
+
+impl DrivenOrbit {
+    /// The map.
+    #[must_use]
+    pub const fn map(&self) -> &DrivenMap {
+        &self.map
+    }
+
+    /// Time and relative speed at which the disk leaves the platform next: `None` if it is about to attach,
+    /// rests, or has ended.
+    #[must_use]
+    pub const fn launch(&self) -> Option<(f64, f64)> {
+        match self.next {
+            Next::Launch { time, speed, .. } => Some((time, speed)),
+            Next::Report(_) | Next::Attach(..) | Next::Contact(_) | Next::End => None,
+        }
+    }
+
+    /// Gives the next launch another speed >= 0 (a perturbation of a relaunch); ignored if none is due.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a negative or infinite speed.
+    pub fn perturb_launch(&mut self, new: f64) -> Result<(), Error> {
+        if let Next::Launch { speed, separates, .. } = &mut self.next {
+            *speed = within("relative_speed", new, 0.0, 1.0e9, "[0, 1e9] (units of g/omega)")?;
+            *separates &= new == 0.0;
+        }
+        Ok(())
+    }
+
+    /// The next event, or `None` after the end of the orbit.
+    ///
+    /// # Errors
+    /// Those of [`Drive::first_impact`] and [`Drive::contact_end`]. An error ends the orbit.
+    pub fn advance(&mut self) -> Result<Option<DrivenEvent>, Error> {
+        match core::mem::replace(&mut self.next, Next::End) {
+            Next::Launch { time, separates: true, .. } => {
+                let landing = self.map.drive.impact_after_separation(time)?;
+                Ok(Some(self.report(landing)))
+            }
+            Next::Launch { time, speed, separates: false } => {
+                let landing = self.map.drive.first_impact_from(time, 0.0, speed)?;
+                Ok(Some(self.report(landing)))
+            }
+            Next::Report(landing) => Ok(Some(self.report(landing))),
+            Next::Attach(accumulation, last_speed) => {
+                self.next = Next::Contact(accumulation.phase.angle());
+                Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }))
+            }
+            Next::Contact(since) => {
+                let Some(end) = self.map.drive.contact_end(since, f64::INFINITY)? else { return Ok(None) };
+                let change = ContactChange {
+                    duration: end.duration,
+                    phase: Phase::of_angle(end.time),
+                    turns: turns(since, end),
+                    velocity: -end.velocity_jump,
+                };
+                if change.velocity < 0.0 {
+                    self.after(end.time, change.velocity, f64::INFINITY);
+                    return Ok(Some(DrivenEvent::Kick(change)));
+                }
+                let separates = change.velocity == 0.0;
+                self.next = Next::Launch { time: end.time, speed: change.velocity, separates };
+                Ok(Some(DrivenEvent::Separation(change)))
+            }
+            Next::End => Ok(None),
+        }
+    }
+
+    fn report(&mut self, landing: DrivenImpact) -> DrivenEvent {
+        let impact = &landing.impact;
+        // Only flights far below one period count as short.
+        let duration = if impact.periods == 0 { impact.remainder } else { TAU };
+        self.after(impact.phase.angle(), impact.velocity, duration);
+        DrivenEvent::Impact(landing)
+    }
+
+    /// Decides what follows an impact with relative `velocity` that ends a flight of this duration.
+    fn after(&mut self, time: f64, velocity: f64, duration: f64) {
+        let speed = -self.map.restitution * velocity;
+        let launch = Next::Launch { time, speed, separates: false };
+        let pulls = self.map.drive.acceleration(time) >= -1.0;
+        let rest_at_once = |error_bound| {
+            let phase = Phase::of_angle(time);
+            Next::Attach(Accumulation { duration: 0.0, error_bound, phase, turns: 0 }, speed)
+        };
+        self.next = match self.policy {
+            ChatterPolicy::Cut(cut) => {
+                if !self.short_flights.attaches(&cut, duration, -velocity) && speed > 0.0 {
+                    launch
+                } else if pulls {
+                    rest_at_once(if speed > 0.0 { f64::INFINITY } else { 0.0 })
+                } else {
+                    Next::Launch { time, speed: 0.0, separates: false }
+                }
+            }
+            ChatterPolicy::Complete => {
+                let chatter = self.map.drive.chatter_duration(time, speed, self.map.restitution);
+                match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
+                    Some(chatter) => {
+                        let angle = time + chatter.duration;
+                        let (phase, turns) = (Phase::of_angle(wrapped_angle(angle)), u64::from(angle >= TAU));
+                        let (duration, error_bound) = (chatter.duration, chatter.error);
+                        Next::Attach(Accumulation { duration, error_bound, phase, turns }, speed)
+                    }
+                    None if speed <= SMALLEST_SPEED && pulls => {
+                        rest_at_once(if speed > 0.0 { f64::INFINITY } else { 0.0 })
+                    }
+                    None => launch,
+                }
+            }
+        };
+    }
+}
+
+/// How often the phase passes 0 in a contact of at most one period.
+fn turns(since: f64, end: ContactEnd) -> u64 {
+    u64::from(end.time < since || end.time <= since && end.duration > 0.5 * TAU)
+}
+
+impl Iterator for DrivenOrbit {
+    type Item = Result<DrivenEvent, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}

@@ -1,0 +1,661 @@
+//! Flights above drives of every kind, judged by the oracle.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::flight::DrivenImpact;
+use bouncing_disk_core::run::in_parallel;
+use bouncing_disk_core::{Drive, Launch, Phase, Vibration};
+
+use crate::launches::SplitMix;
+use crate::sums::{Dd, Gap, dd, has_root_at, positive};
+
+/// A drive, and what an oracle needs to know of it.
+pub struct Exact {
+    pub drive: Drive,
+    /// The harmonics of a Fourier drive (amplitude, angle), or else none.
+    harmonics: Vec<(f64, f64)>,
+    /// When the pieces begin, and 2 pi.
+    pub joints: Vec<f64>,
+}
+
+impl Exact {
+    fn fourier(harmonics: Vec<(f64, f64)>) -> Self {
+        Self { drive: Drive::fourier(&harmonics).unwrap(), harmonics, joints: Vec::new() }
+    }
+
+    fn pieces(drive: Drive, joints: Vec<f64>) -> Self {
+        Self { drive, harmonics: Vec::new(), joints }
+    }
+
+    fn sizes(&self, power: f64) -> f64 {
+        (1..).zip(&self.harmonics).map(|(j, (a, _))| a.abs() * libm::pow(f64::from(j), power)).sum()
+    }
+
+    /// The piece at a time in [0, 2 pi), its coefficients and when it starts.
+    fn piece(&self, time: f64) -> (usize, [Dd; 4], f64) {
+        let piece = self.joints.partition_point(|&start| start <= time).clamp(1, self.joints.len() - 1) - 1;
+        let start = self.joints[piece];
+        let at = self.drive.at(start);
+        let sixth = dd(at.jerk) / dd(6.0);
+        (piece, [dd(at.height), dd(at.velocity), dd(0.5 * at.acceleration), sixth], start)
+    }
+
+    /// Height and velocity at a time (of pieces: in [0, 2 pi)).
+    fn at(&self, time: Dd) -> (Dd, Dd) {
+        if self.joints.is_empty() {
+            let (mut height, mut velocity) = (dd(0.0), dd(0.0));
+            for (j, &(a, angle)) in (1..).zip(&self.harmonics) {
+                let j = dd(f64::from(j));
+                let (sin, cos) = (j * time + dd(angle)).sin_cos();
+                height = height + dd(a) * sin;
+                velocity = velocity + dd(a) * j * cos;
+            }
+            return (height, velocity);
+        }
+        let (_, c, start) = self.piece(time.high());
+        polynomial(c, time - dd(start))
+    }
+
+    /// What must hold for the impact after a launch at `time` with relative speed `w`.
+    fn judge(&self, time: f64, w: f64, landing: &DrivenImpact) -> Result<(), String> {
+        let impact = &landing.impact;
+        let h = dd(impact.periods as f64) * (Dd::PI + Dd::PI) + dd(impact.remainder);
+        let error = landing.error;
+        let pull = 1.0 + self.drive.acceleration(time);
+        if h.high() < 1e-140 && pull > 1e-6 {
+            // The squares of the oracle would underflow: the parabola to all digits.
+            let near =
+                (h.high() * pull - 2.0 * w).abs() <= 1e-9 * w && (impact.velocity + w).abs() <= 1e-14 * w;
+            return if near { Ok(()) } else { Err("not the parabola".to_owned()) };
+        }
+        let (height, velocity) = self.at(dd(time));
+        // Nothing is to be hit above all heights.
+        let crude = if self.joints.is_empty() { self.sizes(0.0) } else { self.drive.max_height() };
+        let (u, depth) = (velocity.high() + w, crude + 1e-6 - height.high());
+        let radicand = u * u - 2.0 * depth;
+        let above = if u > 0.0 && radicand > 0.0 {
+            let fall = radicand.sqrt();
+            (2.0 * depth / (u + fall) * (1.0 + 1e-9), (u + fall) * (1.0 - 1e-12) - 1e-9)
+        } else {
+            (f64::INFINITY, f64::INFINITY)
+        };
+        let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
+        let last = (h - dd(4.0 * error)).high();
+        if self.joints.is_empty() {
+            let gap = Sines { of: self, time: dd(time), w: dd(w), start: (height, velocity) };
+            if landing.doubt.is_none_or(|doubt| gap.at(h).0.high().abs() > doubt.bound) {
+                has_root_at(&gap, h, error)?;
+            }
+            if let Some(doubt) = landing.doubt {
+                let value = gap.at(dd(doubt.at)).0.high();
+                if value.abs() > doubt.bound {
+                    return Err(format!("doubt of {value:e}, bound {:e}", doubt.bound));
+                }
+            }
+            positive(&gap, 0.0, last.min(above.0), raised)?;
+            return if above.1 < last { positive(&gap, above.1, last, raised) } else { Ok(()) };
+        }
+        // From joint to joint.
+        let mut elapsed = dd(0.0);
+        let (mut piece, c, start) = self.piece(time);
+        let mut gap = Cubic { c, x: dd(time) - dd(start), gap: dd(0.0), speed: dd(w) };
+        let mut length = dd(self.joints[piece + 1]) - dd(time);
+        let mut passed = false;
+        loop {
+            let left = (h - elapsed - length).high();
+            if left <= 2.0 * error {
+                let value = gap.at(h - elapsed).0.high();
+                let touches = landing.doubt.is_some_and(|doubt| value.abs() <= doubt.bound);
+                let root = if touches { Ok(()) } else { has_root_at(&gap, h - elapsed, 1.01 * error) };
+                // Within its error it may be on the next piece.
+                if root.is_ok() || left < -2.0 * error {
+                    root?;
+                    return positive(&gap, 0.0, (h - elapsed).high() - 4.0 * error, raised);
+                }
+            }
+            if elapsed.high() < above.0 || elapsed.high() + length.high() > above.1 {
+                positive(&gap, 0.0, length.high(), raised)?;
+            }
+            let (mut value, mut speed) = gap.at(length);
+            let before = polynomial(gap.c, gap.x + length).1;
+            elapsed = elapsed + length;
+            piece = (piece + 1) % (self.joints.len() - 1);
+            let (_, c, _) = self.piece(self.joints[piece]);
+            let jump = c[1] - before;
+            if jump.high().abs() > 1e-12 * self.drive.bounds().speed {
+                speed = speed - jump;
+            }
+            let periods = libm::floor((above.1 - elapsed.high()) / TAU);
+            if !passed && above.1 < last && elapsed.high() > above.0 && periods >= 1.0 {
+                passed = true;
+                elapsed = elapsed + dd(periods) * (Dd::PI + Dd::PI);
+                speed = velocity + dd(w) - elapsed - c[1];
+                value = height + elapsed * (velocity + dd(w) - dd(0.5) * elapsed) - c[0];
+            }
+            gap = Cubic { c, x: dd(0.0), gap: value, speed };
+            length = dd(self.joints[piece + 1]) - dd(self.joints[piece]);
+        }
+    }
+}
+
+fn polynomial([c0, c1, c2, c3]: [Dd; 4], x: Dd) -> (Dd, Dd) {
+    (c0 + x * (c1 + x * (c2 + x * c3)), c1 + x * (dd(2.0) * c2 + x * (dd(3.0) * c3)))
+}
+
+/// The gap above a Fourier drive after a launch.
+struct Sines<'a> {
+    of: &'a Exact,
+    time: Dd,
+    w: Dd,
+    start: (Dd, Dd),
+}
+
+impl Gap for Sines<'_> {
+    fn at(&self, t: Dd) -> (Dd, Dd) {
+        let (mut rest, mut slope) = (dd(0.0), dd(0.0));
+        if t.high() * (self.of.harmonics.len() as f64) < 1e-2 {
+            // The Taylor series from the second order on.
+            for (j, &(a, angle)) in (1..).zip(&self.of.harmonics) {
+                let j = dd(f64::from(j));
+                let (sin, cos) = (j * self.time + dd(angle)).sin_cos();
+                let derivatives = [-sin, -cos, sin, cos];
+                let mut factor = dd(a) * j * t;
+                for k in 2..14_u32 {
+                    let derivative = derivatives[((k - 2) % 4) as usize];
+                    factor = factor * j;
+                    slope = slope + factor * derivative;
+                    factor = factor * t / dd(f64::from(k));
+                    rest = rest + factor * derivative;
+                }
+            }
+        } else {
+            let (height, velocity) = self.of.at(self.time + t);
+            rest = height - self.start.0 - t * self.start.1;
+            slope = velocity - self.start.1;
+        }
+        (t * (self.w - dd(0.5) * t) - rest, self.w - t - slope)
+    }
+
+    fn bend(&self, _: f64, _: f64) -> f64 {
+        1.0 + self.of.sizes(2.0)
+    }
+
+    fn start(&self) -> (f64, f64) {
+        (-1.0 - self.of.drive.acceleration(self.time.high()), self.of.sizes(3.0))
+    }
+}
+
+/// The gap above one piece.
+struct Cubic {
+    c: [Dd; 4],
+    x: Dd,
+    gap: Dd,
+    speed: Dd,
+}
+
+impl Cubic {
+    fn bend_at_start(&self) -> Dd {
+        dd(-1.0) - dd(2.0) * (self.c[2] + dd(3.0) * self.x * self.c[3])
+    }
+}
+
+impl Gap for Cubic {
+    fn at(&self, t: Dd) -> (Dd, Dd) {
+        let (a, j) = (self.bend_at_start(), dd(-6.0) * self.c[3]);
+        let half = dd(0.5) * j * t;
+        (self.gap + t * (self.speed + t * (dd(0.5) * a + half / dd(3.0))), self.speed + t * (a + half))
+    }
+
+    fn bend(&self, from: f64, to: f64) -> f64 {
+        let (a, j) = (self.bend_at_start().high(), 6.0 * self.c[3].high());
+        (a - j * from).abs().max((a - j * to).abs())
+    }
+
+    fn start(&self) -> (f64, f64) {
+        (self.bend_at_start().high(), 6.0 * self.c[3].high().abs())
+    }
+}
+
+fn below(random: &mut SplitMix, n: usize) -> usize {
+    (random.unit() * n as f64) as usize
+}
+
+/// A kind of drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Kind {
+    ThreeHarmonics,
+    ManyHarmonics,
+    Triangle,
+    Sawtooth,
+    Parabolas,
+    Cubics,
+    Polygon,
+    Spline,
+}
+
+pub const KINDS: [Kind; 8] = [
+    Kind::ThreeHarmonics,
+    Kind::ManyHarmonics,
+    Kind::Triangle,
+    Kind::Sawtooth,
+    Kind::Parabolas,
+    Kind::Cubics,
+    Kind::Polygon,
+    Kind::Spline,
+];
+
+impl Kind {
+    pub fn draw(self, random: &mut SplitMix) -> Exact {
+        let a = random.decades(-2.0, 4.0);
+        let q = 0.25 * TAU;
+        match self {
+            Self::ThreeHarmonics => Exact::fourier(
+                (1..4).map(|j| (a * random.uniform(-1.0, 1.0) / f64::from(j), random.angle())).collect(),
+            ),
+            Self::ManyHarmonics => Exact::fourier(
+                (1..33).map(|j| (a * random.uniform(-1.0, 1.0) / f64::from(j * j), random.angle())).collect(),
+            ),
+            Self::Triangle => Exact::pieces(Drive::triangle(a).unwrap(), vec![0.0, q, 0.75 * TAU, TAU]),
+            Self::Sawtooth => {
+                let rise = random.uniform(0.05, 0.95);
+                let joints = vec![0.0, 0.5 * rise * TAU, (1.0 - 0.5 * rise) * TAU, TAU];
+                Exact::pieces(Drive::sawtooth(a, rise).unwrap(), joints)
+            }
+            Self::Parabolas => Exact::pieces(Drive::parabolas(a).unwrap(), vec![0.0, 0.5 * TAU, TAU]),
+            Self::Cubics => Exact::pieces(Drive::cubics(a).unwrap(), vec![0.0, q, 2.0 * q, 3.0 * q, TAU]),
+            Self::Polygon => polygon(a, random),
+            Self::Spline => {
+                let count = 8 + below(random, 200);
+                let (phase, third) = (random.angle(), random.unit());
+                let time = |k: usize| k as f64 / count as f64 * TAU;
+                let samples: Vec<_> = (0..count)
+                    .map(|k| a * (libm::sin(time(k) + phase) + 0.3 * third * libm::sin(3.0 * time(k))))
+                    .collect();
+                let joints = (0..=count).map(|k| if k == count { TAU } else { time(k) }).collect();
+                Exact::pieces(Drive::sampled(&samples).unwrap(), joints)
+            }
+        }
+    }
+}
+
+/// Cubic arcs between random heights, with a kink at each joint.
+fn polygon(a: f64, random: &mut SplitMix) -> Exact {
+    let count = 2 + below(random, 6);
+    let mut joints = vec![0.0];
+    for k in 1..count {
+        joints.push(TAU * (k as f64 + random.uniform(-0.3, 0.3)) / count as f64);
+    }
+    joints.push(TAU);
+    let heights: Vec<_> = (0..count).map(|_| a * random.uniform(-1.0, 1.0)).collect();
+    let pieces: Vec<_> = (0..count)
+        .map(|k| {
+            let d = joints[k + 1] - joints[k];
+            let (c2, c3) = (a * random.uniform(-1.0, 1.0), a * random.uniform(-1.0, 1.0));
+            let c1 = (heights[(k + 1) % count] - heights[k]) / d - d * (c2 + d * c3);
+            (d, [heights[k], c1, c2, c3])
+        })
+        .collect();
+    // The starts as the drive adds them up.
+    let mut time = 0.0;
+    let mut starts = Vec::new();
+    for &(duration, _) in &pieces {
+        starts.push(time);
+        time += duration;
+    }
+    starts.push(TAU);
+    Exact::pieces(Drive::pieces(&pieces).unwrap(), starts)
+}
+
+/// A time in [0, 2 pi), most often on a seam or next to one.
+fn seam(of: &Exact, random: &mut SplitMix) -> f64 {
+    let time = match below(random, 4) {
+        0 => random.angle(),
+        1 => 0.0,
+        2 if !of.joints.is_empty() => of.joints[below(random, of.joints.len())],
+        2 => 0.5 * TAU,
+        _ => TAU,
+    };
+    let time = match below(random, 4) {
+        0 => time,
+        1 => (0..=below(random, 3)).fold(time, |t, _| t.next_down()),
+        2 => (0..=below(random, 3)).fold(time, |t, _| t.next_up()),
+        _ => time + random.sign() * random.decades(-15.0, -3.0),
+    };
+    time.clamp(0.0, TAU.next_down())
+}
+
+/// A launch that grazes a crest or a corner, by a little more or less.
+fn graze(of: &Exact, random: &mut SplitMix) -> Option<(f64, f64)> {
+    let touch = if of.joints.len() > 2 && random.unit() < 0.5 {
+        of.joints[below(random, of.joints.len() - 1)]
+    } else {
+        random.angle()
+    };
+    let at = of.drive.at(touch);
+    let before = of.drive.velocity(touch - 1e-9);
+    let slope = at.velocity + random.unit() * (before - at.velocity);
+    let height = at.height + random.sign() * random.decades(-16.0, -2.0);
+    let disk = |t: f64| height + t * (slope - 0.5 * t);
+    let gap = |t: f64| disk(t) - of.drive.height(touch + t);
+    // Back to where it was on the platform.
+    let mut t = -random.decades(-3.0, 0.0);
+    let mut step = 0.05;
+    if gap(t) <= 0.0 {
+        return None;
+    }
+    while gap(t - step) > 0.0 {
+        t -= step;
+        step *= 1.1;
+        if t < -60.0 {
+            return None;
+        }
+    }
+    let (mut lo, mut hi) = (t - step, t);
+    for _ in 0..100 {
+        let m = 0.5 * (lo + hi);
+        if gap(m) > 0.0 {
+            hi = m;
+        } else {
+            lo = m;
+        }
+    }
+    let time = (touch + hi).rem_euclid(TAU);
+    let speed = slope - hi - of.drive.velocity(touch + hi);
+    (speed > 0.0 && time < TAU).then_some((time, speed))
+}
+
+/// A launch on a seam.
+fn launch(of: &Exact, random: &mut SplitMix) -> Option<(f64, f64)> {
+    if random.unit() < 0.3 {
+        return graze(of, random);
+    }
+    let time = seam(of, random);
+    let speed = match below(random, 6) {
+        0 => random.decades(-280.0, -10.0),
+        1 => random.decades(-12.0, -6.0),
+        2 => random.decades(-6.0, 0.0),
+        3 => random.decades(4.0, 4.8),
+        _ => (1.0 + of.drive.bounds().speed) * 2.0 * random.unit(),
+    };
+    Some((time, speed))
+}
+
+#[derive(Debug, Default)]
+struct Tally {
+    launches: u64,
+    doubts: u64,
+    kinks: u64,
+    evaluations: u32,
+    failures: Vec<String>,
+}
+
+fn attack(kind: Kind, seed: u64, launches: u64) -> Tally {
+    let mut random = SplitMix::new(seed);
+    let mut tally = Tally::default();
+    while tally.launches < launches {
+        let exact = kind.draw(&mut random);
+        for _ in 0..20 {
+            let Some((time, speed)) = launch(&exact, &mut random) else { continue };
+            tally.launches += 1;
+            let verdict = match exact.drive.first_impact_from(time, 0.0, speed) {
+                Ok(landing) => {
+                    tally.doubts += u64::from(landing.doubt.is_some());
+                    tally.kinks += u64::from(landing.on_kink);
+                    tally.evaluations = tally.evaluations.max(landing.impact.evaluations);
+                    exact.judge(time, speed, &landing).map_err(|reason| format!("{landing:?}: {reason}"))
+                }
+                Err(error) => Err(error.to_string()),
+            };
+            if let Err(reason) = verdict {
+                tally.failures.push(format!(
+                    "{reason}; {kind:?} from {time:?} at {speed:e} {:?} {:?}",
+                    exact.harmonics, exact.joints
+                ));
+            }
+        }
+    }
+    tally
+}
+
+fn check(kind: Kind, seed: u64, launches: u64) {
+    let tally = attack(kind, seed, launches);
+    let (count, failures) = (tally.failures.len(), &tally.failures);
+    assert!(failures.is_empty(), "{count} of {launches}:\n{}", failures[..count.min(4)].join("\n"));
+    // Three in ten are built to graze, with gaps from 1e-16 to 1e-2.
+    assert!(tally.doubts < launches / 8, "{tally:?}");
+}
+
+#[test]
+fn launches_on_seams_of_fourier_sums() {
+    check(Kind::ThreeHarmonics, 71, 8_000);
+    check(Kind::ManyHarmonics, 72, 1_000);
+}
+
+#[test]
+fn launches_on_seams_of_corners() {
+    check(Kind::Triangle, 73, 30_000);
+    check(Kind::Sawtooth, 74, 30_000);
+    check(Kind::Polygon, 75, 30_000);
+}
+
+#[test]
+fn launches_on_seams_of_smooth_pieces() {
+    check(Kind::Parabolas, 76, 30_000);
+    check(Kind::Cubics, 77, 30_000);
+    check(Kind::Spline, 78, 5_000);
+}
+
+/// `DRIVE_LAUNCHES` of each kind, 400,000 unless set.
+#[test]
+#[ignore = "a campaign of some minutes"]
+fn drive_campaign() {
+    let launches = std::env::var("DRIVE_LAUNCHES").map_or(400_000, |text| text.parse().unwrap());
+    let tallies =
+        in_parallel(KINDS.len(), |kind| (KINDS[kind], attack(KINDS[kind], 1_000 + kind as u64, launches)));
+    for (kind, tally) in &tallies {
+        let failures: Vec<_> = tally.failures.iter().take(3).collect();
+        println!("{kind:?}: {} launches, {} doubts, {} on kinks", tally.launches, tally.doubts, tally.kinks);
+        println!(
+            "at most {} evaluations, {} failures {failures:#?}",
+            tally.evaluations,
+            tally.failures.len()
+        );
+    }
+    assert!(tallies.iter().all(|(_, tally)| tally.failures.is_empty()));
+}
+
+/// From the same state before each event the sum gives the events of the sine's own solver.
+#[test]
+fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
+    let mut random = SplitMix::new(51);
+    let mut worst = 0.0_f64;
+    for _ in 0..200_000 {
+        let peak = libm::exp10(3.0 * random.unit() - 1.0);
+        let vibration = Vibration::new(peak).unwrap();
+        let drive = Drive::fourier(&[(peak, 0.0)]).unwrap();
+        let phase = Phase::new(random.angle()).unwrap();
+        let speed = (1.0 + peak) * 3.0 * random.unit() * libm::exp10(-6.0 * random.unit());
+        let launch = Launch::new(phase, speed).unwrap();
+        let sine = vibration.first_impact(launch).unwrap();
+        let sum = drive.first_impact(launch).unwrap();
+        let apart = (sum.impact.duration() - sine.duration()).abs();
+        let legal = 1e-12 * sine.duration() + 4.0 * sum.error;
+        assert!(apart <= legal, "{peak} {phase:?} {speed:e}: {sine:?} {sum:?}");
+        assert_eq!(sum.impact.turns, sine.turns);
+        if sine.velocity < -1e-3 {
+            worst = worst.max(apart / sine.duration());
+        }
+    }
+    assert!(worst < 1e-12, "{worst:e}");
+}
+
+/// Least times of rounds by turns, of the same launches: for the record in docs/numerics/drives.md.
+#[test]
+#[ignore = "prints times"]
+fn drive_costs() {
+    let mut random = SplitMix::new(99);
+    let p = 1.8;
+    let launches: Vec<_> = (0..20_000)
+        .map(|_| Launch::new(Phase::new(random.angle()).unwrap(), 6.0 * random.unit()).unwrap())
+        .collect();
+    let vibration = Vibration::new(p).unwrap();
+    let samples: Vec<_> = (0..16_384).map(|k| p * libm::sin(f64::from(k) / 16_384.0 * TAU)).collect();
+    let drives = [
+        ("one harmonic", Drive::fourier(&[(p, 0.0)]).unwrap()),
+        ("three harmonics", Drive::fourier(&[(p, 0.0), (0.2, 1.0), (0.1, 2.0)]).unwrap()),
+        ("triangle", Drive::triangle(p).unwrap()),
+        ("parabolas", Drive::parabolas(p).unwrap()),
+        ("cubics", Drive::cubics(p).unwrap()),
+        ("16,384 samples", Drive::sampled(&samples).unwrap()),
+    ];
+    let mut least = [f64::INFINITY; 7];
+    let mut sum = 0.0;
+    for _ in 0..20 {
+        let mut time = |index: usize, impact: &dyn Fn(Launch) -> f64| {
+            let start = std::time::Instant::now();
+            sum += launches.iter().map(|&launch| impact(launch)).sum::<f64>();
+            least[index] = least[index].min(start.elapsed().as_secs_f64() / launches.len() as f64);
+        };
+        time(0, &|launch| vibration.first_impact(launch).unwrap().velocity);
+        for (index, (_, drive)) in (1..).zip(&drives) {
+            time(index, &|launch| drive.first_impact(launch).unwrap().impact.velocity);
+        }
+    }
+    println!("the sine: {:.1} ns ({sum})", least[0] * 1e9);
+    for ((name, _), time) in drives.iter().zip(&least[1..]) {
+        println!("{name}: {:.1} ns, {:.2} times the sine", time * 1e9, time / least[0]);
+    }
+}
+
+/// A flight that is interrupted at a random time goes on to the same impact, also as a disk in the air.
+#[test]
+fn an_interrupted_flight_lands_at_the_same_place() {
+    let mut random = SplitMix::new(97);
+    let mut compared = 0;
+    while compared < 20_000 {
+        let exact = KINDS[compared % KINDS.len()].draw(&mut random);
+        let drive = &exact.drive;
+        for _ in 0..20 {
+            let Some((time, speed)) = launch(&exact, &mut random) else { continue };
+            let landing = drive.first_impact_from(time, 0.0, speed).unwrap();
+            let t = landing.impact.duration() * random.uniform(0.05, 0.95);
+            let from = drive.at(time);
+            let (u, there) = (from.velocity + speed, drive.at(time + t));
+            let gap = from.height - there.height + t * (u - 0.5 * t);
+            let bounds = drive.bounds();
+            // How far the rounding of this point moves the impact.
+            let size = bounds.highest - bounds.lowest + (1.0 + t) * (bounds.speed + u.abs() + t);
+            let shift = 1e-14 * size / -landing.impact.velocity;
+            let grazes = landing.doubt.is_some() || landing.on_kink || shift > 1e-9;
+            if gap <= 1e-9 * size
+                || grazes
+                || exact.closest(time, speed, landing.impact.duration()) < 1e-9 * size
+            {
+                continue;
+            }
+            let again = drive.first_impact_from(time + t, gap, u - t - there.velocity).unwrap();
+            let apart = (again.impact.duration() + t - landing.impact.duration()).abs();
+            assert!(
+                apart < 100.0 * shift + 1e-12,
+                "{apart:e}: {landing:?}, from {t} on {again:?}, {drive:?}"
+            );
+            compared += 1;
+        }
+    }
+}
+
+impl Exact {
+    /// The lowest gap of a flight where it has a minimum, of samples: near a graze this is small.
+    fn closest(&self, time: f64, w: f64, duration: f64) -> f64 {
+        let from = self.drive.at(time);
+        let gap = |t: f64| from.height - self.drive.height(time + t) + t * (from.velocity + w - 0.5 * t);
+        let samples = 400.0;
+        let gaps: Vec<_> = (0..400_u32).map(|k| gap(duration * f64::from(k) / samples)).collect();
+        let dip = gaps.windows(3).filter(|three| three[1] <= three[0] && three[1] <= three[2]);
+        dip.fold(f64::INFINITY, |least, three| {
+            least.min(three[1] - (three[0] - three[1]).max(three[2] - three[1]))
+        })
+    }
+}
+
+/// An amplitude that grows or falls in time, as in a segment of a schedule.
+#[test]
+fn ramps_are_followed_to_their_end() {
+    let mut random = SplitMix::new(98);
+    let (mut landed, mut flown) = (0, 0);
+    for _ in 0..4_000 {
+        let duration = random.uniform(5.0, 60.0);
+        let harmonics: Vec<_> = (0..1 + below(&mut random, 3))
+            .map(|_| {
+                let (a, end) = (random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+                (a, (end - a) / duration, random.angle())
+            })
+            .collect();
+        let drive = Drive::ramped_fourier(&harmonics, duration).unwrap();
+        let (time, speed) = (duration * random.unit(), random.decades(-6.0, 1.3));
+        let ramp = Ramp { harmonics: &harmonics, time, speed };
+        match drive.first_impact_within(time, 0.0, speed, f64::INFINITY).unwrap() {
+            Some(landing) => {
+                landed += 1;
+                let h = dd(landing.impact.periods as f64) * (Dd::PI + Dd::PI) + dd(landing.impact.remainder);
+                has_root_at(&ramp, h, landing.error).unwrap();
+                let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
+                positive(&ramp, 0.0, h.high() - 4.0 * landing.error, raised).unwrap();
+            }
+            None => {
+                flown += 1;
+                positive(&ramp, 0.0, duration - time, 0.0).unwrap();
+                assert!(drive.first_impact_from(time, 0.0, speed).is_err());
+            }
+        }
+    }
+    assert!(landed > 300 && flown > 300, "{landed} {flown}");
+}
+
+/// The gap above a ramp after a launch.
+struct Ramp<'a> {
+    harmonics: &'a [(f64, f64, f64)],
+    time: f64,
+    speed: f64,
+}
+
+impl Ramp<'_> {
+    fn height(&self, time: Dd) -> (Dd, Dd) {
+        let (mut height, mut velocity) = (dd(0.0), dd(0.0));
+        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
+            let j = dd(f64::from(j));
+            let (sin, cos) = (j * time + dd(angle)).sin_cos();
+            let size = dd(a) + dd(b) * time;
+            height = height + size * sin;
+            velocity = velocity + size * j * cos + dd(b) * sin;
+        }
+        (height, velocity)
+    }
+}
+
+impl Gap for Ramp<'_> {
+    fn at(&self, t: Dd) -> (Dd, Dd) {
+        let (from, to) = (self.height(dd(self.time)), self.height(dd(self.time) + t));
+        let w = dd(self.speed);
+        (t * (w + from.1 - dd(0.5) * t) - (to.0 - from.0), w + from.1 - to.1 - t)
+    }
+
+    fn bend(&self, _: f64, to: f64) -> f64 {
+        let end = self.time + to;
+        1.0 + (1..)
+            .zip(self.harmonics)
+            .map(|(j, (a, b, _))| (a.abs() + b.abs() * end) * f64::from(j * j) + 2.0 * b.abs() * f64::from(j))
+            .sum::<f64>()
+    }
+
+    fn start(&self) -> (f64, f64) {
+        let (mut bend, mut third) = (-1.0, 0.0);
+        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
+            let j = f64::from(j);
+            let (sin, cos) = libm::sincos(j * self.time + angle);
+            bend += j * ((a + b * self.time) * j * sin - 2.0 * b * cos);
+            third += j * j * ((a.abs() + b.abs() * (self.time + 70.0)) * j + 3.0 * b.abs());
+        }
+        (bend, third)
+    }
+}

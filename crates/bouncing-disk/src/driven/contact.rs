@@ -1,0 +1,312 @@
+//! A disk on a driven platform: how long friction holds it, when a slip ends, and what a slide does.
+//!
+//! In direction d (+1: the disk is ahead) the slip speed U = d (q - beta') grows at the rate
+//!
+//! ```text
+//! U' = -mu (1 + s'') - d (l + beta''),   U = U_0 - (mu + d l) t - mu (s' - s'_0) - d (beta' - beta'_0)
+//! ```
+//!
+//! A disk sticks while the rate is positive in neither direction. Both functions are polynomials and sines between
+//! two knots, so that the core's first root misses no event.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
+
+use super::DrivenSystem;
+use super::track::Bend;
+use crate::error::Error;
+use crate::motion::rotary_change::RotaryChange;
+use crate::motion::state::SlipDirection;
+
+/// Rounding of a rate, in units of its terms.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// The integrals of a slide that its energy needs: of N beta' and of N U, and the sizes of what was added.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SlideWork {
+    pub(super) carried: f64,
+    pub(super) slipped: f64,
+    pub(super) size: f64,
+}
+
+impl DrivenSystem {
+    /// The rate at which the slip in `direction` grows, its derivative, and the rounding of both.
+    pub(super) fn growth(&self, direction: SlipDirection, at: f64) -> ([f64; 2], [f64; 2]) {
+        let (s, beta, d, mu) = (self.height.at(at), self.angle.at(at), direction.sign(), self.friction);
+        let rate = -mu * (1.0 + s.acceleration) - d * (self.load + beta.acceleration);
+        let size = mu * (1.0 + s.acceleration.abs()) + self.load.abs() + beta.acceleration.abs();
+        let change = -(mu * s.jerk + d * beta.jerk);
+        // The time is rounded, too.
+        let change_size = mu * s.jerk.abs() + beta.jerk.abs();
+        ([rate, change], [ROUNDING * (size + (1.0 + at.abs()) * change_size), ROUNDING * change_size])
+    }
+
+    /// The direction in which a disk at the platform's speed slips at once; `None` if friction holds it.
+    pub(super) fn onset(&self, at: f64, spent: Option<SlipDirection>) -> Option<SlipDirection> {
+        if self.is_unloaded() {
+            return None;
+        }
+        [SlipDirection::Forward, SlipDirection::Backward]
+            .into_iter()
+            .filter(|&direction| Some(direction) != spent)
+            .find(|&direction| {
+                let ([rate, change], [doubt, _]) = self.growth(direction, at);
+                rate > doubt || rate >= -doubt && change > 0.0
+            })
+    }
+
+    /// Nothing turns the disk: friction holds it to the end of the contact.
+    fn is_unloaded(&self) -> bool {
+        self.angle.is_still() && self.load == 0.0
+    }
+
+    /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then slips.
+    pub(super) fn stick_end(&self, at: f64, limit: f64) -> Result<Option<(f64, SlipDirection)>, Error> {
+        if self.is_unloaded() {
+            return Ok(None);
+        }
+        // What does not happen in a period never does.
+        let limit = if self.is_ramp() { limit } else { limit.min(TAU) };
+        let mut first: Option<(f64, SlipDirection)> = None;
+        for direction in [SlipDirection::Forward, SlipDirection::Backward] {
+            let limit = first.map_or(limit, |(after, _)| after);
+            let found = self.first_fall(at, limit, |here, _| {
+                let ([rate, change], [doubt, change_doubt]) = self.growth(direction, here);
+                // A hold that is rounding at its start has ended, or begins here.
+                let spare = match rate.abs() <= doubt {
+                    true if change < -change_doubt => 0.0,
+                    true if change <= change_doubt => doubt,
+                    _ => -rate,
+                };
+                let error = if spare == 0.0 { 0.0 } else { doubt };
+                let mut bend = Bend::default();
+                self.height.add(2, here, self.friction, &mut bend);
+                self.angle.add(2, here, direction.sign(), &mut bend);
+                let holds = spare >= -doubt && (spare > 0.0 || change < 0.0);
+                Ok(holds.then(|| bend.from([spare, -change], [error, change_doubt])).transpose()?)
+            })?;
+            if let Some(after) = found
+                && first.is_none_or(|(earliest, _)| after < earliest)
+            {
+                first = Some((after, direction));
+            }
+        }
+        Ok(first)
+    }
+
+    /// When the slip in `direction` that has `speed` >= 0 at `at` ends, if it does within `limit`.
+    ///
+    /// # Errors
+    /// [`Error::SlipTooLong`] if its end is further off than it can be resolved.
+    pub(super) fn slip_end(
+        &self,
+        direction: SlipDirection,
+        at: f64,
+        speed: f64,
+        limit: f64,
+    ) -> Result<Option<f64>, Error> {
+        let window = if self.is_ramp() { limit } else { limit.min(TAU) };
+        if let Some(after) = self.slip_end_within(direction, at, speed, window)? {
+            return Ok(Some(after));
+        }
+        let loss = TAU * (self.friction + direction.sign() * self.load);
+        if window >= limit || loss <= 0.0 {
+            return Ok(None);
+        }
+        // Each period takes the loss away: the first one in which the slip ends, by bisection.
+        let (mut lasts, mut ends) = (0.0, ceiling((speed / loss).min(1.0e18)).max(1.0));
+        while ends - lasts > 1.0 {
+            let middle = lasts + ceiling(0.5 * (ends - lasts));
+            let left = speed - middle * loss;
+            if left <= 0.0 || self.slip_end_within(direction, at, left, TAU)?.is_some() {
+                ends = middle;
+            } else {
+                lasts = middle;
+            }
+        }
+        // Where nothing is left at its start, the slip ends in the period before, at its very end.
+        let left = speed - ends * loss;
+        let within = if left > 0.0 { self.slip_end_within(direction, at, left, TAU)? } else { Some(0.0) };
+        let duration = ends * TAU + within.unwrap_or(0.0);
+        if duration > limit {
+            return Ok(None);
+        }
+        if duration > MAX_FLIGHT_DURATION {
+            return Err(Error::SlipTooLong { duration, limit: MAX_FLIGHT_DURATION });
+        }
+        Ok(Some(duration))
+    }
+
+    fn slip_end_within(
+        &self,
+        direction: SlipDirection,
+        at: f64,
+        speed: f64,
+        limit: f64,
+    ) -> Result<Option<f64>, Error> {
+        let mut known = Some(speed);
+        self.first_fall(at, limit, |here, passed| {
+            // Carried from knot to knot by the closed form.
+            let value = known.take().unwrap_or_else(|| self.slip_after(direction, at, speed, passed));
+            let ([rate, change], [doubt, _]) = self.growth(direction, here);
+            if value <= 0.0 && (rate <= doubt && change <= 0.0 || rate < -doubt) {
+                return Ok(None);
+            }
+            self.slip_from(direction, here, value, doubt).map(Some)
+        })
+    }
+
+    /// The slip speed from `here` on, with this value there and a rate known to `doubt`.
+    fn slip_from(
+        &self,
+        direction: SlipDirection,
+        here: f64,
+        value: f64,
+        doubt: f64,
+    ) -> Result<QuasiPolynomial, Error> {
+        let ([rate, _], _) = self.growth(direction, here);
+        let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
+        // A slip that begins does not end by a rounding.
+        let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
+        let mut bend = Bend::default();
+        self.height.add(1, here, -self.friction, &mut bend);
+        self.angle.add(1, here, -direction.sign(), &mut bend);
+        Ok(bend.from([value, rate], [error, doubt])?)
+    }
+
+    /// Slip speed after a slide of this `span`.
+    fn slip_after(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> f64 {
+        let d = direction.sign();
+        let (lifted, turned) = (self.height.change(at, span).0, self.angle.change(at, span).0);
+        speed - ((self.friction + d * self.load) * span + self.friction * lifted + d * turned)
+    }
+
+    /// The first time at which a function falls through zero, knot by knot; `of` gives it from a time on (and the
+    /// time passed until then), and nothing where it has fallen already.
+    fn first_fall(
+        &self,
+        at: f64,
+        limit: f64,
+        mut of: impl FnMut(f64, f64) -> Result<Option<QuasiPolynomial>, Error>,
+    ) -> Result<Option<f64>, Error> {
+        let (mut here, mut passed) = (at, 0.0);
+        loop {
+            let knots = [self.height.next_knot(here), self.angle.next_knot(here)];
+            let knot = knots.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after));
+            let left = limit - passed;
+            let step = knot.map_or(left, |knot| knot.after.min(left));
+            let Some(function) = of(here, passed)? else { return Ok(Some(passed)) };
+            let mut from = 0.0;
+            while from < step {
+                match function.first_root(from, step)? {
+                    FirstRoot::Root(root) => return Ok(Some((passed + root.at).min(limit))),
+                    FirstRoot::None { .. } => break,
+                    // A touch that rounding hides: the value decides.
+                    FirstRoot::Undecided { at, value, .. } if value < 0.0 => return Ok(Some(passed + at)),
+                    FirstRoot::Undecided { until, .. } => from = until,
+                }
+            }
+            match knot {
+                Some(knot) if knot.after < left => (here, passed) = (knot.time, passed + knot.after),
+                _ => return Ok(None),
+            }
+        }
+    }
+
+    /// A slide from `at` on for `span` in `direction`, of a disk with angular `speed`.
+    pub(super) fn slide(&self, direction: SlipDirection, speed: f64, at: f64, span: f64) -> RotaryChange {
+        let (velocity, lift) = self.height.change(at, span);
+        let (grip, load) = (direction.sign() * self.friction, self.load);
+        RotaryChange {
+            speed: speed - (grip * (span + velocity) + load * span),
+            angle: span * (speed - 0.5 * load * span) - grip * (0.5 * span * span + lift),
+        }
+    }
+
+    /// The integrals of a slide that starts with this slip `speed` at `at` and lasts for `span`.
+    pub(super) fn slide_work(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
+        let periods = if self.is_ramp() { 0.0 } else { whole(span / TAU) };
+        let mut work = SlideWork::default();
+        if periods > 0.0 {
+            let one = self.slide_work_within(direction, at, speed, TAU);
+            // The slip of each period is that of the one before less the loss; the force of a period is 2 pi.
+            let loss = TAU * (self.friction + direction.sign() * self.load);
+            work.carried = periods * one.carried;
+            work.slipped = periods * one.slipped - TAU * loss * 0.5 * periods * (periods - 1.0);
+            work.size = periods * one.size + TAU * loss.abs() * periods * periods;
+        }
+        let loss = periods * TAU * (self.friction + direction.sign() * self.load);
+        let rest = self.slide_work_within(direction, at, speed - loss, span - periods * TAU);
+        work.carried += rest.carried;
+        work.slipped += rest.slipped;
+        work.size += rest.size;
+        work
+    }
+
+    fn slide_work_within(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
+        let number = self.height.highest_number().max(self.angle.highest_number());
+        let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
+        while passed < span {
+            let knots = [self.height.next_knot(here), self.angle.next_knot(here)];
+            let knot = knots.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after));
+            let left = span - passed;
+            let stretch = knot.map_or(left, |knot| knot.after.min(left));
+            // A rule of eight points is exact to rounding over one radian of the highest harmonic.
+            let panels = whole(stretch * number) + 1.0;
+            let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
+            let (slip, force, carrier) = (
+                self.slip_from(direction, here, value, 0.0),
+                self.height.derivative(2, here, 1.0),
+                self.angle.derivative(1, here, 0.0),
+            );
+            let (Ok(slip), Ok(force), Ok(carrier)) = (slip, force, carrier) else { break };
+            let half = 0.5 * stretch / panels;
+            let mut panel = 0.0;
+            while panel < panels {
+                let middle = (2.0 * panel + 1.0) * half;
+                for (node, weight) in GAUSS {
+                    for x in [middle - half * node, middle + half * node] {
+                        let force = half * weight * force.at(x, stretch).value;
+                        let (carrier, slip) = (carrier.at(x, stretch).value, slip.at(x, stretch).value);
+                        work.carried += force * carrier;
+                        work.slipped += force * slip;
+                        work.size += force.abs() * (carrier.abs() + slip.abs());
+                    }
+                }
+                panel += 1.0;
+            }
+            match knot {
+                Some(knot) if knot.after < left => (here, passed) = (knot.time, passed + knot.after),
+                _ => break,
+            }
+        }
+        work
+    }
+
+    /// Time `span` after `at`: in [0, 2 pi) unless the motion is a ramp.
+    pub(super) fn time_after(&self, at: f64, span: f64) -> f64 {
+        if self.is_ramp() { at + span } else { wrapped_angle(at + span) }
+    }
+}
+
+/// The whole part of a number >= 0.
+fn whole(number: f64) -> f64 {
+    if number < 9.0e15 { (number as u64) as f64 } else { number }
+}
+
+/// The next whole number from there on, of a number >= 0.
+fn ceiling(number: f64) -> f64 {
+    let floor = whole(number);
+    if floor < number { floor + 1.0 } else { floor }
+}

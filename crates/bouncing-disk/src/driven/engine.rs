@@ -1,0 +1,779 @@
+//! The event engine on a driven platform.
+
+use std::f64::consts::{PI, TAU};
+
+use bouncing_disk_core::flight::ChatterDuration;
+use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::{ChatterPolicy, DrivenEvent as CoreEvent, DrivenMap, Error as CoreError};
+
+use super::{DrivenEvent, DrivenRecord, DrivenStart, DrivenSystem, Hit};
+use crate::error::{Error, moderate};
+use crate::motion::chatter::{ImpactEnergy, record_impact};
+use crate::motion::contact_motion::SAME_SPEED;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
+use crate::motion::rotary_change::{RotaryChange, change_in_flight};
+use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
+
+/// Largest error of the end of a chatter (rad) with which [`ChatterPolicy::Complete`] is content, as in the core.
+const COMPLETION_ERROR: f64 = 1.0e-14;
+
+/// A disk launched slower than this (g/omega), on a platform that pulls it, is put on it where no bound proves
+/// that its chatter ends, as in the core.
+const SMALLEST_SPEED: f64 = 1.0e-18;
+
+/// Events of friction that come this much before the end of a contact, relative to its time, are the end itself.
+const JOINT: f64 = 16.0 * f64::EPSILON;
+
+/// What the disk does until the next event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stage {
+    /// It flies, from this far above the platform and with this velocity relative to it.
+    Flight {
+        gap: f64,
+        velocity: f64,
+    },
+    /// It leaves a contact that has held since `since` and ends by a force that falls to zero.
+    Separated {
+        since: f64,
+    },
+    /// It chatters from this launch speed to the rest.
+    Chatter {
+        speed: f64,
+        chatter: ChatterDuration,
+    },
+    /// A cut puts it on the platform.
+    Cut {
+        speed: f64,
+        error: f64,
+    },
+    /// It lies on the platform.
+    Contact(Contact),
+    Ended,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Contact {
+    slip: Option<SlipDirection>,
+    since: f64,
+    /// How long it still lasts, when it ends, and the jump of the platform's velocity there.
+    end: Option<(f64, f64, f64)>,
+}
+
+/// The instant of an event, for the drive and for the record.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Clock {
+    /// Time of the drive: in [0, 2 pi) unless it is a ramp.
+    at: f64,
+    periods: u64,
+}
+
+/// The motion of a disk on a driven platform, as a lazy sequence of [`DrivenRecord`]s.
+///
+/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a platform
+/// that moves may stick and slide for ever.
+#[derive(Debug, Clone)]
+pub struct DrivenEngine {
+    system: DrivenSystem,
+    policy: ChatterPolicy,
+    short_flights: u32,
+    stage: Stage,
+    now: Clock,
+    state: DiskState,
+    angle: LongSum,
+    /// Without it the ledgers of slides stay empty: a motor does not need them.
+    pub(crate) with_energy: bool,
+}
+
+impl DrivenEngine {
+    /// An engine for a disk that starts in contact, by a launch or in the air. Where the platform falls away, a disk
+    /// that starts in contact flies at once; the angular speed of a disk in contact counts as the platform's within
+    /// rounding. The angle starts at the platform's.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] or an error of the core for an illegal start.
+    pub fn new(system: DrivenSystem, start: DrivenStart, policy: ChatterPolicy) -> Result<Self, Error> {
+        let (phase, gap, relative_velocity, speed) = match start {
+            DrivenStart::Contact { phase, angular_speed } => (phase, None, 0.0, angular_speed),
+            DrivenStart::Launch { phase, relative_speed, angular_speed } => {
+                (phase, Some(0.0), relative_speed, angular_speed)
+            }
+            DrivenStart::Flight { phase, gap, relative_velocity, angular_speed } => {
+                (phase, Some(gap), relative_velocity, angular_speed)
+            }
+        };
+        let now = Clock { at: phase.angle(), periods: 0 };
+        let mut engine = Self::begin(system, now, policy);
+        engine.state.angular_speed = moderate("angular_speed", speed)?;
+        match gap {
+            None => engine.put_down(None),
+            Some(gap) => {
+                // The core checks the numbers of its flights.
+                engine.system.height().first_impact_within(now.at, gap, relative_velocity, 0.0)?;
+                engine.take_off(gap, relative_velocity);
+            }
+        }
+        Ok(engine)
+    }
+
+    /// An engine that goes on with a motion: the disk in `state`, as [`Self::state_after`] gives it. In contact its
+    /// height and axial velocity are those of the platform, whatever `state` has. How many short flights a cut has
+    /// counted, and a chatter that is being summed, are not in a state.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a height below the platform by more than rounding, and for numbers that are not
+    /// finite.
+    pub fn of_state(
+        system: DrivenSystem,
+        time: PhaseTime,
+        state: DiskState,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let mut engine = Self::begin(system, Clock { at: time.phase.angle(), periods: time.periods }, policy);
+        engine.resume(state)?;
+        Ok(engine)
+    }
+
+    /// As [`Self::of_state`], at a time of the drive, with the velocity that the platform has had before.
+    pub(super) fn joined(
+        system: DrivenSystem,
+        at: f64,
+        state: DiskState,
+        policy: ChatterPolicy,
+        short_flights: u32,
+    ) -> Result<Self, Error> {
+        let mut engine = Self::begin(system, Clock { at, periods: 0 }, policy);
+        engine.short_flights = short_flights;
+        let jump = engine.state.axial_velocity - state.axial_velocity;
+        let size = engine.state.axial_velocity.abs() + state.axial_velocity.abs();
+        let height = engine.state.height;
+        engine.resume(state)?;
+        if state.mode != Mode::Flight && jump.abs() > 1.0e-12 * size {
+            // It lies there until its next event, a kick or a separation at once.
+            let slip = SlipDirection::of(engine.state.angular_speed - engine.system.angle.at(at).velocity);
+            engine.state = DiskState {
+                mode: mode_of(slip),
+                height,
+                axial_velocity: state.axial_velocity,
+                ..engine.state
+            };
+            engine.stage = Stage::Contact(Contact { slip, since: at, end: Some((0.0, at, jump)) });
+        }
+        Ok(engine)
+    }
+
+    fn begin(system: DrivenSystem, now: Clock, policy: ChatterPolicy) -> Self {
+        let (s, beta) = (system.height.at(now.at), system.angle.at(now.at));
+        let state = DiskState {
+            mode: Mode::Flight,
+            height: s.height,
+            axial_velocity: s.velocity,
+            angle: beta.height,
+            angular_speed: beta.velocity,
+        };
+        Self {
+            angle: LongSum::new(state.angle),
+            system,
+            policy,
+            short_flights: 0,
+            stage: Stage::Ended,
+            now,
+            state,
+            with_energy: true,
+        }
+    }
+
+    fn resume(&mut self, state: DiskState) -> Result<(), Error> {
+        for (field, value) in [
+            ("height", state.height),
+            ("axial_velocity", state.axial_velocity),
+            ("angle", state.angle),
+            ("angular_speed", state.angular_speed),
+        ] {
+            moderate(field, value)?;
+        }
+        let platform = self.state;
+        self.state.angular_speed = state.angular_speed;
+        self.state.angle = state.angle;
+        self.angle = LongSum::new(state.angle);
+        if state.mode == Mode::Flight {
+            let gap = state.height - platform.height;
+            let rounding = 1.0e-12 * (state.height.abs() + platform.height.abs());
+            crate::error::check(gap >= -rounding, "height above the platform", gap, "[0, inf) (g/omega^2)")?;
+            let velocity = state.axial_velocity - platform.axial_velocity;
+            let parted = gap > rounding
+                || velocity.abs()
+                    > 4.0 * f64::EPSILON * (state.axial_velocity.abs() + platform.axial_velocity.abs());
+            let (gap, velocity) = if parted { (gap.max(0.0), velocity) } else { (0.0, 0.0) };
+            self.take_off(gap, velocity);
+        } else {
+            self.put_down(Some(state.mode));
+        }
+        Ok(())
+    }
+
+    /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has had.
+    fn put_down(&mut self, mode: Option<Mode>) {
+        let at = self.now.at;
+        let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
+        if s.acceleration < -1.0 {
+            self.take_off(0.0, 0.0);
+            return;
+        }
+        let speed = self.state.angular_speed;
+        let pull = self.system.load.abs()
+            + beta.acceleration.abs()
+            + self.system.friction * (1.0 + s.acceleration.abs());
+        let rounding = 4.0 * SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed + at * pull);
+        let moves_along = (speed - beta.velocity).abs() <= rounding;
+        if moves_along {
+            self.state.angular_speed = beta.velocity;
+        }
+        self.land();
+        if let (true, Some(Mode::Sliding(direction)), Stage::Contact(contact)) =
+            (moves_along, mode, &mut self.stage)
+        {
+            contact.slip = Some(direction);
+            self.state.mode = Mode::Sliding(direction);
+        }
+    }
+
+    fn take_off(&mut self, gap: f64, velocity: f64) {
+        self.state.mode = Mode::Flight;
+        self.state.height += gap;
+        self.state.axial_velocity += velocity;
+        self.stage = Stage::Flight { gap, velocity };
+    }
+
+    /// A disk that has come to rest on the platform, at its angular speed.
+    fn land(&mut self) {
+        let at = self.now.at;
+        let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(at).velocity)
+            .or_else(|| self.system.onset(at, None));
+        self.state.mode = mode_of(slip);
+        self.stage = Stage::Contact(Contact { slip, since: at, end: None });
+        // A contact without end, and one whose end cannot be found, is searched again at its event.
+        if let (Ok(Some(end)), Stage::Contact(contact)) =
+            (self.system.height().contact_end(at, f64::INFINITY), &mut self.stage)
+        {
+            contact.end = Some((end.duration, end.time, end.velocity_jump));
+        }
+    }
+
+    /// The system.
+    #[must_use]
+    pub const fn system(&self) -> &DrivenSystem {
+        &self.system
+    }
+
+    /// The instant of the last event, or of the start.
+    #[must_use]
+    pub fn time(&self) -> PhaseTime {
+        self.record_time(self.now)
+    }
+
+    /// The disk's state just after the last event, or at the start.
+    #[must_use]
+    pub const fn state(&self) -> &DiskState {
+        &self.state
+    }
+
+    /// The short flights that a cut has counted.
+    pub(super) const fn short_flights(&self) -> u32 {
+        self.short_flights
+    }
+
+    /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is being
+    /// summed counts as rest.
+    #[must_use]
+    pub fn state_after(&self, span: f64) -> (PhaseTime, DiskState) {
+        let to = self.later(span);
+        let change = self.change(span, to.at);
+        let mut state = self.drifted(span, to.at, change);
+        state.angle = self.state.angle + change.angle;
+        (self.record_time(to), state)
+    }
+
+    /// The energy balance from the last event to `span` radians later, if no event comes before.
+    #[must_use]
+    pub fn ledger_after(&self, span: f64) -> EnergyLedger {
+        let at = self.later(span).at;
+        self.ledger_of(span, at, self.change(span, at))
+    }
+
+    /// The next event, or `None` after the last one.
+    ///
+    /// # Errors
+    /// Those of the core's flights; [`Error::SlipTooLong`]. An error ends the motion.
+    pub fn advance(&mut self) -> Result<Option<DrivenRecord>, Error> {
+        self.advance_within(f64::INFINITY)
+    }
+
+    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where it is.
+    pub(super) fn advance_within(&mut self, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+        let result = match self.stage {
+            Stage::Flight { gap, velocity } => self.fly(gap, velocity, limit),
+            Stage::Separated { since } => self.fly_from_contact(since, limit),
+            Stage::Chatter { speed, chatter } if chatter.duration <= limit => {
+                Ok(Some(self.complete(speed, chatter)))
+            }
+            // What cannot be completed in time is followed impact by impact.
+            Stage::Chatter { speed, .. } => self.fly(0.0, speed, limit),
+            Stage::Cut { speed, error } => Ok(Some(self.cut(speed, error))),
+            Stage::Contact(contact) => self.touch(contact, limit),
+            Stage::Ended => Ok(None),
+        };
+        if result.is_err() {
+            self.stage = Stage::Ended;
+        }
+        result
+    }
+
+    /// Gives a flight that starts now another relative speed >= 0 (g/omega); does nothing at any other time.
+    pub(super) fn perturb_launch(&mut self, speed: f64) {
+        if matches!(self.stage, Stage::Separated { .. }) {
+            self.state.axial_velocity += speed;
+            self.stage = Stage::Flight { gap: 0.0, velocity: speed };
+        }
+    }
+
+    fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+        if gap <= 0.0 && velocity < 0.0 {
+            return Ok(Some(self.hit(0.0, self.now, velocity, f64::INFINITY, DrivenEvent::Impact)));
+        }
+        if gap <= 0.0 && velocity == 0.0 && self.system.height.at(self.now.at).acceleration >= -1.0 {
+            // At a joint a disk may fly at zero distance: it lies on the platform.
+            self.put_down(None);
+            return self.advance_within(limit);
+        }
+        let found = self.system.height().first_impact_within(self.now.at, gap, velocity, limit)?;
+        Ok(found.map(|landing| self.land_on(&landing.impact)))
+    }
+
+    /// The flight after a separation: the core knows its launch better than a height and a velocity tell.
+    fn fly_from_contact(&mut self, since: f64, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+        let map = DrivenMap::new(self.system.height().clone(), self.system.restitution)?;
+        let mut orbit = map.of_contact(since, self.policy);
+        orbit.advance()?;
+        let event = match orbit.advance() {
+            Ok(event) => event,
+            // A ramp ends before the impact.
+            Err(CoreError::NoLiftOff { .. } | CoreError::FlightTooLong { .. }) if self.system.is_ramp() => {
+                None
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let Some(CoreEvent::Impact(landing)) = event else { return Ok(None) };
+        Ok((landing.impact.duration() <= limit).then(|| self.land_on(&landing.impact)))
+    }
+
+    fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> DrivenRecord {
+        let span = impact.duration();
+        let to = if self.system.is_ramp() {
+            self.later(span)
+        } else {
+            Clock { at: impact.phase.angle(), periods: self.now.periods + impact.turns }
+        };
+        self.hit(span, to, impact.velocity, span, DrivenEvent::Impact)
+    }
+
+    /// An impact with relative `velocity` `span` after the last event, or a kick, at the end of a flight of this
+    /// duration.
+    fn hit(
+        &mut self,
+        span: f64,
+        to: Clock,
+        velocity: f64,
+        flight: f64,
+        event: fn(Hit) -> DrivenEvent,
+    ) -> DrivenRecord {
+        let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
+        let change = self.change(span, to.at);
+        let mut ledger = EnergyLedger::default();
+        let before = match self.state.mode {
+            Mode::Flight => {
+                let before = DiskState {
+                    mode: Mode::Flight,
+                    height: s.height,
+                    axial_velocity: velocity + s.velocity,
+                    angle: 0.0,
+                    angular_speed: change.speed,
+                };
+                self.record_flight(&mut ledger, &before, &change);
+                before
+            }
+            _ => {
+                ledger = self.ledger_of(span, to.at, change);
+                self.drifted(span, to.at, change)
+            }
+        };
+        let slip = change.speed - beta.velocity;
+        let restitution = self.system.restitution;
+        let mut axial = axial_impulse(restitution, velocity);
+        let rotary = friction_impact(self.system.friction, axial, slip);
+        let rebound = rebound_velocity(restitution, velocity);
+        let stage = self.stage_after(to.at, velocity, flight);
+        // Where the platform falls away, a cut takes the rebound and lets the disk go at once.
+        let cut = rebound > 0.0 && stage == Stage::Flight { gap: 0.0, velocity: 0.0 };
+        record_impact(
+            &mut ledger,
+            ImpactEnergy {
+                axial,
+                relative_velocity: velocity,
+                restitution,
+                platform_velocity: s.velocity,
+                rotary: rotary.impulse,
+                slip,
+                platform_speed: beta.velocity,
+            },
+        );
+        if cut {
+            axial -= rebound;
+            ledger.record_normal(-rebound * s.velocity, 0.5 * rebound * rebound);
+        }
+        let after = DiskState {
+            mode: Mode::Flight,
+            axial_velocity: if cut { 0.0 } else { rebound } + s.velocity,
+            angular_speed: rotary.speed_after(change.speed, beta.velocity),
+            ..before
+        };
+        record_jump(&mut ledger, &before, &after);
+        let hit =
+            Hit { axial_impact_velocity: velocity, tangential_impact_velocity: slip, capped: rotary.capped };
+        let record = self.moved(span, to, event(hit), change.angle, (before, after), ledger);
+        self.stage = stage;
+        DrivenRecord { axial_impulse: axial, angular_impulse: rotary.impulse, ..record }
+    }
+
+    /// What follows an impact with relative `velocity` that ends a flight of this duration: as the core decides it.
+    fn stage_after(&mut self, at: f64, velocity: f64, flight: f64) -> Stage {
+        let speed = -self.system.restitution * velocity;
+        let launch = Stage::Flight { gap: 0.0, velocity: speed };
+        let pulls = self.system.height.at(at).acceleration >= -1.0;
+        let rest = Stage::Cut { speed, error: if speed > 0.0 { f64::INFINITY } else { 0.0 } };
+        match self.policy {
+            ChatterPolicy::Cut(cut) => {
+                self.short_flights =
+                    if flight < cut.short_flight() * TAU { self.short_flights + 1 } else { 0 };
+                let slow = -velocity < cut.smallest_speed() * PI;
+                let attaches = slow || self.short_flights >= cut.short_flights();
+                if attaches {
+                    self.short_flights = 0;
+                }
+                match attaches || speed == 0.0 {
+                    false => launch,
+                    true if pulls => rest,
+                    true => Stage::Flight { gap: 0.0, velocity: 0.0 },
+                }
+            }
+            _ => {
+                let chatter = self.system.height().chatter_duration(at, speed, self.system.restitution);
+                match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
+                    Some(chatter) => Stage::Chatter { speed, chatter },
+                    None if speed <= SMALLEST_SPEED && pulls => rest,
+                    None => launch,
+                }
+            }
+        }
+    }
+
+    /// The rest of a chatter.
+    fn complete(&mut self, launch: f64, chatter: ChatterDuration) -> DrivenRecord {
+        let ChatterDuration { duration, error } = chatter;
+        let to = self.later(duration);
+        let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
+        let rest = self.system.chatter(self.now.at, launch, self.state.angular_speed, duration);
+        let mut ledger = rest.ledger;
+        let before = DiskState {
+            mode: Mode::Flight,
+            height: s.height,
+            axial_velocity: s.velocity,
+            angle: 0.0,
+            angular_speed: rest.speed,
+        };
+        let after =
+            DiskState { angular_speed: if rest.capped { beta.velocity } else { rest.speed }, ..before };
+        let start = self.state;
+        ledger.record_axial_change([start.axial_velocity, s.velocity], [start.height, s.height]);
+        ledger.record_rounding(self.system.height().bounds().speed, s.velocity);
+        let event = DrivenEvent::Attachment { impacts: rest.impacts, error_bound: error };
+        let mut record = self.moved(duration, to, event, rest.angle, (before, after), ledger);
+        self.land();
+        record.after.mode = self.state.mode;
+        DrivenRecord { axial_impulse: rest.axial_impulse, angular_impulse: rest.angular_impulse, ..record }
+    }
+
+    /// A cut takes the rebound `speed` away.
+    fn cut(&mut self, speed: f64, error: f64) -> DrivenRecord {
+        let platform = self.system.height.at(self.now.at).velocity;
+        let before = self.state;
+        let after = DiskState { axial_velocity: platform, ..before };
+        let mut ledger = EnergyLedger::default();
+        ledger.record_normal(-speed * platform, 0.5 * speed * speed);
+        record_jump(&mut ledger, &before, &after);
+        let event = DrivenEvent::Attachment { impacts: 0, error_bound: error };
+        let mut record = self.moved(0.0, self.now, event, 0.0, (before, after), ledger);
+        self.land();
+        record.after.mode = self.state.mode;
+        DrivenRecord { axial_impulse: -speed, ..record }
+    }
+
+    /// A disk on the platform, to the next event.
+    fn touch(&mut self, contact: Contact, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+        let at = self.now.at;
+        if contact.end.is_none() {
+            // An error of the search for it.
+            self.system.height().contact_end(at, f64::INFINITY)?;
+        }
+        let ends = contact.end.map_or(f64::INFINITY, |(after, ..)| after);
+        let kink = self.system.angle.next_kink(at).filter(|kink| kink.after < ends);
+        let to = limit.min(ends).min(kink.map_or(f64::INFINITY, |kink| kink.after));
+        let slip = |direction: SlipDirection| {
+            (direction.sign() * (self.state.angular_speed - self.system.angle.at(at).velocity)).max(0.0)
+        };
+        let change = match contact.slip {
+            Some(direction) => {
+                self.system.slip_end(direction, at, slip(direction), to)?.map(|span| (span, direction))
+            }
+            None => self.system.stick_end(at, to)?,
+        };
+        // Where nothing pulls at the disk, friction gives way as the contact ends.
+        let change = change.filter(|(span, _)| span + JOINT * (at + span + 1.0) < ends);
+        if let Some((span, direction)) = change {
+            return Ok(Some(match contact.slip {
+                Some(_) => self.end_slip(contact, direction, span),
+                None => {
+                    let to = self.later(span);
+                    self.change_contact(
+                        contact,
+                        span,
+                        to,
+                        DrivenEvent::StickToSlip(direction),
+                        Some(direction),
+                    )
+                }
+            }));
+        }
+        if to == f64::INFINITY || limit < ends.min(kink.map_or(f64::INFINITY, |kink| kink.after)) {
+            return Ok(None);
+        }
+        if let Some(kink) = kink {
+            let jump = contact.slip.map_or(0.0, |d| d.sign() * self.slip_speed_at(kink.after, kink.time))
+                - kink.jump;
+            let next = SlipDirection::of(jump);
+            let event = match (contact.slip, next) {
+                (_, None) => DrivenEvent::SlipToStick,
+                (None, Some(direction)) => DrivenEvent::StickToSlip(direction),
+                (Some(before), Some(direction)) if before == direction => DrivenEvent::SlipJump(direction),
+                (_, Some(direction)) => DrivenEvent::SlipReversal(direction),
+            };
+            let to = self.clock_at(kink.after, kink.time);
+            return Ok(Some(self.change_contact(contact, kink.after, to, event, next)));
+        }
+        let Some((span, time, jump)) = contact.end else { return Ok(None) };
+        let to = self.clock_at(span, time);
+        if jump > 0.0 {
+            return Ok(Some(self.hit(span, to, -jump, f64::INFINITY, DrivenEvent::Kick)));
+        }
+        let change = self.change(span, to.at);
+        let ledger = self.ledger_of(span, to.at, change);
+        let before = self.drifted(span, to.at, change);
+        let after = DiskState { mode: Mode::Flight, ..before };
+        let record = self.moved(span, to, DrivenEvent::Separation, change.angle, (before, after), ledger);
+        self.stage = if jump < 0.0 {
+            Stage::Flight { gap: 0.0, velocity: -jump }
+        } else {
+            Stage::Separated { since: contact.since }
+        };
+        Ok(Some(record))
+    }
+
+    /// Slip speed (disk minus platform, in the direction of the slip) just before the platform's speed jumps.
+    fn slip_speed_at(&self, span: f64, time: f64) -> f64 {
+        let change = self.change(span, time);
+        let Mode::Sliding(direction) = self.state.mode else { return 0.0 };
+        (direction.sign() * (change.speed - self.system.angle.velocity_before(time))).max(0.0)
+    }
+
+    fn end_slip(&mut self, contact: Contact, direction: SlipDirection, span: f64) -> DrivenRecord {
+        let to = self.later(span);
+        let next = self.system.onset(to.at, Some(direction));
+        let event = next.map_or(DrivenEvent::SlipToStick, DrivenEvent::SlipReversal);
+        self.change_contact(contact, span, to, event, next)
+    }
+
+    /// A change between sticking and sliding.
+    fn change_contact(
+        &mut self,
+        contact: Contact,
+        span: f64,
+        to: Clock,
+        event: DrivenEvent,
+        slip: Option<SlipDirection>,
+    ) -> DrivenRecord {
+        let change = self.change(span, to.at);
+        let mut ledger = self.ledger_of(span, to.at, change);
+        let mut before = self.drifted(span, to.at, change);
+        let platform_speed = self.system.angle.at(to.at).velocity;
+        let settles = matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_))
+            && self.system.angle.velocity_before(to.at).to_bits() == platform_speed.to_bits();
+        if settles && self.system.friction > 0.0 {
+            // What rounding has left of the slip.
+            let slip = change.speed - platform_speed;
+            let (work, loss) = (-slip * platform_speed, 0.5 * slip * slip);
+            ledger.record_friction(work, loss, work.abs() + loss);
+            ledger.record_rotary_change(change.speed, platform_speed);
+            before.angular_speed = platform_speed;
+        }
+        let after = DiskState { mode: mode_of(slip), ..before };
+        let record = self.moved(span, to, event, change.angle, (before, after), ledger);
+        let end = contact.end.map(|(after, time, jump)| ((after - span).max(0.0), time, jump));
+        self.stage = Stage::Contact(Contact { slip, end, ..contact });
+        record
+    }
+
+    /// The rotary motion over the next `span`, to the time `at` of the drive.
+    fn change(&self, span: f64, at: f64) -> RotaryChange {
+        match self.state.mode {
+            Mode::Flight => change_in_flight(self.system.load, self.state.angular_speed, span),
+            Mode::Sticking => RotaryChange {
+                speed: self.system.angle.velocity_before(at),
+                angle: self.system.angle.at(at).height - self.system.angle.at(self.now.at).height,
+            },
+            Mode::Sliding(direction) => {
+                self.system.slide(direction, self.state.angular_speed, self.now.at, span)
+            }
+        }
+    }
+
+    /// The disk then, without its angle.
+    fn drifted(&self, span: f64, at: f64, change: RotaryChange) -> DiskState {
+        let state = &self.state;
+        let (height, axial_velocity) = match (state.mode, self.stage) {
+            (Mode::Flight, Stage::Chatter { chatter, .. }) if span >= chatter.duration => {
+                (self.system.height.at(at).height, self.system.height.at(at).velocity)
+            }
+            (Mode::Flight, _) => {
+                (state.height + span * (state.axial_velocity - 0.5 * span), state.axial_velocity - span)
+            }
+            _ if span > 0.0 => (self.system.height.at(at).height, self.system.height.velocity_before(at)),
+            _ => (state.height, state.axial_velocity),
+        };
+        DiskState { mode: state.mode, height, axial_velocity, angle: 0.0, angular_speed: change.speed }
+    }
+
+    fn record_flight(&self, ledger: &mut EnergyLedger, end: &DiskState, change: &RotaryChange) {
+        let start = &self.state;
+        ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+        let work = self.system.load * change.angle;
+        ledger.record_rotary_change(start.angular_speed, change.speed);
+        ledger.record_load(work, work.abs());
+    }
+
+    /// The energy balance of the next `span` without an event.
+    fn ledger_of(&self, span: f64, at: f64, change: RotaryChange) -> EnergyLedger {
+        let mut ledger = EnergyLedger::default();
+        let (start, end) = (self.state, self.drifted(span, at, change));
+        self.record_flight(&mut ledger, &end, &change);
+        if start.mode == Mode::Flight {
+            return ledger;
+        }
+        // The integral of (1 + s'') s'.
+        let (from, to) = (start.axial_velocity, end.axial_velocity);
+        ledger.record_normal((end.height - start.height) + 0.5 * (to - from) * (to + from), 0.0);
+        if let Mode::Sliding(direction) = start.mode {
+            if self.with_energy {
+                let slip = start.angular_speed - self.system.angle.at(self.now.at).velocity;
+                let work =
+                    self.system.slide_work(direction, self.now.at, (direction.sign() * slip).max(0.0), span);
+                let mu = self.system.friction;
+                ledger.record_friction(
+                    -direction.sign() * mu * work.carried,
+                    mu * work.slipped,
+                    mu * work.size,
+                );
+                // The angle is a small difference of what friction and load would give alone.
+                let size = span * (start.angular_speed.abs() + (self.system.load.abs() + mu) * span);
+                ledger.record_load(0.0, self.system.load.abs() * size);
+            }
+        } else {
+            // The friction torque is l + beta'': integrated times beta'.
+            let (from, to) = (start.angular_speed, change.speed);
+            let work = self.system.load * change.angle + 0.5 * (to - from) * (to + from);
+            ledger.record_friction(work, 0.0, 0.5 * (to * to + from * from));
+        }
+        ledger
+    }
+
+    /// The record of an event, after which the engine is there.
+    fn moved(
+        &mut self,
+        span: f64,
+        to: Clock,
+        event: DrivenEvent,
+        turned: f64,
+        (mut before, mut after): (DiskState, DiskState),
+        ledger: EnergyLedger,
+    ) -> DrivenRecord {
+        self.angle.add(turned);
+        before.angle = self.angle.value();
+        after.angle = before.angle;
+        self.now = to;
+        self.state = after;
+        let (time, span) = (self.record_time(to), PhaseSpan::from_radians(span));
+        DrivenRecord { time, span, event, before, after, axial_impulse: 0.0, angular_impulse: 0.0, ledger }
+    }
+
+    /// The record of a joint `span` after the last event.
+    pub(super) fn pause(&mut self, span: f64) -> DrivenRecord {
+        let to = self.later(span);
+        let change = self.change(span, to.at);
+        let ledger = self.ledger_of(span, to.at, change);
+        let before = self.drifted(span, to.at, change);
+        self.moved(span, to, DrivenEvent::Joint, change.angle, (before, before), ledger)
+    }
+
+    fn later(&self, span: f64) -> Clock {
+        self.clock_at(span, self.system.time_after(self.now.at, span))
+    }
+
+    /// The clock `span` later, where the drive is at `at`.
+    fn clock_at(&self, span: f64, at: f64) -> Clock {
+        let turns = ((self.now.at + span - at) / TAU + 0.5) as u64;
+        let turns = if self.system.is_ramp() { 0 } else { turns };
+        Clock { at, periods: self.now.periods.saturating_add(turns) }
+    }
+
+    fn record_time(&self, clock: Clock) -> PhaseTime {
+        if self.system.is_ramp() {
+            PhaseTime::in_first_period(phase_at(0.0)).after(PhaseSpan::from_radians(clock.at))
+        } else {
+            PhaseTime { periods: clock.periods, phase: phase_at(wrapped_angle(clock.at)) }
+        }
+    }
+}
+
+const fn mode_of(slip: Option<SlipDirection>) -> Mode {
+    match slip {
+        Some(direction) => Mode::Sliding(direction),
+        None => Mode::Sticking,
+    }
+}
+
+/// Records a jump of the velocities at one height.
+fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
+    ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
+    ledger.record_rotary_change(before.angular_speed, after.angular_speed);
+}
+
+impl Iterator for DrivenEngine {
+    type Item = Result<DrivenRecord, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,298 @@
+use proptest::prelude::*;
+
+use super::*;
+use crate::motion::engine::Engine;
+use crate::motion::event::Event;
+use crate::parameters::driven_platform::{Swing, Waveform};
+use crate::testing;
+
+/// What rounding leaves, relative to the sizes of what is compared.
+const ROUNDING: f64 = 1e-12;
+
+/// The event that the sine's engine calls this one.
+fn of_sine(event: &Event) -> DrivenEvent {
+    match *event {
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+            DrivenEvent::Impact(Hit { axial_impact_velocity, tangential_impact_velocity, capped })
+        }
+        Event::Attachment { impacts, error_bound } => DrivenEvent::Attachment { impacts, error_bound },
+        Event::Separation => DrivenEvent::Separation,
+        Event::StickToSlip(direction) => DrivenEvent::StickToSlip(direction),
+        Event::SlipToStick => DrivenEvent::SlipToStick,
+        Event::SlipReversal(direction) => DrivenEvent::SlipReversal(direction),
+    }
+}
+
+/// Compares each event of the sine's engine with that of the Fourier sum from the same state before.
+fn compare(
+    system: crate::parameters::DimensionlessSystem,
+    start: DrivenStart,
+    policy: ChatterPolicy,
+    events: usize,
+) -> Result<[usize; 7], TestCaseError> {
+    let mut counts = [0; 7];
+    let driven = DrivenSystem::try_from(system).expect("legal");
+    let Ok(mut engine) = Engine::new(system, start, policy) else { return Ok(counts) };
+    let size = 1.0 + system.peak_acceleration();
+    let spin = 1.0 + system.twist_speed() + system.friction() * size;
+    let mut own = DrivenEngine::new(driven.clone(), start, policy).expect("legal");
+    for _ in 0..events {
+        let Ok(Some(record)) = engine.advance() else { break };
+        // Whether a slip that only touches zero ends there, rounding decides.
+        let ([rate, _], _) = driven.growth(SlipDirection::Forward, record.time.phase.angle());
+        let grazes =
+            matches!(record.event, Event::SlipToStick | Event::SlipReversal(_)) && rate.abs() < 1e-6 * spin;
+        let Some(mut found) = own.advance().expect("no failure") else {
+            prop_assert!(grazes, "{record:?}");
+            break;
+        };
+        let (mut span, mut ledger, mut impulse) = (found.span.radians(), found.ledger, found.angular_impulse);
+        if let Event::Attachment { .. } = record.event {
+            while !matches!(found.event, DrivenEvent::Attachment { .. }) {
+                found = own.advance().expect("no failure").expect("an event");
+                span += found.span.radians();
+                ledger += found.ledger;
+                impulse += found.angular_impulse;
+            }
+        }
+        prop_assert!(ledger.relative_closure() < ROUNDING, "{:e} {found:?}", ledger.relative_closure());
+        let kind = std::mem::discriminant(&found.event);
+        if grazes && kind != std::mem::discriminant(&of_sine(&record.event)) {
+            break;
+        }
+        prop_assert!(kind == std::mem::discriminant(&of_sine(&record.event)), "{found:?}\n{record:?}");
+        let index = match found.event {
+            DrivenEvent::Impact(_) => 0,
+            DrivenEvent::Attachment { .. } => 1,
+            DrivenEvent::Separation => 2,
+            DrivenEvent::StickToSlip(_) => 3,
+            DrivenEvent::SlipToStick => 4,
+            DrivenEvent::SlipReversal(_) => 5,
+            _ => 6,
+        };
+        counts[index] += 1;
+        let near = |one: f64, other: f64, size: f64| {
+            (one - other).abs() <= ROUNDING * (size + one.abs() + other.abs())
+        };
+        // A root of a slow fall is as uncertain as its slope is small.
+        prop_assert!(near(span, record.span.radians(), 1.0), "{span} {record:?}\n{found:?}");
+        for (one, other) in [(found.before, record.before), (found.after, record.after)] {
+            prop_assert!(near(one.height, other.height, size * (1.0 + span)), "{one:?} {other:?}");
+            prop_assert!(
+                near(one.axial_velocity, other.axial_velocity, size * (1.0 + span)),
+                "{one:?} {other:?}"
+            );
+            prop_assert!(
+                near(one.angular_speed, other.angular_speed, spin * (1.0 + span)),
+                "{one:?} {other:?} {record:?}"
+            );
+            prop_assert!(
+                near(one.angle, other.angle, spin * (1.0 + span) * (1.0 + span)),
+                "{one:?} {other:?}"
+            );
+            // Whether the last impact of a chatter ends a slip of one rounding, rounding decides.
+            let slip = other.angular_speed - system.platform_angular_speed(record.time.phase);
+            let hidden = matches!(record.event, Event::Attachment { .. }) && near(slip, 0.0, spin);
+            prop_assert!(one.mode == other.mode || hidden, "{one:?} {other:?} {record:?}");
+        }
+        prop_assert!(near(impulse, record.angular_impulse, spin * (1.0 + span)), "{impulse} {record:?}");
+        let magnitude = (spin * spin + record.ledger.rotary_magnitude) * (1.0 + span);
+        prop_assert!(
+            near(ledger.friction_loss, record.ledger.friction_loss, magnitude),
+            "{found:?} {record:?}"
+        );
+        // The next event from the same state: a launch by its own speed, which a velocity would round.
+        let speed = match record.event {
+            Event::Impact { axial_impact_velocity, .. } => -system.restitution() * axial_impact_velocity,
+            _ => 0.0,
+        };
+        match record.event {
+            Event::Impact { .. } => {
+                own.now = Clock { at: record.time.phase.angle(), periods: record.time.periods };
+                (own.state, own.angle) = (record.after, LongSum::new(record.after.angle));
+                own.stage = match own.stage {
+                    Stage::Cut { error, .. } => Stage::Cut { speed, error },
+                    Stage::Flight { velocity, .. } if velocity > 0.0 => {
+                        Stage::Flight { gap: 0.0, velocity: speed }
+                    }
+                    Stage::Chatter { .. } if speed > 0.0 => Stage::Flight { gap: 0.0, velocity: speed },
+                    other => other,
+                };
+            }
+            Event::Separation => {}
+            _ => {
+                own =
+                    DrivenEngine::of_state(driven.clone(), record.time, record.after, policy).expect("legal");
+            }
+        }
+    }
+    Ok(counts)
+}
+
+proptest! {
+    #[test]
+    fn a_sine_as_a_fourier_sum_has_the_events_of_the_engine((system, start, policy) in testing::motion()) {
+        compare(system, start, policy, 40)?;
+    }
+
+    /// On platforms of all kinds: each ledger closes, its changes are those of the states, and a motion that is
+    /// resumed between two events has the same next one.
+    #[test]
+    fn energy_is_balanced_on_every_platform(
+        system in systems(), phase in testing::phase(), speed in 0.0..3.0_f64, spin in -2.0..2.0_f64,
+        policy in testing::policy(), share in 0.01..0.99_f64,
+    ) {
+        let start = DrivenStart::Launch { phase, relative_speed: 0.01 + speed, angular_speed: spin };
+        let mut engine = DrivenEngine::new(system.clone(), start, policy).expect("legal");
+        for _ in 0..60 {
+            let (before, mut twin) = (engine.clone(), engine.clone());
+            let Some(record) = engine.advance().expect("no failure") else { break };
+            let (start, ledger) = (before.state, record.ledger);
+            prop_assert!(ledger.relative_closure() < ROUNDING, "{:e} {record:?}", ledger.relative_closure());
+            let gained = |from: f64, to: f64| 0.5 * (to - from) * (to + from);
+            for (entry, change, size) in [
+                (ledger.axial_kinetic_change, gained(start.axial_velocity, record.after.axial_velocity), ledger.axial_magnitude),
+                (ledger.potential_change, record.after.height - start.height, ledger.axial_magnitude),
+                (ledger.rotary_kinetic_change, gained(start.angular_speed, record.after.angular_speed), ledger.rotary_magnitude),
+            ] {
+                prop_assert!((entry - change).abs() <= ROUNDING * (1.0 + size), "{entry} {change} {record:?}");
+            }
+            let span = share * record.span.radians();
+            let rest = twin.ledger_after(span);
+            prop_assert!(rest.relative_closure() < ROUNDING, "{:e} {span} {before:?}", rest.relative_closure());
+            if span > 1e-3 && !matches!(before.stage, Stage::Chatter { .. }) {
+                let (time, state) = twin.state_after(span);
+                twin = DrivenEngine::of_state(system.clone(), time, state, policy).expect("legal");
+                let next = twin.advance().expect("no failure").expect("an event");
+                let ends = |event| matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_));
+                let same = std::mem::discriminant(&next.event) == std::mem::discriminant(&record.event);
+                // A slip may end where the angular acceleration jumps: whether before or after, rounding decides.
+                prop_assert!(same || ends(next.event) && ends(record.event), "{next:?}\n{record:?}");
+                let error = (span + next.span.radians() - record.span.radians()).abs();
+                // A slow impact is as uncertain as the height over its speed.
+                let speed = match record.event {
+                    DrivenEvent::Impact(hit) => hit.axial_impact_velocity.abs(),
+                    _ => 1.0,
+                };
+                let bound = 1e-11 + 1e-14 * ledger.axial_magnitude / speed;
+                prop_assert!(error < bound, "{error:e} {next:?}\n{record:?}");
+            }
+        }
+    }
+}
+
+fn waveforms() -> impl Strategy<Value = Waveform> {
+    let swing = || (0.0..4.0_f64, 0.0..6.0_f64).prop_map(|(amplitude, phase)| Swing { amplitude, phase });
+    prop_oneof![
+        swing().prop_map(Waveform::Sine),
+        swing().prop_map(Waveform::Triangle),
+        (0.05..0.95_f64, swing()).prop_map(|(rise, swing)| Waveform::Sawtooth(rise, swing)),
+        swing().prop_map(Waveform::Parabolas),
+        proptest::collection::vec((-0.5..0.5_f64, 0.0..6.0_f64), 0..5).prop_map(Waveform::Fourier),
+        proptest::collection::vec(-1.0..1.0_f64, 3..12).prop_map(Waveform::Sampled),
+    ]
+}
+
+fn systems() -> impl Strategy<Value = DrivenSystem> {
+    let friction = prop_oneof![1 => Just(0.0), 5 => 0.01..1.5_f64];
+    let restitution = prop_oneof![1 => Just(0.0), 5 => 0.0..0.95_f64, 1 => Just(1.0 - 1e-9)];
+    let load = prop_oneof![1 => Just(0.0), 2 => -0.5..0.5_f64];
+    (waveforms(), waveforms(), friction, restitution, load).prop_map(
+        |(height, angle, friction, restitution, load)| DrivenSystem {
+            height: height.track("height", 1.0, 1.0, 0.0).expect("legal"),
+            angle: angle.track("angle", 1.0, 1.0, 0.0).expect("legal"),
+            friction,
+            restitution,
+            load,
+        },
+    )
+}
+
+/// Each kind of event occurs in the comparison: chatters, kicks of nothing else.
+#[test]
+fn the_comparison_meets_every_event() {
+    let mut counts = [0; 7];
+    for k in 0..40_u64 {
+        let spread = |j: u64| testing::golden_spread(7 * k + j);
+        let system = crate::parameters::DimensionlessParameters {
+            peak_acceleration: 1.05 + spread(0),
+            twist_speed: 2.0 * spread(1),
+            phase_lag: 6.0 * spread(2),
+            friction: 0.1 + spread(3),
+            restitution: 0.5 * spread(4),
+            load: 0.2 * spread(5),
+        };
+        let phase = bouncing_disk_core::Phase::new(6.0 * spread(6)).expect("finite");
+        let start = DrivenStart::Contact { phase, angular_speed: 0.3 };
+        let found = compare(system.build().expect("legal"), start, ChatterPolicy::Complete, 200);
+        let found = found.unwrap_or_else(|error| panic!("{k}: {error}"));
+        counts.iter_mut().zip(found).for_each(|(sum, count)| *sum += count);
+    }
+    assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
+}
+
+/// A disk on a triangle of speed u and angular speed b, by hand: it is left behind at the crest and is back after 4 u
+/// with -2 u; at the trough it is hit with 2 u; where the angular speed drops by 2 b it slides for 2 b/mu and loses
+/// 2 b^2.
+#[test]
+fn kinks_leave_hit_and_turn_as_derived_by_hand() {
+    let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
+    let track =
+        |speed: f64| Waveform::triangle(speed * quarter, 0.0).track("height", 1.0, 1.0, 0.0).expect("legal");
+    let system =
+        DrivenSystem { height: track(u), angle: track(b), friction: 0.5, restitution: 0.4, load: 0.0 };
+    let still = DrivenSystem { height: track(0.0), ..system.clone() };
+    let near = |one: f64, other: f64| (one - other).abs() < 1e-14;
+    let start = |phase: f64, angular_speed| DrivenStart::Contact {
+        phase: bouncing_disk_core::Phase::new(phase).expect("finite"),
+        angular_speed,
+    };
+    let mut engine =
+        DrivenEngine::new(system.clone(), start(0.0, b), ChatterPolicy::Complete).expect("legal");
+    let parted = engine.advance().expect("no failure").expect("an event");
+    assert!(parted.event == DrivenEvent::Separation && near(parted.span.radians(), quarter), "{parted:?}");
+    let landed = engine.advance().expect("no failure").expect("an event");
+    let DrivenEvent::Impact(hit) = landed.event else { panic!("{landed:?}") };
+    assert!(near(landed.span.radians(), 4.0 * u) && near(hit.axial_impact_velocity, -2.0 * u), "{landed:?}");
+
+    let mut engine =
+        DrivenEngine::new(system, start(2.0 * quarter, -b), ChatterPolicy::Complete).expect("legal");
+    let kicked = engine.advance().expect("no failure").expect("an event");
+    let DrivenEvent::Kick(hit) = kicked.event else { panic!("{kicked:?}") };
+    assert!(near(hit.axial_impact_velocity, -2.0 * u) && near(hit.tangential_impact_velocity, -2.0 * b));
+    assert!(near(kicked.axial_impulse, 2.8 * u) && near(kicked.after.axial_velocity, 1.8 * u), "{kicked:?}");
+    // Friction can give 0.5 x 2.8 u = 0.42 of the 0.4 that ends the slip.
+    assert!(hit.capped && near(kicked.after.angular_speed, b) && kicked.ledger.relative_closure() < ROUNDING);
+
+    let mut engine = DrivenEngine::new(still, start(0.0, b), ChatterPolicy::Complete).expect("legal");
+    let slips = engine.advance().expect("no failure").expect("an event");
+    assert!(slips.event == DrivenEvent::StickToSlip(SlipDirection::Forward), "{slips:?}");
+    let sticks = engine.advance().expect("no failure").expect("an event");
+    assert!(sticks.event == DrivenEvent::SlipToStick && near(sticks.span.radians(), 4.0 * b), "{sticks:?}");
+    assert!(near(sticks.ledger.friction_loss, 2.0 * b * b), "{sticks:?}");
+}
+
+#[test]
+fn bad_starts_and_states_are_refused_by_name() {
+    let system = DrivenSystem::try_from(*crate::System::pizza_toss().dimensionless()).expect("legal");
+    let phase = bouncing_disk_core::Phase::new(1.0).expect("finite");
+    let policy = ChatterPolicy::Complete;
+    let start = |gap, relative_velocity, angular_speed| {
+        let start = DrivenStart::Flight { phase, gap, relative_velocity, angular_speed };
+        DrivenEngine::new(system.clone(), start, policy).expect_err("refused").to_string()
+    };
+    assert!(start(-1.0, 0.0, 0.0).contains("gap = -1"));
+    assert!(start(1.0, f64::NAN, 0.0).contains("relative_velocity"));
+    assert!(start(1.0, 0.0, f64::INFINITY).contains("angular_speed"));
+    let legal = DrivenStart::Flight { phase, gap: 1.0, relative_velocity: 0.0, angular_speed: 0.0 };
+    let engine = DrivenEngine::new(system.clone(), legal, policy).expect("legal");
+    let (time, state) = engine.state_after(0.1);
+    for (state, words) in [
+        (DiskState { height: -10.0, ..state }, "height above the platform"),
+        (DiskState { height: f64::NAN, ..state }, "height"),
+        (DiskState { angle: f64::INFINITY, ..state }, "angle"),
+    ] {
+        let refused = DrivenEngine::of_state(system.clone(), time, state, policy).expect_err("refused");
+        assert!(refused.to_string().contains(words), "{refused}");
+    }
+}

@@ -1,0 +1,316 @@
+//! Schedules: a platform that changes its motion from time to time, as in a start-up, a burst or a ramp.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::ChatterPolicy;
+
+use super::engine::DrivenEngine;
+use super::track::Track;
+use super::{DrivenRecord, DrivenStart, DrivenSystem};
+use crate::error::{Error, check, finite};
+use crate::motion::phase_time::phase_at;
+use crate::motion::state::Mode;
+use crate::parameters::disk::Disk;
+use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::scales::Scales;
+
+/// A jump of the height at a joint that is smaller than this share of the heights is rounding.
+const JOINT_ROUNDING: f64 = 1.0e-9;
+
+/// A part of a [`Schedule`], by factors of the schedule's platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
+pub struct ScheduleSegment {
+    /// Duration in its own periods, in (0, 1e5].
+    pub periods: f64,
+    /// Height and angle are this many times those of the platform, in [0, 1e6].
+    pub amplitude: f64,
+    /// The same at the end of a ramp, linear in time, in [0, 1e6]; `None` for a constant amplitude.
+    pub ramp_to: Option<f64>,
+    /// The frequency is this many times that of the platform, in (0, 1e6].
+    pub frequency: f64,
+    /// The angle is this much (rad of the fundamental) earlier than the platform's.
+    pub lag: f64,
+}
+
+impl Default for ScheduleSegment {
+    /// One period of the platform's own motion.
+    fn default() -> Self {
+        Self { periods: 1.0, amplitude: 1.0, ramp_to: None, frequency: 1.0, lag: 0.0 }
+    }
+}
+
+/// What comes after the last segment of a [`Schedule`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum AfterSchedule {
+    /// The last segment goes on for ever.
+    #[default]
+    Repeat,
+    /// The platform stays where it is; a disk in the air comes down and settles on it.
+    Rest,
+}
+
+/// Segments of motion, one after the other. The phase of the fundamental goes on from one to the next; the height
+/// must be continuous at each joint, while its velocity may jump (a kink). The angle of each segment is counted from
+/// where the one before has ended: only its speed may jump.
+///
+/// ```
+/// use std::f64::consts::PI;
+///
+/// use bouncing_disk::core::ChatterPolicy;
+/// use bouncing_disk::System;
+/// use bouncing_disk::driven::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine};
+///
+/// // From the lowest point two periods and a quarter with a larger amplitude, then the motion itself: both are at
+/// // height zero where they join.
+/// let first = ScheduleSegment { periods: 2.25, amplitude: 1.5, ..ScheduleSegment::default() };
+/// let schedule = Schedule {
+///     platform: (*System::pizza_toss().platform()).into(),
+///     start_phase: 1.5 * PI,
+///     segments: vec![first, ScheduleSegment::default()],
+///     then: AfterSchedule::Repeat,
+/// };
+/// let motion = ScheduledEngine::at_rest(&schedule, System::pizza_toss().disk(), 0.0, ChatterPolicy::Complete)?;
+/// assert!(motion.take(50).all(|event| event.is_ok_and(|event| event.record.ledger.relative_closure() < 1e-12)));
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct Schedule {
+    /// The platform that the segments change.
+    pub platform: DrivenPlatform,
+    /// Phase of the fundamental at the start (rad), finite.
+    pub start_phase: f64,
+    /// At least one.
+    pub segments: Vec<ScheduleSegment>,
+    /// What comes then.
+    pub then: AfterSchedule,
+}
+
+/// A segment for a disk.
+#[derive(Debug, Clone)]
+struct Part {
+    system: DrivenSystem,
+    /// Time of the drive at its start, and its duration (rad).
+    start: f64,
+    duration: f64,
+    scales: Scales,
+}
+
+impl Part {
+    /// Height of the platform `after` radians (m).
+    fn height(&self, after: f64) -> f64 {
+        self.system.height.at(self.start + after).height * self.scales.length
+    }
+}
+
+impl Schedule {
+    fn parts(&self, disk: &Disk) -> Result<Vec<Part>, Error> {
+        finite("start_phase", self.start_phase)?;
+        let count = self.segments.len();
+        check(count > 0, "number of segments", 0.0, "[1, inf)")?;
+        let mut parts: Vec<Part> = Vec::with_capacity(count + 1);
+        let mut cycles = self.start_phase / TAU;
+        for (index, segment) in self.segments.iter().enumerate() {
+            let lasts = index + 1 == count && self.then == AfterSchedule::Repeat;
+            if let (true, Some(ramp)) = (lasts, segment.ramp_to) {
+                check(false, "ramp_to of the last segment, which repeats", ramp, "none")?;
+            }
+            let part = self.part(index, cycles % 1.0, disk)?;
+            join(&parts, &part, index)?;
+            parts.push(Part { duration: if lasts { f64::INFINITY } else { part.duration }, ..part });
+            cycles += segment.periods;
+        }
+        if let (AfterSchedule::Rest, Some(last)) = (self.then, parts.last()) {
+            let length = self.platform.scales(disk).length;
+            let height = last.height(last.duration) / length;
+            let still = |height: f64| {
+                Track::pieces(&[(TAU, [height, 0.0, 0.0, 0.0])])
+                    .map_err(|source| Error::Waveform { of: "height", source })
+            };
+            parts.push(Part {
+                system: DrivenSystem {
+                    height: still(height)?,
+                    angle: Waveform::default().track("angle", 1.0, 1.0, 0.0)?,
+                    ..last.system.clone()
+                },
+                start: 0.0,
+                duration: f64::INFINITY,
+                scales: self.platform.scales(disk),
+            });
+        }
+        Ok(parts)
+    }
+
+    fn part(&self, index: usize, cycles: f64, disk: &Disk) -> Result<Part, Error> {
+        let ScheduleSegment { periods, amplitude, ramp_to, frequency, lag } = self.segments[index];
+        check(periods > 0.0 && periods <= 1.0e5, "periods of a segment", periods, "(0, 1e5]")?;
+        check(frequency > 0.0 && frequency <= 1.0e6, "frequency of a segment", frequency, "(0, 1e6]")?;
+        finite("lag of a segment", lag)?;
+        for amplitude in [Some(amplitude), ramp_to].into_iter().flatten() {
+            let legal = (0.0..=1.0e6).contains(&amplitude);
+            check(legal, "amplitude of a segment", amplitude, "[0, 1e6]")?;
+        }
+        let scales = Scales::of(self.platform.angular_frequency() * frequency, disk);
+        scales.check()?;
+        let (duration, phase) = (periods * TAU, cycles * TAU);
+        let track = |of, waveform: &Waveform, unit: f64, lag: f64| match ramp_to {
+            None => waveform.track(of, unit, amplitude, lag),
+            Some(ramp_to) => {
+                let harmonics = waveform.harmonics().ok_or(Error::RampOfPieces { segment: index })?;
+                let rate = (ramp_to - amplitude) / duration;
+                let ramped = |(j, (a, phi)): (usize, (f64, f64))| {
+                    (a * amplitude / unit, a * rate / unit, phi + (j + 1) as f64 * (phase + lag))
+                };
+                let harmonics: Vec<_> = harmonics.into_iter().enumerate().map(ramped).collect();
+                Track::ramps(&harmonics, duration).map_err(|source| Error::Waveform { of, source })
+            }
+        };
+        Ok(Part {
+            system: DrivenSystem {
+                height: track("height", self.platform.height(), scales.length, 0.0)?,
+                angle: track("angle", self.platform.angle(), scales.angle, lag)?,
+                friction: disk.friction(),
+                restitution: disk.restitution(),
+                load: disk.load_acceleration() / scales.angular_acceleration,
+            },
+            start: if ramp_to.is_some() { 0.0 } else { phase_at(phase).angle() },
+            duration,
+            scales,
+        })
+    }
+}
+
+/// Checks that a segment begins where the one before has ended.
+fn join(parts: &[Part], part: &Part, segment: usize) -> Result<(), Error> {
+    let Some(before) = parts.last() else { return Ok(()) };
+    let (end, start) = (before.height(before.duration), part.height(0.0));
+    let sizes = [before, part].map(|part| {
+        let bounds = part.system.height().bounds();
+        bounds.highest.abs().max(bounds.lowest.abs()) * part.scales.length
+    });
+    let jump = start - end;
+    let joins = jump.abs() <= JOINT_ROUNDING * sizes[0].max(sizes[1]);
+    if joins { Ok(()) } else { Err(Error::ScheduleJump { segment, jump }) }
+}
+
+/// An event of a [`ScheduledEngine`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct ScheduledRecord {
+    /// The segment; one more than the last where the platform has come to rest.
+    pub segment: usize,
+    /// Time since the start (s).
+    pub time: f64,
+    /// The event in the units of its segment ([`ScheduledEngine::scales_of`]).
+    pub record: DrivenRecord,
+}
+
+/// The motion of a disk through a [`Schedule`], as a lazy sequence of events: where a segment ends there is a
+/// [`DrivenEvent::Joint`](super::DrivenEvent::Joint), and a kink there is the event after it.
+#[derive(Debug, Clone)]
+pub struct ScheduledEngine {
+    parts: Vec<Part>,
+    segment: usize,
+    engine: DrivenEngine,
+    policy: ChatterPolicy,
+    /// Time since the segment began (rad), and when it began (s).
+    elapsed: f64,
+    began: f64,
+}
+
+impl ScheduledEngine {
+    /// A disk that lies on the platform at the start, with this angular speed (rad/s).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number of the schedule outside its range; [`Error::ScheduleJump`] for a height
+    /// that jumps at a joint; [`Error::RampOfPieces`]; [`Error::Waveform`] for accelerations beyond 1e8 preloads.
+    pub fn at_rest(
+        schedule: &Schedule,
+        disk: &Disk,
+        angular_speed: f64,
+        policy: ChatterPolicy,
+    ) -> Result<Self, Error> {
+        let parts = schedule.parts(disk)?;
+        let first = &parts[0];
+        let start = DrivenStart::Contact {
+            phase: phase_at(first.start),
+            angular_speed: angular_speed / first.scales.angular_speed,
+        };
+        let engine = DrivenEngine::new(first.system.clone(), start, policy)?;
+        Ok(Self { parts, segment: 0, engine, policy, elapsed: 0.0, began: 0.0 })
+    }
+
+    /// The units of a segment's records.
+    #[must_use]
+    pub fn scales_of(&self, segment: usize) -> Option<&Scales> {
+        self.parts.get(segment).map(|part| &part.scales)
+    }
+
+    /// The engine of the present segment, in the units of the segment.
+    #[must_use]
+    pub const fn engine(&self) -> &DrivenEngine {
+        &self.engine
+    }
+
+    /// Time since the start at the last event (s).
+    #[must_use]
+    pub fn time(&self) -> f64 {
+        self.began + self.elapsed * self.parts[self.segment].scales.time
+    }
+
+    /// The next event, or `None` after the last one.
+    ///
+    /// # Errors
+    /// Those of [`DrivenEngine::advance`].
+    pub fn advance(&mut self) -> Result<Option<ScheduledRecord>, Error> {
+        let left = (self.parts[self.segment].duration - self.elapsed).max(0.0);
+        let found = self.engine.advance_within(left)?;
+        let record = match found {
+            Some(record) => record,
+            None if left == f64::INFINITY => return Ok(None),
+            None => self.engine.pause(left),
+        };
+        self.elapsed += record.span.radians();
+        let event = ScheduledRecord { segment: self.segment, time: self.time(), record };
+        if found.is_none() {
+            self.begin_next(&record)?;
+        }
+        Ok(Some(event))
+    }
+
+    fn begin_next(&mut self, joint: &DrivenRecord) -> Result<(), Error> {
+        let (old, new) = (&self.parts[self.segment], &self.parts[self.segment + 1]);
+        self.began += old.duration * old.scales.time;
+        let faster = old.scales.velocity / new.scales.velocity;
+        let mut state = joint.after;
+        let gap = state.height - old.system.height.at(old.start + old.duration).height;
+        state.height = new.system.height.at(new.start).height;
+        if state.mode == Mode::Flight {
+            state.height += gap.max(0.0) * (faster * faster);
+        }
+        state.axial_velocity *= faster;
+        state.angular_speed *= faster;
+        state.angle *= faster * faster;
+        let flights = self.engine.short_flights();
+        self.engine = DrivenEngine::joined(new.system.clone(), new.start, state, self.policy, flights)?;
+        self.segment += 1;
+        self.elapsed = 0.0;
+        Ok(())
+    }
+}
+
+impl Iterator for ScheduledEngine {
+    type Item = Result<ScheduledRecord, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}
+
+#[cfg(test)]
+mod tests;

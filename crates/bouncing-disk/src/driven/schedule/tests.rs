@@ -1,0 +1,208 @@
+use std::f64::consts::PI;
+
+use bouncing_disk_core::{Phase, Unobserved};
+
+use super::*;
+use crate::driven::{DrivenEvent, speed_curve, transient};
+use crate::motor::TransientSettings;
+use crate::toss::{InitialSpin, MultiTossSettings};
+use crate::{Platform, System};
+
+fn hand() -> Platform {
+    *System::pizza_toss().platform()
+}
+
+fn dough() -> Disk {
+    *System::pizza_toss().disk()
+}
+
+fn schedule(segments: &[ScheduleSegment], then: AfterSchedule) -> Schedule {
+    Schedule { platform: hand().into(), start_phase: 1.5 * PI, segments: segments.to_vec(), then }
+}
+
+fn segment(periods: f64, amplitude: f64) -> ScheduleSegment {
+    ScheduleSegment { periods, amplitude, ..ScheduleSegment::default() }
+}
+
+fn engine(schedule: &Schedule) -> ScheduledEngine {
+    ScheduledEngine::at_rest(schedule, &dough(), 0.0, ChatterPolicy::Complete).expect("legal")
+}
+
+/// The energy of each event closes, and heights, angles and times go on over every joint, kinks included.
+#[test]
+fn a_motion_goes_on_over_its_joints() {
+    let lagging = ScheduleSegment { lag: -0.8, frequency: 1.2, ..segment(3.0, 1.5) };
+    let ramp = ScheduleSegment { ramp_to: Some(1.0), lag: -0.8, ..segment(4.0, 1.5) };
+    let parts = [segment(2.25, 1.0), lagging, ramp, segment(1.0, 1.0)];
+    let loaded = System::pizza_toss().with_disk(|dough| dough.load_acceleration = 3.0).expect("legal");
+    let schedule = schedule(&parts, AfterSchedule::Repeat);
+    let mut motion =
+        ScheduledEngine::at_rest(&schedule, loaded.disk(), 1.0, ChatterPolicy::Complete).expect("legal");
+    let (mut joints, mut time) = (Vec::new(), 0.0);
+    let mut state = motion.scales_of(0).expect("it exists").state(motion.engine().state());
+    for _ in 0..300 {
+        let event = motion.advance().expect("no failure").expect("goes on");
+        let (record, scales) = (event.record, motion.scales_of(event.segment).expect("it exists"));
+        assert!(record.ledger.relative_closure() < 1e-12, "{event:?}");
+        time += record.span.radians() * scales.time;
+        assert!((event.time - time).abs() < 1e-12 * time.max(1.0));
+        if record.event == DrivenEvent::Joint {
+            joints.push(event.time);
+            state = scales.state(&record.after);
+            let next = motion.scales_of(event.segment + 1).expect("it exists").state(motion.engine().state());
+            for (one, other) in [
+                (state.height, next.height),
+                (state.axial_velocity, next.axial_velocity),
+                (state.angle, next.angle),
+                (state.angular_speed, next.angular_speed),
+            ] {
+                assert!((one - other).abs() < 1e-12 * (1.0 + one.abs()), "{state:?} {next:?}");
+            }
+        }
+    }
+    let period = TAU / 15.0;
+    let expected = [2.25 * period, 2.25 * period + 3.0 * period / 1.2, 6.25 * period + 3.0 * period / 1.2];
+    assert_eq!(joints.len(), 3);
+    assert!(
+        joints.iter().zip(expected).all(|(one, other)| (one - other).abs() < 1e-12),
+        "{joints:?} {state:?}"
+    );
+}
+
+/// One motion cut into segments is the motion itself.
+#[test]
+fn joints_without_a_change_change_nothing() {
+    let whole = schedule(&[segment(1.0, 1.0)], AfterSchedule::Repeat);
+    let parts: Vec<_> = (0..12).map(|k| segment(0.3 + 0.1 * f64::from(k), 1.0)).collect();
+    let mut cut = engine(&schedule(&parts, AfterSchedule::Repeat))
+        .map(|event| event.expect("no failure"))
+        .filter(|event| event.record.event != DrivenEvent::Joint);
+    for event in engine(&whole).take(12) {
+        let (one, other) = (event.expect("no failure"), cut.next().expect("goes on"));
+        assert_eq!(std::mem::discriminant(&one.record.event), std::mem::discriminant(&other.record.event));
+        assert!((one.time - other.time).abs() < 1e-9, "{one:?} {other:?}");
+    }
+}
+
+/// The velocity of the platform doubles under the disk: a kick; and halves: it leaves.
+#[test]
+fn a_joint_under_a_disk_kicks_it_or_lets_it_go() {
+    let gentle = |factor| {
+        let parts = [segment(0.25, 0.2), ScheduleSegment { frequency: factor, ..segment(1.0, 0.2) }];
+        engine(&schedule(&parts, AfterSchedule::Repeat))
+            .map(|event| event.expect("no failure"))
+            .skip_while(|event| event.record.event != DrivenEvent::Joint)
+            .nth(1)
+            .expect("an event")
+            .record
+    };
+    // A omega at height zero: 0.2 times that of the hand.
+    let speed = 0.2 * System::pizza_toss().peak_acceleration();
+    let kick = gentle(2.0);
+    // In the units of the second segment the old speed is twice, the new one four times that.
+    let DrivenEvent::Kick(hit) = kick.event else { panic!("{kick:?}") };
+    assert!((hit.axial_impact_velocity + 2.0 * speed).abs() < 1e-12, "{kick:?}");
+    assert!((kick.after.axial_velocity - 5.0 * speed).abs() < 1e-12 && kick.span.radians() <= 0.0);
+    let parted = gentle(0.5);
+    assert_eq!(parted.event, DrivenEvent::Separation);
+    assert!((parted.after.axial_velocity - 0.5 * speed).abs() < 1e-12, "{parted:?}");
+}
+
+#[test]
+fn a_platform_that_comes_to_rest_lets_the_disk_settle() {
+    let still = schedule(&[segment(2.3, 1.5)], AfterSchedule::Rest);
+    let events: Vec<_> = engine(&still).map(|event| event.expect("no failure")).collect();
+    let last = events.last().expect("some");
+    assert!(last.segment == 1 && last.record.after.mode == Mode::Sticking, "{last:?}");
+    assert!(last.record.after.axial_velocity == 0.0 && last.record.after.angular_speed == 0.0, "{last:?}");
+    assert!(
+        events.iter().any(|event| event.segment == 1 && matches!(event.record.event, DrivenEvent::Impact(_)))
+    );
+    assert!(events.iter().all(|event| event.record.ledger.relative_closure() < 1e-12));
+}
+
+#[test]
+fn bad_schedules_are_refused_by_name() {
+    let first = segment(2.25, 1.0);
+    let mut list = vec![
+        (schedule(&[], AfterSchedule::Repeat), "number of segments"),
+        (schedule(&[segment(1.0, 1.0), segment(1.0, 1.5)], AfterSchedule::Repeat), "jumps by -0.1065"),
+        (schedule(&[segment(0.0, 1.0)], AfterSchedule::Rest), "periods of a segment"),
+        (schedule(&[segment(f64::NAN, 1.0)], AfterSchedule::Rest), "periods of a segment"),
+        (schedule(&[first, segment(1.0, -1.0)], AfterSchedule::Rest), "amplitude of a segment"),
+        (
+            schedule(&[ScheduleSegment { frequency: 0.0, ..first }], AfterSchedule::Rest),
+            "frequency of a segment",
+        ),
+        (
+            schedule(&[ScheduleSegment { lag: f64::INFINITY, ..first }], AfterSchedule::Rest),
+            "lag of a segment",
+        ),
+        (
+            schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Repeat),
+            "which repeats",
+        ),
+        (Schedule { start_phase: f64::NAN, ..schedule(&[first], AfterSchedule::Rest) }, "start_phase"),
+        (
+            schedule(&[ScheduleSegment { frequency: 1e6, ..first }], AfterSchedule::Rest),
+            "height: acceleration",
+        ),
+    ];
+    let triangle =
+        DrivenPlatform::new(15.0, Waveform::triangle(0.2, 0.0), Waveform::default()).expect("legal");
+    let ramp = schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Rest);
+    list.push((Schedule { platform: triangle, ..ramp }, "segment 0 is a ramp of pieces"));
+    for (schedule, words) in list {
+        let found = ScheduledEngine::at_rest(&schedule, &dough(), 0.0, ChatterPolicy::Complete);
+        let text = found.expect_err("refused").to_string();
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+/// The tosses and the motor of a sine are those of the sine's own functions.
+#[test]
+fn tosses_and_motors_of_a_sine_are_those_of_the_sine() {
+    let start = Phase::new(crate::toss::TOSS_START).expect("finite");
+    let known = crate::toss::single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest).expect("leaves");
+    let toss = crate::driven::single_toss(&hand().into(), &dough(), start, 0.0).expect("leaves");
+    for (one, other) in [
+        (toss.airborne_speed, known.airborne_speed),
+        (toss.launch_speed, known.launch_speed),
+        (toss.efficiency, known.efficiency),
+        (toss.phase, known.separation_phase),
+    ] {
+        assert!((one - other).abs() < 1e-12 * other.abs().max(1.0), "{toss:?} {known:?}");
+    }
+    let still = System::pizza_toss().with_platform(|hand| hand.amplitude = 0.01).expect("legal");
+    let stays = crate::driven::single_toss(&(*still.platform()).into(), still.disk(), start, 0.0);
+    assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
+
+    let settings =
+        MultiTossSettings { transient_impacts: 500, examined_impacts: 64, ..MultiTossSettings::default() };
+    let gentle = System::pizza_toss().with_platform(|hand| hand.amplitude *= 0.4).expect("legal");
+    let own = crate::driven::multi_toss(&(*gentle.platform()).into(), gentle.disk(), (start, 0.0), &settings);
+    let own = own.expect("no failure");
+    let contact = crate::InitialCondition::Contact { phase: start, angular_speed: 0.0 };
+    let orbit = crate::toss::multi_toss(gentle, contact, settings, &Unobserved).expect("no failure");
+    let attaches = matches!(orbit.class, crate::toss::OrbitClass::Chattering(_));
+    assert_eq!(attaches, own.attachments > 0, "{orbit:?} {own:?}");
+
+    let motor = crate::testing::motor(1e-7, 0.0);
+    let settings = TransientSettings {
+        duration: 0.02,
+        intervals: 4,
+        relaunch_perturbation: 0.0,
+        ..TransientSettings::default()
+    };
+    let phase = Phase::new(0.3).expect("finite");
+    let stator = (*motor.platform()).into();
+    let curve = transient(&stator, motor.disk(), phase, &settings, &Unobserved).expect("no failure");
+    let sine = crate::motor::transient(&motor, phase, &settings, &Unobserved).expect("no failure");
+    // Chaotic orbits, so the means agree, not the impacts.
+    let rise = |curve: &crate::motor::SpeedCurve| curve.mean_over_last(0.5).expect("legal");
+    assert!((rise(&curve) / rise(&sine) - 1.0).abs() < 0.2, "{curve:?} {sine:?}");
+    let loads = [0.0, 0.5 * motor.disk().friction_acceleration()];
+    let speeds =
+        speed_curve(&stator, motor.disk(), &loads, (3, 0.25), &settings, &Unobserved).expect("no failure");
+    assert!(speeds[0].speed > speeds[1].speed, "{speeds:?}");
+}
