@@ -500,6 +500,10 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
             let h = guess * reach;
             let certain = h > 0.0 && if from_zero { jet.returns_once(h) } else { jet.crosses_once(h) };
             if certain {
+                if doubt.is_some() {
+                    // First what came before; the search can be resumed here.
+                    return Ok(doubtful(doubt, t, search.evaluations));
+                }
                 if from_zero && jet.is_brief(guess) {
                     let evaluations = search.evaluations;
                     if guess > left {
