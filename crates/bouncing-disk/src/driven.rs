@@ -52,7 +52,7 @@ pub use schedule::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine, Sc
 pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss};
 
 /// A disk on a platform that moves in any way, without units, as
-/// [`DimensionlessSystem`](crate::parameters::DimensionlessSystem) is for a sine: time in radians of the
+/// [`DimensionlessSystem`] is for a sine: time in radians of the
 /// fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {

@@ -178,6 +178,9 @@ pub struct Root {
     pub error: f64,
     /// The slope there.
     pub slope: f64,
+    /// Zero; or, where the function may also touch zero within the error, or miss it, the bound on its magnitude
+    /// there.
+    pub doubt: f64,
     /// Evaluations of the function.
     pub evaluations: u32,
 }
@@ -463,11 +466,19 @@ impl Jet {
         }
     }
 
-    /// How far the root next to here may be off: the error of the value over the slope, at a graze its root.
-    pub(crate) fn root_error(&self) -> f64 {
-        let steep = self.error / self.slope.abs();
-        let touch = (2.0 * self.error / self.bend.abs()).sqrt();
-        2.0 * if touch < steep { touch } else { steep }
+    /// How far the root next to here may be off, and, where the slope may vanish as near as that, the bound on
+    /// the value there: another root may then be there, or none.
+    pub(crate) fn root_error(&self) -> (f64, f64) {
+        let Self { error, slope, bend, third, fourth, .. } = *self;
+        let steep = 2.0 * error / slope.abs();
+        let change = steep * (bend.abs() + steep * (0.5 * third.abs() + steep * fourth * (1.0 / 6.0)));
+        if change <= 0.5 * slope.abs() {
+            return (steep, 0.0);
+        }
+        // The distance at which the bend, or else the third derivative, exceeds the rounding.
+        let parabola = (8.0 * error / bend.abs()).sqrt();
+        let cubic = libm::cbrt(48.0 * error / third.abs());
+        (2.0 * if cubic < parabola { cubic } else { parabola }, 4.0 * error)
     }
 }
 
@@ -489,6 +500,10 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
             let h = guess * reach;
             let certain = h > 0.0 && if from_zero { jet.returns_once(h) } else { jet.crosses_once(h) };
             if certain {
+                if doubt.is_some() {
+                    // First what came before; the search can be resumed here.
+                    return Ok(doubtful(doubt, t, search.evaluations));
+                }
                 if from_zero && jet.is_brief(guess) {
                     let evaluations = search.evaluations;
                     if guess > left {
@@ -498,7 +513,7 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
                     let (bend, third) = (jet.bend.abs(), jet.third.abs());
                     let unsure = if jet.slope > 0.0 { bend } else { bend.min(third * guess) };
                     let error = guess * (ROUNDING + jet.bend_error / unsure);
-                    return Ok(FirstRoot::Root(Root { at: guess, error, slope, evaluations }));
+                    return Ok(FirstRoot::Root(Root { at: guess, error, slope, doubt: 0.0, evaluations }));
                 }
                 if h > left && search.jet(to).value > 0.0 {
                     return Ok(doubtful(doubt, t, search.evaluations));
@@ -624,8 +639,9 @@ impl<F: Fn(f64) -> Jet> Search<F> {
                 let at = (t + step).clamp(lo, hi);
                 let step = at - t;
                 let slope = v + step * (jet.bend + 0.5 * step * jet.third);
-                let error = jet.root_error() + 2.0 * f64::EPSILON * at;
-                return Ok(Root { at, error, slope, evaluations: self.evaluations });
+                let (error, doubt) = jet.root_error();
+                let error = error + 2.0 * f64::EPSILON * at;
+                return Ok(Root { at, error, slope, doubt, evaluations: self.evaluations });
             }
             if g > 0.0 {
                 lo = t;

@@ -176,9 +176,11 @@ fn judge(sum: &Sum) -> Result<bool, String> {
     let end = 60.0;
     match solver.first_root(0.0, end).map_err(|error| error.to_string())? {
         FirstRoot::Root(root) => {
-            has_root_at(sum, dd(root.at), root.error)?;
-            positive(sum, 0.0, root.at - 4.0 * root.error, 0.0)?;
-            Ok(true)
+            if root.doubt <= 0.0 || sum.at(dd(root.at)).0.high().abs() > root.doubt {
+                has_root_at(sum, dd(root.at), root.error)?;
+            }
+            positive(sum, 0.0, root.at - 4.0 * root.error, 2.0 * root.doubt)?;
+            Ok(root.doubt <= 0.0)
         }
         FirstRoot::None { .. } => positive(sum, 0.0, end, 0.0).map(|()| true),
         FirstRoot::Undecided { at, bound, until, .. } => {

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk_core::flight::ChatterDuration;
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::{ChatterPolicy, DrivenEvent as CoreEvent, DrivenMap, Error as CoreError};
+use bouncing_disk_core::{ChatterPolicy, DrivenEvent as CoreEvent, DrivenMap};
 
 use super::{DrivenEvent, DrivenRecord, DrivenStart, DrivenSystem, Hit};
 use crate::error::{Error, moderate};
@@ -353,18 +353,19 @@ impl DrivenEngine {
 
     /// The flight after a separation: the core knows its launch better than a height and a velocity tell.
     fn fly_from_contact(&mut self, since: f64, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+        if self.system.is_ramp() {
+            // From where the force is negative beyond its rounding.
+            let (mut at, mut step) = (self.now.at, f64::EPSILON);
+            while self.system.height.at(at).acceleration >= -1.0 && step < 1.0e-6 {
+                (at, step) = (self.now.at + step, 2.0 * step);
+            }
+            let found = self.system.height().first_impact_within(at, 0.0, 0.0, limit)?;
+            return Ok(found.map(|landing| self.land_on(&landing.impact)));
+        }
         let map = DrivenMap::new(self.system.height().clone(), self.system.restitution)?;
         let mut orbit = map.of_contact(since, self.policy);
         orbit.advance()?;
-        let event = match orbit.advance() {
-            Ok(event) => event,
-            // A ramp ends before the impact.
-            Err(CoreError::NoLiftOff { .. } | CoreError::FlightTooLong { .. }) if self.system.is_ramp() => {
-                None
-            }
-            Err(error) => return Err(error.into()),
-        };
-        let Some(CoreEvent::Impact(landing)) = event else { return Ok(None) };
+        let Some(CoreEvent::Impact(landing)) = orbit.advance()? else { return Ok(None) };
         Ok((landing.impact.duration() <= limit).then(|| self.land_on(&landing.impact)))
     }
 

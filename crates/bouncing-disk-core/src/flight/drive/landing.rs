@@ -259,6 +259,16 @@ impl Fourier {
     }
 }
 
+impl Found {
+    /// The impact, with a doubt if it may also be a graze.
+    pub(super) fn take(&mut self, root: Root) {
+        if root.doubt > 0.0 {
+            self.doubt = self.doubt.or(Some(Doubt { at: root.at, bound: root.doubt }));
+        }
+        self.root = Some(root);
+    }
+}
+
 /// The first root of a gap up to `to`; a touch that rounding hides counts as its evaluated sign says.
 pub(super) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
     let mut found = Found::default();
@@ -267,7 +277,7 @@ pub(super) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
         match gap.first_root(from, to)? {
             FirstRoot::Root(root) => {
                 found.evaluations += root.evaluations;
-                found.root = Some(root);
+                found.take(root);
                 return Ok(found);
             }
             FirstRoot::None { evaluations } => {
@@ -279,8 +289,8 @@ pub(super) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
                 found.doubt = found.doubt.or(Some(Doubt { at, bound }));
                 if value <= 0.0 {
                     let jet = gap.at(at, to);
-                    let error = jet.root_error();
-                    found.root = Some(Root { at, error, slope: jet.slope, evaluations });
+                    let (error, doubt) = jet.root_error();
+                    found.root = Some(Root { at, error, slope: jet.slope, doubt, evaluations });
                     return Ok(found);
                 }
                 if until >= to {

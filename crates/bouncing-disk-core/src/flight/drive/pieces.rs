@@ -8,7 +8,7 @@ use super::landing::{DOUBTFUL_PULL, Doubt, Found, Start, decided};
 use super::{Drive, DriveBounds, DriveState, Shape};
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::error::{Error, within};
-use crate::numerics::quasi_polynomial::{QuasiPolynomial, Root};
+use crate::numerics::quasi_polynomial::{Jet, QuasiPolynomial, Root};
 
 /// Most pieces of a drive.
 pub const MAX_PIECES: usize = 1 << 20;
@@ -519,12 +519,11 @@ impl Stretch {
     }
 
     fn root(&self, t: f64) -> Root {
-        let (_, slope, [error, _]) = self.end(t);
+        let (value, slope, [error, slope_error]) = self.end(t);
         let bend = self.bend + t * self.third;
-        let steep = error / slope.abs();
-        let touch = (2.0 * error / bend.abs()).sqrt();
-        let error = 2.0 * if touch < steep { touch } else { steep } + ROUNDING * t;
-        Root { at: t, error, slope, evaluations: 1 }
+        let jet = Jet { value, slope, bend, third: self.third, error, slope_error, ..Jet::default() };
+        let (error, doubt) = jet.root_error();
+        Root { at: t, error: error + ROUNDING * t, slope, doubt, evaluations: 1 }
     }
 
     /// The first root of c + b t + a t^2 in (0, `to`], where it leaves zero or is positive at 0; `divided`: it
@@ -556,7 +555,7 @@ impl Stretch {
             -0.5 * (b + root) / a
         };
         if t >= 0.0 && t <= to {
-            found.root = Some(self.root(t));
+            found.take(self.root(t));
         }
         found
     }

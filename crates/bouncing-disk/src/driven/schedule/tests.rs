@@ -206,3 +206,18 @@ fn tosses_and_motors_of_a_sine_are_those_of_the_sine() {
         speed_curve(&stator, motor.disk(), &loads, (3, 0.25), &settings, &Unobserved).expect("no failure");
     assert!(speeds[0].speed > speeds[1].speed, "{speeds:?}");
 }
+
+/// A ramp from little to full amplitude lifts the disk off within the ramp, and its energy closes.
+#[test]
+fn a_ramp_lifts_the_disk_off() {
+    let ramp = ScheduleSegment { ramp_to: Some(1.0), ..segment(6.25, 0.05) };
+    let events: Vec<_> = engine(&schedule(&[ramp, segment(1.0, 1.0)], AfterSchedule::Repeat))
+        .map(|event| event.expect("no failure"))
+        .take_while(|event| event.segment == 0)
+        .collect();
+    for kind in [DrivenEvent::Separation, DrivenEvent::Joint] {
+        assert!(events.iter().any(|event| event.record.event == kind), "{events:?}");
+    }
+    assert!(events.iter().any(|event| matches!(event.record.event, DrivenEvent::Impact(_))));
+    assert!(events.iter().all(|event| event.record.ledger.relative_closure() < 1e-12));
+}
