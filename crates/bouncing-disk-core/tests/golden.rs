@@ -24,6 +24,11 @@ fn orbits_with_chatter() {
 }
 
 #[test]
+fn orbits_on_drives() {
+    assert_none(&results::orbits_on_drives());
+}
+
+#[test]
 fn basin_labels() {
     assert_none(&results::basin_labels());
 }

@@ -45,6 +45,7 @@ pub fn golden_differences() -> Vec<String> {
         golden::launches_of_every_regime(),
         golden::chaotic_orbit(),
         golden::orbits_with_chatter(PAPER_CHATTER),
+        golden::orbits_on_drives(),
         golden::basin_labels(),
     ]
     .concat()

@@ -12,7 +12,10 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::attractors::{Axis, BasinSettings, Grid, KnownOrbit, Label};
 use bouncing_disk_core::numerics::elementary;
 use bouncing_disk_core::sweep::{InstructionSet, OrbitBatch};
-use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved, Vibration};
+use bouncing_disk_core::{
+    ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactMap, ImpactState, OrbitEvent, Phase, Unobserved,
+    Vibration,
+};
 
 use bouncing_disk_core::numerics::digest::Digest;
 
@@ -238,6 +241,46 @@ pub(crate) fn orbits_with_chatter(paper_policy: ChatterPolicy) -> Vec<String> {
         }
     }
     one("orbits with chatter", digest, 0x4ef0_e214_d440_d948)
+}
+
+/// Orbits on platforms that move in other ways than a sine, with their contacts.
+pub(crate) fn orbits_on_drives() -> Vec<String> {
+    let samples: Vec<f64> = (0..64).map(|k| 2.0 * first(k) * second(k)).collect();
+    let drives = [
+        Drive::fourier(&[(1.4, 0.0), (0.2, 1.0), (0.1, 0.5)]),
+        Drive::triangle(2.0),
+        Drive::sawtooth(2.0, 0.3),
+        Drive::parabolas(1.5),
+        Drive::cubics(1.5),
+        Drive::sampled(&samples),
+    ];
+    let mut digest = Digest::new();
+    for drive in drives {
+        let map = DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal");
+        for k in 0..20 {
+            let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
+            let mut orbit = map.orbit(start, ChatterPolicy::Complete);
+            for _ in 0..300 {
+                match orbit.advance().expect("no failure") {
+                    Some(DrivenEvent::Impact(landing)) => {
+                        add_state(&mut digest, landing.impact.into());
+                        digest.number(landing.impact.remainder);
+                    }
+                    Some(DrivenEvent::Attachment { accumulation, last_speed }) => {
+                        digest.number(accumulation.phase.angle());
+                        digest.number(last_speed);
+                    }
+                    Some(DrivenEvent::Separation(change) | DrivenEvent::Kick(change)) => {
+                        digest.number(change.phase.angle());
+                        digest.number(change.velocity);
+                    }
+                    Some(_) => digest.bytes(b"another event"),
+                    None => break,
+                }
+            }
+        }
+    }
+    one("orbits on drives", digest, 0xae52_d940_bd4d_64fe)
 }
 
 /// W3 of docs/performance.md on a smaller grid.
