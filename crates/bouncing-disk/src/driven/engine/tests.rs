@@ -39,9 +39,14 @@ fn compare(
     for _ in 0..events {
         let Ok(Some(record)) = engine.advance() else { break };
         // Whether a slip that only touches zero ends there, rounding decides.
-        let ([rate, _], _) = driven.growth(SlipDirection::Forward, record.time.phase.angle());
-        let grazes =
-            matches!(record.event, Event::SlipToStick | Event::SlipReversal(_)) && rate.abs() < 1e-6 * spin;
+        let rate = [SlipDirection::Forward, SlipDirection::Backward]
+            .map(|direction| driven.growth(direction, record.time.phase.angle()).0[0].abs())
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let slip_ends = matches!(record.event, Event::SlipToStick | Event::SlipReversal(_));
+        let grazes = slip_ends && rate < 1e-6 * spin;
+        // The end of a slip that falls slowly is as uncertain as its speed over the rate.
+        let slow = if slip_ends { 0.02 * spin / rate } else { 0.0 };
         let Some(mut found) = own.advance().expect("no failure") else {
             prop_assert!(grazes, "{record:?}");
             break;
@@ -75,19 +80,19 @@ fn compare(
             (one - other).abs() <= ROUNDING * (size + one.abs() + other.abs())
         };
         // A root of a slow fall is as uncertain as its slope is small.
-        prop_assert!(near(span, record.span.radians(), 1.0), "{span} {record:?}\n{found:?}");
+        prop_assert!(near(span, record.span.radians(), 1.0 + slow), "{span} {record:?}\n{found:?}");
         for (one, other) in [(found.before, record.before), (found.after, record.after)] {
-            prop_assert!(near(one.height, other.height, size * (1.0 + span)), "{one:?} {other:?}");
+            prop_assert!(near(one.height, other.height, size * (1.0 + span + slow)), "{one:?} {other:?}");
             prop_assert!(
-                near(one.axial_velocity, other.axial_velocity, size * (1.0 + span)),
+                near(one.axial_velocity, other.axial_velocity, size * (1.0 + span + slow)),
                 "{one:?} {other:?}"
             );
             prop_assert!(
-                near(one.angular_speed, other.angular_speed, spin * (1.0 + span)),
+                near(one.angular_speed, other.angular_speed, spin * (1.0 + span + slow)),
                 "{one:?} {other:?} {record:?}"
             );
             prop_assert!(
-                near(one.angle, other.angle, spin * (1.0 + span) * (1.0 + span)),
+                near(one.angle, other.angle, spin * (1.0 + span + slow) * (1.0 + span + slow)),
                 "{one:?} {other:?}"
             );
             // Whether the last impact of a chatter ends a slip of one rounding, rounding decides.
@@ -95,8 +100,11 @@ fn compare(
             let hidden = matches!(record.event, Event::Attachment { .. }) && near(slip, 0.0, spin);
             prop_assert!(one.mode == other.mode || hidden, "{one:?} {other:?} {record:?}");
         }
-        prop_assert!(near(impulse, record.angular_impulse, spin * (1.0 + span)), "{impulse} {record:?}");
-        let magnitude = (spin * spin + record.ledger.rotary_magnitude) * (1.0 + span);
+        prop_assert!(
+            near(impulse, record.angular_impulse, spin * (1.0 + span + slow)),
+            "{impulse} {record:?}"
+        );
+        let magnitude = (spin * spin + record.ledger.rotary_magnitude) * (1.0 + span + slow);
         prop_assert!(
             near(ledger.friction_loss, record.ledger.friction_loss, magnitude),
             "{found:?} {record:?}"
