@@ -29,7 +29,7 @@ const SMALLEST_SPEED: f64 = 1.0e-18;
 ///
 /// let map = DrivenMap::new(Drive::fourier(&[(1.6, 0.0)])?, 0.5)?;
 /// let start = ImpactState::from_normalised(4.0, 0.01)?;
-/// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment(_)));
+/// let rests = |event| matches!(event, Ok(DrivenEvent::Attachment { .. }));
 /// assert!(map.orbit(start, ChatterPolicy::Complete).take(60).any(rests));
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
