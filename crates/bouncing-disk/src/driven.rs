@@ -36,6 +36,7 @@ use crate::motion::state::{DiskState, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::track::Track;
 
 mod chatter;
 mod contact;
@@ -43,7 +44,6 @@ pub(crate) mod engine;
 pub(crate) mod motor;
 pub(crate) mod schedule;
 pub(crate) mod toss;
-pub(crate) mod track;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use engine::DrivenEngine;
@@ -56,8 +56,8 @@ pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss}
 /// fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {
-    pub(crate) height: track::Track,
-    pub(crate) angle: track::Track,
+    pub(crate) height: Track,
+    pub(crate) angle: Track,
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
     pub(crate) load: f64,

@@ -29,6 +29,7 @@ pub(crate) mod presets;
 pub(crate) mod scales;
 pub(crate) mod stroke;
 pub(crate) mod system;
+pub(crate) mod track;
 
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use driven_platform::{DrivenPlatform, Swing, Waveform};

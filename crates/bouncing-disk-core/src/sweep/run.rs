@@ -100,7 +100,7 @@ impl<T> PartialResults<T> {
         self.finished.extend(results.into_iter().filter(|(index, _)| *index < total));
         // A result that comes in its order is added without moving any other.
         if !self.finished[last..].is_sorted_by(|(one, _), (next, _)| one < next) {
-            self.finished = in_order(total, core::mem::take(&mut self.finished));
+            self.finished = runner::in_order(total, core::mem::take(&mut self.finished));
         }
     }
 
@@ -120,16 +120,6 @@ impl<T> PartialResults<T> {
         }
         Ok(self.finished.into_iter().map(|(_, result)| result).collect())
     }
-}
-
-/// Results of items from 0 to `total` in the order of the items, of each the first one. Sorting would be compiled
-/// for every type of result.
-pub(super) fn in_order<T>(total: usize, results: impl IntoIterator<Item = (usize, T)>) -> Vec<(usize, T)> {
-    let mut places: Vec<Option<T>> = (0..total).map(|_| None).collect();
-    for (index, result) in results {
-        places[index].get_or_insert(result);
-    }
-    places.into_iter().enumerate().filter_map(|(index, result)| Some((index, result?))).collect()
 }
 
 /// A sweep in progress over a list of orbits: the results of those that are finished.

@@ -8,7 +8,6 @@ use crate::map::impact_map::Orbit;
 use crate::numerics::error::Error;
 use crate::run::{Watch, WorkCount, in_parallel, threads};
 use crate::sweep::lockstep::lanes::{Batch, FlightScheduler, InstructionSet, LANES, Purpose};
-use crate::sweep::run::in_order;
 
 /// With fewer orbits under way they are advanced one by one: a step of the lanes costs nearly the same
 /// however many of them are in use, as much as about this many single flights (docs/numerics/lockstep.md,
@@ -41,6 +40,16 @@ pub(super) fn run<S: Send>(
     };
     // It does not matter which of the workers has an orbit.
     in_order(orbits.len(), in_parallel(threads, |_| work()).into_iter().flatten())
+}
+
+/// Results of items from 0 to `total` in the order of the items, of each the first one. Sorting would be compiled
+/// for every type of result.
+pub(super) fn in_order<T>(total: usize, results: impl IntoIterator<Item = (usize, T)>) -> Vec<(usize, T)> {
+    let mut places: Vec<Option<T>> = (0..total).map(|_| None).collect();
+    for (index, result) in results {
+        places[index].get_or_insert(result);
+    }
+    places.into_iter().enumerate().filter_map(|(index, result)| Some((index, result?))).collect()
 }
 
 /// The orbits that nobody has begun.

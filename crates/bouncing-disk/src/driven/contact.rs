@@ -16,10 +16,10 @@ use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 use super::DrivenSystem;
-use super::track::Bend;
 use crate::error::Error;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::SlipDirection;
+use crate::parameters::track::Bend;
 
 /// Rounding of a rate, in units of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;

@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::ChatterPolicy;
 
 use super::engine::DrivenEngine;
-use super::track::Track;
 use super::{DrivenRecord, DrivenStart, DrivenSystem};
 use crate::error::{Error, check, finite};
 use crate::motion::phase_time::phase_at;
@@ -13,6 +12,7 @@ use crate::motion::state::Mode;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
 use crate::parameters::scales::Scales;
+use crate::parameters::track::Track;
 
 /// A jump of the height at a joint that is smaller than this share of the heights is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-9;

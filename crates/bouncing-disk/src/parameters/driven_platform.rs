@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::read_checked;
 
-use crate::driven::track::Track;
 use crate::error::{Error, check, finite, not_negative, positive};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
+use crate::parameters::track::Track;
 
 /// One period of a height (m) or an angle (rad), not yet checked.
 ///
