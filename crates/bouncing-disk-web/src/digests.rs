@@ -1,8 +1,7 @@
 //! Digests that name the bits of results: the same on every machine.
 //!
-//! `digests.json` of the Python package holds those of x86-64; here they are computed wherever this crate is
-//! compiled for (`examples/digests.rs`, and `digests` in WebAssembly), beside the golden ones of the core.
-//! `tests/test_same_bits.py` of the Python package makes the same calls.
+//! The Python package stores those of x86-64 (`digests.json`, by `tests/test_same_bits.py`); this crate computes
+//! them wherever it is compiled for (`examples/digests.rs`, WebAssembly), beside the golden ones of the core.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;
