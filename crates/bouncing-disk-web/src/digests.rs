@@ -1,7 +1,7 @@
 //! Digests that name the bits of results: the same on every machine.
 //!
 //! The Python package stores those of x86-64 (`digests.json`, by `tests/test_same_bits.py`); this crate
-//! computes them wherever it is compiled for (`examples/digests.rs`, WebAssembly), with the core's golden ones.
+//! computes them wherever it is compiled (`examples/digests.rs`, WebAssembly), with the core's golden ones.
 
 #[path = "../../bouncing-disk-core/tests/golden/results.rs"]
 mod golden;
