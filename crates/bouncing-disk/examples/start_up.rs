@@ -124,7 +124,7 @@ impl StartUp {
     fn picture(&self) -> Result<String, Error> {
         let (mut hand, mut dough) = (String::new(), String::new());
         let mut motion = self.motion()?;
-        while motion.time() < 5.0 {
+        while motion.time() < 4.5 {
             let before = motion.clone();
             let Some(event) = motion.advance()? else { break };
             let Some(scales) = before.scales_of(event.segment) else { break };
@@ -140,9 +140,19 @@ impl StartUp {
         }
         let line =
             |points, colour| format!("<polyline points=\"{points}\" fill=\"none\" stroke=\"{colour}\"/>");
+        let mut axes = String::new();
+        for tenths in -1..=3 {
+            let (y, height) = (330 - 70 * tenths, 0.1 * f64::from(tenths));
+            axes.push_str(&format!(
+                "<path d=\"M20 {y}H770\" stroke=\"#ddd\"/><text x=\"775\" y=\"{y}\">{height:.1}</text>"
+            ));
+        }
+        for second in 0..=5 {
+            axes.push_str(&format!("<text x=\"{}\" y=\"425\">{second}</text>", 16 + 150 * second));
+        }
         Ok(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 800 420\">\n{}\n{}\n<text x=\"20\" y=\"20\">Height of \
-             hand (grey) and dough (red) over 5 s; 0.1 m is 70 units</text>\n</svg>\n",
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 820 440\">\n{axes}\n{}\n{}\n<text x=\"20\" y=\"20\">Height (m) of \
+             hand (grey) and dough (red) over time (s)</text>\n</svg>\n",
             line(hand, "#888"),
             line(dough, "#c22")
         ))
