@@ -10,7 +10,6 @@ use std::f64::consts::{PI, TAU};
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::driven::{AfterSchedule, DrivenEvent, Schedule, ScheduleSegment, ScheduledEngine};
-use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 use bouncing_disk::{Error, System};
 
 /// What may be a little off: the first motion's amplitude and frequency as factors of the second one's, the
@@ -63,11 +62,9 @@ impl StartUp {
     /// motions join; then with the phase lag of the fastest rotation.
     fn motion(&self) -> Result<ScheduledEngine, Error> {
         let table = System::pizza_toss();
-        let (hand, dough) =
-            (*table.platform(), table.with_disk(|dough| dough.restitution = self.restitution)?);
-        let omega = hand.angular_frequency();
-        let amplitude = self.forcing * PI * dough.disk().preload_acceleration() / (omega * omega);
-        let (height, angle) = (Waveform::sine(amplitude, 0.0), Waveform::sine(hand.twist_amplitude(), 0.0));
+        let forced = table
+            .with_platform(|hand| hand.amplitude *= self.forcing / table.axial_forcing())?
+            .with_disk(|dough| dough.restitution = self.restitution)?;
         let lag = -0.26 * PI;
         let (amplitude, frequency) = (self.amplitude, self.frequency);
         let linear =
@@ -75,12 +72,12 @@ impl StartUp {
         let second = ScheduleSegment { lag, ..Default::default() };
         let first = if self.periods > 0.0 { linear } else { ScheduleSegment { lag, ..linear } };
         let schedule = Schedule {
-            platform: DrivenPlatform::new(omega, height, angle)?,
+            platform: (*forced.platform()).into(),
             start_phase: 1.5 * PI,
             segments: vec![first, second],
             then: AfterSchedule::Repeat,
         };
-        ScheduledEngine::at_rest(&schedule, dough.disk(), 0.0, ChatterPolicy::Complete)
+        ScheduledEngine::at_rest(&schedule, forced.disk(), 0.0, ChatterPolicy::Complete)
     }
 
     /// Whether the last impacts come one in each period; next to its doubling the orbit settles slowly.

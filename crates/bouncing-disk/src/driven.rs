@@ -14,8 +14,9 @@
 //! use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 //!
 //! // The dough of Table I on a hand that moves along straight lines.
-//! let hand = DrivenPlatform::new(15.0, Waveform::triangle(0.21, 0.0), Waveform::triangle(0.97, 0.0))?;
-//! let system = DrivenSystem::new(&hand, System::pizza_toss().disk())?;
+//! let toss = System::pizza_toss();
+//! let hand = DrivenPlatform::new(*toss.platform(), Waveform::Triangle, Waveform::Triangle)?;
+//! let system = DrivenSystem::new(&hand, toss.disk())?;
 //! let start = DrivenStart::Contact { phase: Phase::new(0.0)?, angular_speed: 0.0 };
 //! for record in DrivenEngine::new(system, start, ChatterPolicy::Complete)?.take(20) {
 //!     assert!(record?.ledger.relative_closure() < 1e-12);
@@ -46,9 +47,10 @@ pub(crate) mod schedule;
 pub(crate) mod toss;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
+pub use crate::parameters::driven_platform::{AfterSchedule, ScheduleSegment};
 pub use engine::DrivenEngine;
 pub use motor::{SpeedAtLoad, speed_curve, transient};
-pub use schedule::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine, ScheduledRecord};
+pub use schedule::{Schedule, ScheduledEngine, ScheduledRecord};
 pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss};
 
 /// A disk on a platform that moves in any way, without units, as
@@ -72,9 +74,11 @@ impl DrivenSystem {
     pub fn new(platform: &DrivenPlatform, disk: &Disk) -> Result<Self, Error> {
         let scales = platform.scales(disk);
         scales.check()?;
+        let sine = platform.platform();
+        let (height, angle) = (sine.amplitude() / scales.length, sine.twist_amplitude() / scales.angle);
         Ok(Self {
-            height: platform.height().track("height", scales.length, 1.0, 0.0)?,
-            angle: platform.angle().track("angle", scales.angle, 1.0, 0.0)?,
+            height: platform.height().track("height", height, 0.0)?,
+            angle: platform.angle().track("angle", angle, sine.phase_lag())?,
             friction: disk.friction(),
             restitution: disk.restitution(),
             load: disk.load_acceleration() / scales.angular_acceleration,
@@ -104,8 +108,8 @@ impl TryFrom<DimensionlessSystem> for DrivenSystem {
     /// The platform of Eq. (1) as a Fourier sum.
     fn try_from(system: DimensionlessSystem) -> Result<Self, Error> {
         Ok(Self {
-            height: Waveform::sine(system.peak_acceleration(), 0.0).track("height", 1.0, 1.0, 0.0)?,
-            angle: Waveform::sine(system.twist_speed(), system.phase_lag()).track("angle", 1.0, 1.0, 0.0)?,
+            height: Waveform::Sine.track("height", system.peak_acceleration(), 0.0)?,
+            angle: Waveform::Sine.track("angle", system.twist_speed(), system.phase_lag())?,
             friction: system.friction(),
             restitution: system.restitution(),
             load: system.load(),

@@ -133,15 +133,20 @@ pub enum Error {
         source: bouncing_disk_core::Error,
     },
     /// The pieces of a waveform do not join.
-    #[error("the {of} jumps by {jump:?} (m or rad) where piece {piece} begins: it must be continuous")]
+    #[error("the {of} jumps by {jump:?} amplitudes where piece {piece} begins: it must be continuous")]
     WaveformJump {
         /// Height or angle.
         of: &'static str,
         /// Which piece, from 0; the first one follows on the last.
         piece: usize,
-        /// By how much (m or rad).
+        /// By how much, in amplitudes.
         jump: f64,
     },
+    /// A schedule in place of a periodic motion.
+    #[error(
+        "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or compute a toss"
+    )]
+    ScheduledDrive,
     /// The segments of a schedule do not join.
     #[error(
         "the platform jumps by {jump:?} m where segment {segment} begins: let the one before end where both are equally high"

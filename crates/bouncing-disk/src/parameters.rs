@@ -32,6 +32,6 @@ pub(crate) mod system;
 pub(crate) mod track;
 
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
-pub use driven_platform::{DrivenPlatform, Swing, Waveform};
+pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 pub use scales::Scales;
 pub use stroke::{LaunchSpeeds, Stroke};

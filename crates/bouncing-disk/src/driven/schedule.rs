@@ -10,48 +10,15 @@ use crate::error::{Error, check, finite};
 use crate::motion::phase_time::phase_at;
 use crate::motion::state::Mode;
 use crate::parameters::disk::Disk;
-use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::driven_platform::{
+    AfterSchedule, DriveParameters, DrivenPlatform, ScheduleSegment, Waveform,
+};
+use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 use crate::parameters::track::Track;
 
 /// A jump of the height at a joint that is smaller than this share of the heights is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-9;
-
-/// A part of a [`Schedule`], by factors of the schedule's platform.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
-pub struct ScheduleSegment {
-    /// Duration in its own periods, in (0, 1e5].
-    pub periods: f64,
-    /// Height and angle are this many times those of the platform, in [0, 1e6].
-    pub amplitude: f64,
-    /// The same at the end of a ramp, linear in time, in [0, 1e6]; `None` for a constant amplitude.
-    pub ramp_to: Option<f64>,
-    /// The frequency is this many times that of the platform, in (0, 1e6].
-    pub frequency: f64,
-    /// The angle is this much (rad of the fundamental) earlier than the platform's.
-    pub lag: f64,
-}
-
-impl Default for ScheduleSegment {
-    /// One period of the platform's own motion.
-    fn default() -> Self {
-        Self { periods: 1.0, amplitude: 1.0, ramp_to: None, frequency: 1.0, lag: 0.0 }
-    }
-}
-
-/// What comes after the last segment of a [`Schedule`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
-pub enum AfterSchedule {
-    /// The last segment goes on for ever.
-    #[default]
-    Repeat,
-    /// The platform stays where it is; a disk in the air comes down and settles on it.
-    Rest,
-}
 
 /// Segments of motion, one after the other. The phase of the fundamental goes on from one to the next; the height
 /// must be continuous at each joint, while its velocity may jump (a kink). The angle of each segment is counted from
@@ -78,8 +45,7 @@ pub enum AfterSchedule {
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Schedule {
     /// The platform that the segments change.
     pub platform: DrivenPlatform,
@@ -109,6 +75,15 @@ impl Part {
 }
 
 impl Schedule {
+    /// This platform with the schedule of a file's table.
+    ///
+    /// # Errors
+    /// Those of [`DrivenPlatform::new`]; the rest is checked by [`ScheduledEngine::at_rest`].
+    pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
+        let DriveParameters { height, angle, start_phase, segments, then } = drive.clone();
+        Ok(Self { platform: DrivenPlatform::new(platform, height, angle)?, start_phase, segments, then })
+    }
+
     fn parts(&self, disk: &Disk) -> Result<Vec<Part>, Error> {
         finite("start_phase", self.start_phase)?;
         let count = self.segments.len();
@@ -135,7 +110,7 @@ impl Schedule {
             parts.push(Part {
                 system: DrivenSystem {
                     height: still(height)?,
-                    angle: Waveform::default().track("angle", 1.0, 1.0, 0.0)?,
+                    angle: Waveform::Sine.track("angle", 0.0, 0.0)?,
                     ..last.system.clone()
                 },
                 start: 0.0,
@@ -155,16 +130,18 @@ impl Schedule {
             let legal = (0.0..=1.0e6).contains(&amplitude);
             check(legal, "amplitude of a segment", amplitude, "[0, 1e6]")?;
         }
-        let scales = Scales::of(self.platform.angular_frequency() * frequency, disk);
+        let scales = Scales::of(self.platform.platform().angular_frequency() * frequency, disk);
         scales.check()?;
         let (duration, phase) = (periods * TAU, cycles * TAU);
-        let track = |of, waveform: &Waveform, unit: f64, lag: f64| match ramp_to {
-            None => waveform.track(of, unit, amplitude, lag),
+        let hand = self.platform.platform();
+        // One full amplitude in units of the segment.
+        let track = |of, waveform: &Waveform, full: f64, lag: f64| match ramp_to {
+            None => waveform.track(of, full * amplitude, lag),
             Some(ramp_to) => {
                 let harmonics = waveform.harmonics().ok_or(Error::RampOfPieces { segment: index })?;
                 let rate = (ramp_to - amplitude) / duration;
                 let ramped = |(j, (a, phi)): (usize, (f64, f64))| {
-                    (a * amplitude / unit, a * rate / unit, phi + (j + 1) as f64 * (phase + lag))
+                    (a * full * amplitude, a * full * rate, phi + (j + 1) as f64 * (phase + lag))
                 };
                 let harmonics: Vec<_> = harmonics.into_iter().enumerate().map(ramped).collect();
                 Track::ramps(&harmonics, duration).map_err(|source| Error::Waveform { of, source })
@@ -172,8 +149,13 @@ impl Schedule {
         };
         Ok(Part {
             system: DrivenSystem {
-                height: track("height", self.platform.height(), scales.length, 0.0)?,
-                angle: track("angle", self.platform.angle(), scales.angle, lag)?,
+                height: track("height", self.platform.height(), hand.amplitude() / scales.length, 0.0)?,
+                angle: track(
+                    "angle",
+                    self.platform.angle(),
+                    hand.twist_amplitude() / scales.angle,
+                    hand.phase_lag() + lag,
+                )?,
                 friction: disk.friction(),
                 restitution: disk.restitution(),
                 load: disk.load_acceleration() / scales.angular_acceleration,

@@ -2,24 +2,24 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::read_checked;
-
-use crate::error::{Error, check, finite, not_negative, positive};
+use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 use crate::parameters::track::Track;
 
-/// One period of a height (m) or an angle (rad), not yet checked.
+/// The shape of a motion over one period: height or angle in multiples of its amplitude, where the sine of
+/// Eq. (1) has sin(tau). Not yet checked.
 ///
-/// In a file: `{ fourier = [[0.2, 0.0], [0.02, 1.5]] }`, `{ triangle = { amplitude = 0.2 } }`.
-#[derive(Debug, Clone, PartialEq)]
+/// In a file: `"triangle"`, `{ sawtooth = 0.3 }`, `{ fourier = [[1.0, 0.0], [0.1, 1.5]] }`.
+#[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Waveform {
-    /// amplitude sin(tau + phase), as in Eq. (1).
-    Sine(Swing),
+    /// sin(tau), as in Eq. (1).
+    #[default]
+    Sine,
     /// The sum of a_j sin(j tau + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most
     /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
     Fourier(Vec<(f64, f64)>),
@@ -30,79 +30,51 @@ pub enum Waveform {
     /// The periodic cubic spline through at least 3 samples at equal distances over one period.
     Sampled(Vec<f64>),
     /// Straight lines through the zeros and extremes of the sine.
-    Triangle(Swing),
-    /// Straight lines that rise for this share of the period, in [1e-9, 1 - 1e-9], and fall for the rest.
-    Sawtooth(f64, Swing),
+    Triangle,
+    /// Straight lines that rise for this share of the period, in [1e-9, 1 - 1e-9], and fall for the rest: from
+    /// 0 at tau = 0 to 1, to -1, and back.
+    Sawtooth(f64),
     /// The sine replaced by one parabola for each half of the period.
-    Parabolas(Swing),
-}
-
-/// Size and phase of a waveform.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
-pub struct Swing {
-    /// Amplitude (m or rad), not negative.
-    pub amplitude: f64,
-    /// How much earlier it is than the sine (rad).
-    #[cfg_attr(feature = "serde", serde(default))]
-    pub phase: f64,
-}
-
-impl Default for Waveform {
-    /// No motion.
-    fn default() -> Self {
-        Self::Fourier(Vec::new())
-    }
+    Parabolas,
+    /// The sine replaced by one cubic for each quarter of the period: the spline through its zeros and extremes.
+    Cubics,
 }
 
 impl Waveform {
-    /// amplitude sin(tau + phase).
-    #[must_use]
-    pub const fn sine(amplitude: f64, phase: f64) -> Self {
-        Self::Sine(Swing { amplitude, phase })
-    }
-
-    /// A triangle with its zeros and extremes where sin(tau + phase) has them.
-    #[must_use]
-    pub const fn triangle(amplitude: f64, phase: f64) -> Self {
-        Self::Triangle(Swing { amplitude, phase })
-    }
-
     /// The harmonics of a sine or a Fourier sum.
     pub(crate) fn harmonics(&self) -> Option<Vec<(f64, f64)>> {
         match self {
-            Self::Sine(Swing { amplitude, phase }) => Some(vec![(*amplitude, *phase)]),
+            Self::Sine => Some(vec![(1.0, 0.0)]),
             Self::Fourier(harmonics) => Some(harmonics.clone()),
             _ => None,
         }
     }
 
-    /// The motion in units of `unit`, `factor` times as large and `lag` (rad) earlier.
-    pub(crate) fn track(&self, of: &'static str, unit: f64, factor: f64, lag: f64) -> Result<Track, Error> {
-        let size = factor / unit;
+    /// The motion with this amplitude, `lag` (rad) earlier.
+    pub(crate) fn track(&self, of: &'static str, amplitude: f64, lag: f64) -> Result<Track, Error> {
         let refuse = |source| match source {
             bouncing_disk_core::Error::HeightJump { piece, jump } => {
-                Error::WaveformJump { of, piece, jump: jump * unit }
+                Error::WaveformJump { of, piece, jump: jump / amplitude }
             }
             source => Error::Waveform { of, source },
         };
         let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
-        let sawtooth = |rise: f64, a: f64| {
-            let (up, down) = (2.0 * a / rise, -2.0 * a / (1.0 - rise));
-            [(0.5 * rise, line(0.0, up)), (1.0 - rise, line(a, down)), (0.5 * rise, line(-a, up))]
+        let sawtooth = |rise: f64| {
+            let (up, down) = (2.0 / rise, -2.0 / (1.0 - rise));
+            [(0.5 * rise, line(0.0, up)), (1.0 - rise, line(1.0, down)), (0.5 * rise, line(-1.0, up))]
         };
-        let parabola = |a: f64| (0.5, [0.0, 8.0 * a, -16.0 * a, 0.0]);
-        let (track, phase) = match self {
-            Self::Sine(_) | Self::Fourier(_) => {
-                let earlier = |(j, (a, phi)): (usize, (f64, f64))| (size * a, phi + (j + 1) as f64 * lag);
+        let parabola = |crest: f64| (0.5, [0.0, 8.0 * crest, -16.0 * crest, 0.0]);
+        let track = match self {
+            Self::Sine | Self::Fourier(_) => {
+                let earlier =
+                    |(j, (a, phi)): (usize, (f64, f64))| (amplitude * a, phi + (j + 1) as f64 * lag);
                 let harmonics: Vec<_> =
                     self.harmonics().into_iter().flatten().enumerate().map(earlier).collect();
                 return Track::sines(&harmonics).map_err(refuse);
             }
             Self::Sampled(samples) => {
-                let samples: Vec<_> = samples.iter().map(|sample| size * sample).collect();
-                (Track::sampled(&samples), 0.0)
+                let samples: Vec<_> = samples.iter().map(|sample| amplitude * sample).collect();
+                Track::sampled(&samples)
             }
             Self::Pieces(pieces) => {
                 let total = pieces.iter().fold(0.0, |sum, (duration, _)| sum + duration);
@@ -110,32 +82,27 @@ impl Waveform {
                     let legal = (total - 1.0).abs() <= 1.0e-12;
                     check(legal, "sum of the durations of the pieces", total, "1 (in periods)")?;
                 }
-                (pieces_of(pieces, size), 0.0)
+                pieces_of(pieces, amplitude)
             }
-            Self::Triangle(Swing { amplitude, phase }) => {
-                (pieces_of(&sawtooth(0.5, *amplitude), size), *phase)
-            }
-            Self::Sawtooth(rise, Swing { amplitude, phase }) => {
+            Self::Triangle => pieces_of(&sawtooth(0.5), amplitude),
+            Self::Sawtooth(rise) => {
                 let legal = (1.0e-9..=1.0 - 1.0e-9).contains(rise);
                 check(legal, "rise", *rise, "[1e-9, 1 - 1e-9], a share of the period")?;
-                (pieces_of(&sawtooth(*rise, *amplitude), size), *phase)
+                pieces_of(&sawtooth(*rise), amplitude)
             }
-            Self::Parabolas(Swing { amplitude, phase }) => {
-                (pieces_of(&[parabola(*amplitude), parabola(-amplitude)], size), *phase)
+            Self::Parabolas => pieces_of(&[parabola(1.0), parabola(-1.0)], amplitude),
+            Self::Cubics => {
+                let rise = |side: f64| (0.25, [0.0, 6.0 * side, 0.0, -32.0 * side]);
+                let fall = |side: f64| (0.25, [side, 0.0, -24.0 * side, 32.0 * side]);
+                pieces_of(&[rise(1.0), fall(1.0), rise(-1.0), fall(-1.0)], amplitude)
             }
         };
-        track.and_then(|track| track.earlier(phase + lag)).map_err(refuse)
+        track.and_then(|track| track.earlier(lag)).map_err(refuse)
     }
 
-    /// Checks what does not depend on the disk.
+    /// Checks what does not depend on amplitude and disk.
     fn check(&self, of: &'static str) -> Result<(), Error> {
-        if let Self::Sine(swing) | Self::Triangle(swing) | Self::Sawtooth(_, swing) | Self::Parabolas(swing) =
-            self
-        {
-            not_negative("amplitude", swing.amplitude)?;
-            finite("phase", swing.phase)?;
-        }
-        // In units so large that no acceleration is in the way.
+        // So small that no acceleration is in the way.
         let largest = match self {
             Self::Fourier(harmonics) => harmonics.iter().fold(0.0, |most: f64, (a, _)| most.max(a.abs())),
             Self::Pieces(pieces) => {
@@ -147,8 +114,8 @@ impl Waveform {
             }
             _ => 1.0,
         };
-        let unit = if largest > 0.0 && largest.is_finite() { largest } else { 1.0 };
-        self.track(of, unit, 1.0, 0.0).map(|_| ())
+        let amplitude = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
+        self.track(of, amplitude, 0.0).map(|_| ())
     }
 }
 
@@ -161,61 +128,61 @@ fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Track, bouncing_di
     Track::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
-/// A platform whose height and angle are any [`Waveform`]s of one period.
+/// A [`Platform`] whose sines are replaced by any [`Waveform`]s: height A f(tau), angle Phi h(tau + theta). The
+/// axial forcing Gamma = A omega^2/(pi g) keeps its meaning, whatever the shape.
 ///
 /// ```
+/// use bouncing_disk::System;
 /// use bouncing_disk::parameters::{DrivenPlatform, Waveform};
 ///
 /// // The hand of Table I, moved along straight lines.
-/// assert!(DrivenPlatform::new(15.0, Waveform::triangle(0.21, 0.0), Waveform::sine(0.97, 0.0)).is_ok());
+/// let hand = *System::pizza_toss().platform();
+/// assert!(DrivenPlatform::new(hand, Waveform::Triangle, Waveform::Triangle).is_ok());
 /// ```
 #[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "UncheckedPlatform"))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct DrivenPlatform {
-    angular_frequency: f64,
+    platform: Platform,
     height: Waveform,
     angle: Waveform,
 }
 
-read_checked!(DrivenPlatform as UncheckedPlatform {
-    angular_frequency: f64,
-    height: Waveform,
-    #[serde(default)]
-    angle: Waveform,
-});
-
 impl DrivenPlatform {
-    /// A platform with this angular frequency of the fundamental (rad/s), height (m) and angle (rad; none if absent
-    /// in a file).
+    /// A platform with these shapes of height and angle.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number outside its range; [`Error::Waveform`] and [`Error::WaveformJump`] name
     /// the waveform and its harmonic, piece or sample.
-    pub fn new(angular_frequency: f64, height: Waveform, angle: Waveform) -> Result<Self, Error> {
-        let platform = Self { angular_frequency, height, angle };
-        platform.check().map(|()| platform)
+    pub fn new(platform: Platform, height: Waveform, angle: Waveform) -> Result<Self, Error> {
+        height.check("height")?;
+        angle.check("angle")?;
+        Ok(Self { platform, height, angle })
     }
 
-    fn check(&self) -> Result<(), Error> {
-        positive("angular_frequency", self.angular_frequency)?;
-        self.height.check("height")?;
-        self.angle.check("angle")
+    /// This platform with the motion of a file's table.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] where the motion is a schedule.
+    pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
+        if drive.is_schedule() {
+            return Err(Error::ScheduledDrive);
+        }
+        Self::new(platform, drive.height.clone(), drive.angle.clone())
     }
 
-    /// Angular frequency of the fundamental (rad/s): the period is 2 pi over it.
+    /// Amplitudes, frequency and phase lag.
     #[must_use]
-    pub const fn angular_frequency(&self) -> f64 {
-        self.angular_frequency
+    pub const fn platform(&self) -> &Platform {
+        &self.platform
     }
 
-    /// The height (m) over a period.
+    /// The shape of the height.
     #[must_use]
     pub const fn height(&self) -> &Waveform {
         &self.height
     }
 
-    /// The angle (rad) over a period.
+    /// The shape of the angle.
     #[must_use]
     pub const fn angle(&self) -> &Waveform {
         &self.angle
@@ -224,35 +191,109 @@ impl DrivenPlatform {
     /// The SI values of the units in which a motion of this disk is computed.
     #[must_use]
     pub fn scales(&self, disk: &Disk) -> Scales {
-        Scales::of(self.angular_frequency, disk)
+        Scales::new(&self.platform, disk)
     }
 }
 
 impl From<Platform> for DrivenPlatform {
     /// The platform of Eq. (1).
     fn from(platform: Platform) -> Self {
-        Self {
-            angular_frequency: platform.angular_frequency(),
-            height: Waveform::sine(platform.amplitude(), 0.0),
-            angle: Waveform::sine(platform.twist_amplitude(), platform.phase_lag()),
-        }
+        Self { platform, height: Waveform::Sine, angle: Waveform::Sine }
     }
+}
+
+/// The table `[drive]` of a file: how the platform moves in place of the sine of Eq. (1).
+/// [`DrivenPlatform::of_drive`] checks it, and
+/// [`Schedule::of_drive`](crate::driven::Schedule::of_drive) where it has segments.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
+pub struct DriveParameters {
+    /// The shape of the height.
+    pub height: Waveform,
+    /// The shape of the angle.
+    pub angle: Waveform,
+    /// Phase at which the first segment starts (rad).
+    pub start_phase: f64,
+    /// Motions one after the other; without any the motion is periodic.
+    pub segments: Vec<ScheduleSegment>,
+    /// What comes after the last segment.
+    pub then: AfterSchedule,
+}
+
+impl DriveParameters {
+    /// Whether the platform moves as in Eq. (1).
+    #[must_use]
+    pub fn is_sine(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Whether segments follow one another, in place of a periodic motion.
+    #[must_use]
+    pub fn is_schedule(&self) -> bool {
+        !self.segments.is_empty() || self.start_phase != 0.0 || self.then != AfterSchedule::Repeat
+    }
+}
+
+/// A part of a [`Schedule`](crate::driven::Schedule), by factors of the schedule's platform.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
+pub struct ScheduleSegment {
+    /// Duration in its own periods, in (0, 1e5].
+    pub periods: f64,
+    /// Height and angle are this many times those of the platform, in [0, 1e6].
+    pub amplitude: f64,
+    /// The same at the end of a ramp, linear in time, in [0, 1e6]; `None` for a constant amplitude.
+    pub ramp_to: Option<f64>,
+    /// The frequency is this many times that of the platform, in (0, 1e6].
+    pub frequency: f64,
+    /// The angle is this much (rad of the fundamental) earlier than the platform's.
+    pub lag: f64,
+}
+
+impl Default for ScheduleSegment {
+    /// One period of the platform's own motion.
+    fn default() -> Self {
+        Self { periods: 1.0, amplitude: 1.0, ramp_to: None, frequency: 1.0, lag: 0.0 }
+    }
+}
+
+/// What comes after the last segment of a schedule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum AfterSchedule {
+    /// The last segment goes on for ever.
+    #[default]
+    Repeat,
+    /// The platform stays where it is; a disk in the air comes down and settles on it.
+    Rest,
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bouncing_disk_core::Drive;
     use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
+
+    fn hand() -> Platform {
+        *crate::System::pizza_toss().platform()
+    }
 
     /// Each waveform some phase earlier is the same motion read later.
     #[test]
     fn a_phase_begins_the_period_elsewhere() {
-        let samples = || Waveform::Sampled(vec![0.1, 0.2, -0.3, 0.05, 0.0]);
-        let shapes: [fn(Swing) -> Waveform; 4] =
-            [Waveform::Sine, Waveform::Triangle, |swing| Waveform::Sawtooth(0.8, swing), Waveform::Parabolas];
-        let shapes = shapes.map(|shape| shape(Swing { amplitude: 0.3, phase: 0.4 }));
-        for shape in shapes.into_iter().chain([samples()]) {
-            let track = |lag| shape.track("height", 0.1, 1.0, lag).expect("legal");
+        for shape in [
+            Waveform::Sine,
+            Waveform::Fourier(vec![(0.8, 0.4), (0.2, -1.0)]),
+            Waveform::Triangle,
+            Waveform::Sawtooth(0.8),
+            Waveform::Parabolas,
+            Waveform::Cubics,
+            Waveform::Sampled(vec![0.1, 0.2, -0.3, 0.05, 0.0]),
+        ] {
+            let track = |lag| shape.track("height", 3.0, lag).expect("legal");
             let own = track(0.0);
             for lag in [0.7, -2.0, 0.5 * TAU, 5.0, -0.4] {
                 let shifted = track(lag);
@@ -268,7 +309,6 @@ mod tests {
     #[test]
     fn bad_waveforms_are_refused_with_their_place() {
         let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
-        let nan = Swing { amplitude: 0.1, phase: f64::NAN };
         for (height, words) in [
             (Waveform::Fourier(vec![(0.1, 0.0), (f64::NAN, 0.0)]), "height: harmonic number 1"),
             (Waveform::Fourier(vec![(0.1, 0.0); MAX_HARMONICS + 1]), "at most 32"),
@@ -278,31 +318,54 @@ mod tests {
             (Waveform::Pieces(vec![(f64::NAN, line(0.0, 0.0))]), "piece number 0 of 1"),
             (
                 Waveform::Pieces(vec![(0.5, line(0.0, 0.2)), (0.5, line(0.125, -0.25))]),
-                "the height jumps by 0.025",
+                "the height jumps by 0.025 amplitudes",
             ),
             (Waveform::Sampled(vec![0.0, 0.1]), "number of samples = 2"),
             (Waveform::Sampled(vec![0.0, 0.1, f64::INFINITY]), "sample number 2 of 3"),
             (Waveform::Sampled(vec![0.0; MAX_PIECES + 1]), "samples"),
-            (Waveform::sine(-0.1, 0.0), "amplitude = -0.1"),
-            (Waveform::Triangle(nan), "phase = NaN"),
-            (Waveform::Sawtooth(1.0, Swing { amplitude: 0.1, phase: 0.0 }), "rise = 1"),
+            (Waveform::Sawtooth(1.0), "rise = 1"),
         ] {
-            let refused = DrivenPlatform::new(15.0, height, Waveform::default()).expect_err("refused");
+            let refused = DrivenPlatform::new(hand(), height, Waveform::Sine).expect_err("refused");
             assert!(refused.to_string().contains(words), "{refused}");
         }
-        assert!(DrivenPlatform::new(0.0, Waveform::default(), Waveform::default()).is_err());
     }
 
-    #[cfg(feature = "json")]
+    /// Each shape of a name is the core's, with the amplitude A.
     #[test]
-    fn a_platform_is_read_as_it_is_written() {
-        let text = r#"{"angular_frequency": 15, "height": {"fourier": [[0.2, 0], [0.02, 1.5]]},
-            "angle": {"sawtooth": [0.3, {"amplitude": 0.9}]}}"#;
-        let platform: DrivenPlatform = serde_json::from_str(text).expect("legal");
-        assert_eq!(platform.height(), &Waveform::Fourier(vec![(0.2, 0.0), (0.02, 1.5)]));
-        let again = serde_json::to_string(&platform).expect("written");
-        assert_eq!(serde_json::from_str::<DrivenPlatform>(&again).expect("read"), platform);
-        assert!(serde_json::from_str::<DrivenPlatform>(&text.replace("0.9", "-1")).is_err());
-        assert!(serde_json::from_str::<DrivenPlatform>(&text.replace("amplitude", "size")).is_err());
+    fn named_shapes_are_those_of_the_core() {
+        for (shape, drive) in [
+            (Waveform::Triangle, Drive::triangle(0.3)),
+            (Waveform::Sawtooth(0.8), Drive::sawtooth(0.3, 0.8)),
+            (Waveform::Parabolas, Drive::parabolas(0.3)),
+            (Waveform::Cubics, Drive::cubics(0.3)),
+        ] {
+            let (track, drive) = (shape.track("height", 0.3, 0.0).expect("legal"), drive.expect("legal"));
+            for k in 0..97 {
+                let (own, other) = (track.at(0.065 * f64::from(k)), drive.at(0.065 * f64::from(k)));
+                assert!((own.height - other.height).abs() < 1e-15, "{shape:?} {k}");
+                assert!((own.velocity - other.velocity).abs() < 1e-15, "{shape:?} {k}");
+            }
+        }
+    }
+
+    #[cfg(feature = "toml")]
+    #[test]
+    fn a_drive_is_read_as_it_is_written() {
+        let text = "height = { fourier = [[1, 0.0], [0.1, 1.5]] }\nangle = \"triangle\"\n";
+        let drive: DriveParameters = toml::from_str(text).expect("legal");
+        assert_eq!(drive.height, Waveform::Fourier(vec![(1.0, 0.0), (0.1, 1.5)]));
+        assert_eq!((&drive.angle, drive.is_schedule()), (&Waveform::Triangle, false));
+        assert!(DrivenPlatform::of_drive(hand(), &drive).is_ok());
+        let schedule = format!("{text}then = \"rest\"\n[[segments]]\nperiods = 2.25\nlag = 0.3\n");
+        let drive: DriveParameters = toml::from_str(&schedule).expect("legal");
+        assert_eq!((drive.segments[0].lag, drive.then), (0.3, AfterSchedule::Rest));
+        assert_eq!(DrivenPlatform::of_drive(hand(), &drive), Err(Error::ScheduledDrive));
+        let again = toml::to_string(&drive).expect("written");
+        assert_eq!(toml::from_str::<DriveParameters>(&again).expect("read"), drive);
+        for (from, to) in [("angle", "angel"), ("lag", "leg"), ("triangle", "triangel")] {
+            let refused =
+                toml::from_str::<DriveParameters>(&schedule.replace(from, to)).expect_err("refused");
+            assert!(refused.to_string().contains(to), "{refused}");
+        }
     }
 }

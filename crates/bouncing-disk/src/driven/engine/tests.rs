@@ -3,7 +3,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::motion::engine::Engine;
 use crate::motion::event::Event;
-use crate::parameters::driven_platform::{Swing, Waveform};
+use crate::parameters::driven_platform::Waveform;
 use crate::testing;
 
 /// What rounding leaves, relative to the sizes of what is compared.
@@ -190,12 +190,12 @@ proptest! {
 }
 
 fn waveforms() -> impl Strategy<Value = Waveform> {
-    let swing = || (0.0..4.0_f64, 0.0..6.0_f64).prop_map(|(amplitude, phase)| Swing { amplitude, phase });
     prop_oneof![
-        swing().prop_map(Waveform::Sine),
-        swing().prop_map(Waveform::Triangle),
-        (0.05..0.95_f64, swing()).prop_map(|(rise, swing)| Waveform::Sawtooth(rise, swing)),
-        swing().prop_map(Waveform::Parabolas),
+        Just(Waveform::Sine),
+        Just(Waveform::Triangle),
+        (0.05..0.95_f64).prop_map(Waveform::Sawtooth),
+        Just(Waveform::Parabolas),
+        Just(Waveform::Cubics),
         proptest::collection::vec((-0.5..0.5_f64, 0.0..6.0_f64), 0..5).prop_map(Waveform::Fourier),
         proptest::collection::vec(-1.0..1.0_f64, 3..12).prop_map(Waveform::Sampled),
     ]
@@ -205,10 +205,14 @@ fn systems() -> impl Strategy<Value = DrivenSystem> {
     let friction = prop_oneof![1 => Just(0.0), 5 => 0.01..1.5_f64];
     let restitution = prop_oneof![1 => Just(0.0), 5 => 0.0..0.95_f64, 1 => Just(1.0 - 1e-9)];
     let load = prop_oneof![1 => Just(0.0), 2 => -0.5..0.5_f64];
-    (waveforms(), waveforms(), friction, restitution, load).prop_map(
+    let track = |of| {
+        (waveforms(), 0.0..4.0_f64, 0.0..6.0_f64)
+            .prop_map(move |(shape, amplitude, lag)| shape.track(of, amplitude, lag).expect("legal"))
+    };
+    (track("height"), track("angle"), friction, restitution, load).prop_map(
         |(height, angle, friction, restitution, load)| DrivenSystem {
-            height: height.track("height", 1.0, 1.0, 0.0).expect("legal"),
-            angle: angle.track("angle", 1.0, 1.0, 0.0).expect("legal"),
+            height,
+            angle,
             friction,
             restitution,
             load,
@@ -245,8 +249,7 @@ fn the_comparison_meets_every_event() {
 #[test]
 fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
-    let track =
-        |speed: f64| Waveform::triangle(speed * quarter, 0.0).track("height", 1.0, 1.0, 0.0).expect("legal");
+    let track = |speed: f64| Waveform::Triangle.track("height", speed * quarter, 0.0).expect("legal");
     let system =
         DrivenSystem { height: track(u), angle: track(b), friction: 0.5, restitution: 0.4, load: 0.0 };
     let still = DrivenSystem { height: track(0.0), ..system.clone() };

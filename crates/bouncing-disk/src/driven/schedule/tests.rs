@@ -148,8 +148,7 @@ fn bad_schedules_are_refused_by_name() {
             "height: acceleration",
         ),
     ];
-    let triangle =
-        DrivenPlatform::new(15.0, Waveform::triangle(0.2, 0.0), Waveform::default()).expect("legal");
+    let triangle = DrivenPlatform::new(hand(), Waveform::Triangle, Waveform::Sine).expect("legal");
     let ramp = schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Rest);
     list.push((Schedule { platform: triangle, ..ramp }, "segment 0 is a ramp of pieces"));
     for (schedule, words) in list {
