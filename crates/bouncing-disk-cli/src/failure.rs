@@ -71,7 +71,13 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::NeitherGiven { .. }
             | Error::BothGiven { .. }
             | Error::EmptyAxis { .. }
-            | Error::RepeatedAxis { .. } => Self::Usage(error.to_string()),
+            | Error::RepeatedAxis { .. }
+            | Error::Waveform { .. }
+            | Error::WaveformJump { .. }
+            | Error::DriveNotSine
+            | Error::ScheduledDrive
+            | Error::ScheduleJump { .. }
+            | Error::RampOfPieces { .. } => Self::Usage(error.to_string()),
             _ => Self::Failed(error.to_string()),
         }
     }

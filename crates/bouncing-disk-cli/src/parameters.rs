@@ -7,6 +7,7 @@ pub(crate) mod system;
 use std::fmt::Debug;
 use std::path::{Path, PathBuf};
 
+use bouncing_disk::parameters::DriveParameters;
 use bouncing_disk::regular_file;
 use clap::{Args, ValueEnum};
 use serde::de::DeserializeOwned;
@@ -22,8 +23,8 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     const PRESETS: Words<fn() -> Self>;
 
     /// Reads a file; the settings take the place of what it says before anything is checked, so that they can
-    /// put a wrong file right.
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String>;
+    /// put a wrong file right. The second is the table `[drive]`.
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
 
     /// A file that is read to the same parameters, with comments.
     fn template(&self) -> String;
@@ -58,7 +59,12 @@ impl<D: Described> SourceArgs<D> {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
     }
 
+    /// The parameters of what is computed for a sine only.
     pub(crate) fn get(&self) -> Result<D> {
+        sine(self.driven()?)
+    }
+
+    fn driven(&self) -> Result<(D, DriveParameters)> {
         let (text, format) = match &self.file {
             Some(path) => read_text(path)?,
             // A template is read to the same parameters, to the last bit.
@@ -75,22 +81,60 @@ impl<D: Described> SourceArgs<D> {
     }
 
     /// The parameters; `None` if the template was asked for, which is then written.
-    pub(crate) fn unless_template(&self, output: &OutputArgs, context: Context) -> Result<Option<D>> {
-        let parameters = self.get()?;
+    pub(crate) fn driven_unless_template(
+        &self,
+        output: &OutputArgs,
+        context: Context,
+    ) -> Result<Option<(D, DriveParameters)>> {
+        let (parameters, drive) = self.driven()?;
         if self.template {
-            output.write_template(&parameters.template(), context.quiet)?;
+            if !drive.is_sine() {
+                let copy = "--template writes no table [drive]: copy that of the file".to_owned();
+                return Err(Failure::Usage(copy));
+            }
+            output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
+            return Ok(None);
         }
-        Ok((!self.template).then_some(parameters))
+        Ok(Some((parameters, drive)))
     }
 
     /// The same, if the result can be written.
-    pub(crate) fn begin(&self, output: &OutputArgs, picture: bool, context: Context) -> Result<Option<D>> {
+    pub(crate) fn begin_driven(
+        &self,
+        output: &OutputArgs,
+        picture: bool,
+        context: Context,
+    ) -> Result<Option<(D, DriveParameters)>> {
         if !self.template {
             output.check(picture, &self.inputs(), None)?;
         }
-        self.unless_template(output, context)
+        self.driven_unless_template(output, context)
+    }
+
+    /// [`Self::driven_unless_template`] of what is computed for a sine only.
+    pub(crate) fn unless_template(&self, output: &OutputArgs, context: Context) -> Result<Option<D>> {
+        self.driven_unless_template(output, context)?.map(sine).transpose()
+    }
+
+    /// [`Self::begin_driven`] of what is computed for a sine only.
+    pub(crate) fn begin(&self, output: &OutputArgs, picture: bool, context: Context) -> Result<Option<D>> {
+        self.begin_driven(output, picture, context)?.map(sine).transpose()
     }
 }
+
+fn sine<D>((parameters, drive): (D, DriveParameters)) -> Result<D> {
+    drive.sine()?;
+    Ok(parameters)
+}
+
+/// The end of a template.
+const DRIVE: &str = "\
+# How the platform moves in place of the sine, for toss, diagram, orbits, basins, motor transient and motor curve.
+# Shapes: sine, triangle, parabolas, cubics, { sawtooth = 0.3 }, { fourier = [[1.0, 0.0], [0.1, 1.5]] }, { sampled = [...] }
+# [drive]
+# height = \"triangle\"
+# angle = \"sine\"
+";
 
 /// A key and the number that it is given on the command line. Whether there is such a key, and whether the
 /// number is legal, is seen where it is set.
@@ -159,9 +203,9 @@ fn parse<T: DeserializeOwned>(text: &str, format: Format) -> Result<T, String> {
     }
 }
 
-/// The words of a reader; those on an unknown key, which has the known ones after it, name the nearest.
+/// The words of a reader; those on an unknown key or shape, which has the known ones after it, name the nearest.
 fn in_words(reason: &str) -> String {
-    match reason.strip_prefix("unknown field ") {
+    match reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant ")) {
         Some(keys) => {
             let mut keys = keys.split('`').skip(1).step_by(2);
             unknown(keys.next().unwrap_or_default(), keys)

@@ -142,6 +142,12 @@ pub enum Error {
         /// By how much, in amplitudes.
         jump: f64,
     },
+    /// A file with a drive where only the sine can be computed.
+    #[error(
+        "this computes the sine of Eq. (1) only, and the table [drive] is another motion: leave it out; tosses, orbit diagrams, \
+         periodic orbits, basins, transients and speeds over the load take any drive"
+    )]
+    DriveNotSine,
     /// A schedule in place of a periodic motion.
     #[error(
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or compute a toss"

@@ -1,14 +1,16 @@
 //! `bouncing-disk basins`: which impacts lead where.
 
+use bouncing_disk::core::DrivenMap;
 use bouncing_disk::core::attractors::{
-    ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid, Label,
-    UNDECIDED,
+    ATTACHED, AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings,
+    FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED,
 };
-use bouncing_disk::core::orbits::PeriodicOrbit;
+use bouncing_disk::core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
+use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, VERTICAL, map};
+use super::map::{MapArgs, VERTICAL, and_shape, driven_map, is_sine, map, shape};
 use super::prelude::*;
 
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
@@ -19,7 +21,9 @@ const FORCING: f64 = 0.486;
 #[command(after_help = "\
 The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
 as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. See docs/studying-the-dynamics.md.
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. On a \
+[drive] other than the sine they are the attracting orbits of up to 8 impacts; an impact within 0.001 rad of one counts as caught, \
+and chaos stays undecided. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk basins --out basins.png
@@ -56,7 +60,8 @@ pub(crate) struct BasinsArgs {
 }
 
 pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
-    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let given = args.map.system.driven_unless_template(&args.output, context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let job = BasinsJob {
         axial_forcing,
@@ -66,6 +71,7 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
         normalised_speed: args.speed,
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
+        drive: shape(&system, &drive)?,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
@@ -80,6 +86,23 @@ pub(crate) struct BasinsJob {
     normalised_speed: [f64; 2],
     settings: BasinSettings,
     search: AttractorSearch,
+    /// The shape of the height.
+    #[serde(default, skip_serializing_if = "is_sine")]
+    drive: Waveform,
+}
+
+/// How near an impact must come to an orbit of a drive that is no sine (rad).
+const RADIUS: f64 = 1e-3;
+
+/// Impacts and platform periods of the orbits that are looked for on such a drive, and starts along each axis.
+const LONGEST: usize = 8;
+const ORBIT_STARTS: u32 = 32;
+
+/// What impacts lead to.
+pub(crate) enum Known {
+    Sine(Attractors),
+    /// The attracting orbits of a platform that is no sine.
+    Driven(DrivenMap, Vec<KnownOrbit>),
 }
 
 impl BasinsJob {
@@ -106,30 +129,43 @@ impl GridJob for BasinsJob {
     /// memory.
     type Row = String;
 
-    type Prepared = Attractors;
+    type Prepared = Known;
 
     fn rows(&self) -> usize {
         self.cells
     }
 
-    fn prepare(&self, observer: &dyn Observer) -> Result<Attractors> {
+    fn prepare(&self, observer: &dyn Observer) -> Result<Known> {
         self.window()?;
         // The search is a small part of the work, and has no part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
-        Ok(map(self.axial_forcing, self.restitution)?.attractors(&self.search, &silent)?)
+        if is_sine(&self.drive) {
+            let map = map(self.axial_forcing, self.restitution)?;
+            return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
+        }
+        let map = driven_map(&self.drive, self.axial_forcing, self.restitution)?;
+        let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(ORBIT_STARTS, ORBIT_STARTS)?;
+        let orbits = map.periodic_orbits(&search, &silent)?;
+        let stable = orbits.into_iter().filter(|orbit| orbit.stability() == Stability::Stable);
+        let known = stable.map(|orbit| KnownOrbit::new(orbit, RADIUS)).collect::<Result<_, _>>()?;
+        Ok(Known::Driven(map, known))
     }
 
-    fn compute(&self, attractors: &Attractors, rows: Rows, observer: &dyn Observer) -> Result<Vec<String>> {
+    fn compute(&self, known: &Known, rows: Rows, observer: &dyn Observer) -> Result<Vec<String>> {
         let own = rows.len() as u64;
         // A row may count twice there.
         let within = |Progress { done, total }| {
             observer.observe(Progress { done: done * own / total.max(1), total: own })
         };
-        let labelled = attractors.basins_of_rows(self.window()?, rows, self.settings, &within)?;
+        let (window, settings) = (self.window()?, self.settings);
+        let labelled = match known {
+            Known::Sine(attractors) => attractors.basins_of_rows(window, rows, settings, &within)?,
+            Known::Driven(map, orbits) => map.basins_of_rows(window, rows, orbits, settings, &within)?,
+        };
         Ok(labelled.labels().chunks(self.cells).map(hexadecimal).collect())
     }
 
-    fn report<'a>(&'a self, attractors: &'a Attractors, rows: &'a [String]) -> Result<Report<'a>> {
+    fn report<'a>(&'a self, known: &'a Known, rows: &'a [String]) -> Result<Report<'a>> {
         let window = self.window()?;
         let labels = move || rows.iter().flat_map(|row| of_hexadecimal(row));
         let count = labels().count();
@@ -139,7 +175,7 @@ impl GridJob for BasinsJob {
         }
         let mut counts = [0_u64; 256];
         labels().for_each(|label| counts[usize::from(label)] += 1);
-        let legend = legend(attractors);
+        let legend = legend(known);
         let counted = |(label, words): &(Label, String)| (*label, words.clone(), counts[usize::from(*label)]);
         let all: Vec<(Label, String, u64)> = legend.iter().map(counted).collect();
         let columns = Columns::<(Label, String, u64)>::new()
@@ -150,8 +186,11 @@ impl GridJob for BasinsJob {
         // Undecided cells are listed only if there are any.
         let shown = columns.to_text(all.iter().filter(|(label, _, count)| *label != UNDECIDED || *count > 0));
         let text = format!(
-            "axial forcing {}, restitution {}, {} by {2} cells\n{shown}",
-            self.axial_forcing, self.restitution, self.cells
+            "axial forcing {}, restitution {}, {} by {2} cells{}\n{shown}",
+            self.axial_forcing,
+            self.restitution,
+            self.cells,
+            and_shape(&self.drive)
         );
         let listed = move || {
             let all = all.clone().into_iter();
@@ -159,12 +198,13 @@ impl GridJob for BasinsJob {
         };
         let figure = move || {
             let basins = pictures::Basins {
-                title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution),
+                title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution)
+                    + &and_shape(&self.drive),
                 phases: self.phase_periods,
                 speeds: self.normalised_speed,
                 labels: &labels().collect::<Vec<_>>(),
                 legend: &legend,
-                impacts: &impacts(attractors),
+                impacts: &impacts(known),
             };
             basins.draw()
         };
@@ -185,7 +225,10 @@ impl GridJob for BasinsJob {
             table: Box::new(table),
             data: vec![
                 ("labels", json::list(listed)),
-                ("attractors", stored(attractors)?),
+                match known {
+                    Known::Sine(attractors) => ("attractors", stored(attractors)?),
+                    Known::Driven(_, orbits) => ("known_orbits", stored(orbits)?),
+                },
                 ("hexadecimal_labels_by_speed", stored(rows)?),
             ],
             figure: Some(Box::new(figure)),
@@ -204,8 +247,16 @@ fn of_hexadecimal(row: &str) -> impl Iterator<Item = Label> + '_ {
 }
 
 /// The labels and what they stand for, in their order.
-fn legend(attractors: &Attractors) -> Vec<(Label, String)> {
+fn legend(known: &Known) -> Vec<(Label, String)> {
     let mut legend = vec![(UNDECIDED, "undecided".to_owned())];
+    let attractors = match known {
+        Known::Sine(attractors) => attractors,
+        Known::Driven(_, orbits) => {
+            legend.push((ATTACHED, "comes to rest".to_owned()));
+            legend.extend((FIRST_ORBIT..).zip(orbits.iter().map(|known| of_orbit(known.orbit()))));
+            return legend;
+        }
+    };
     for (number, attractor) in attractors.all().iter().enumerate() {
         let Some(label) = attractors.label(number) else { continue };
         let words = match &attractor.kind {
@@ -236,14 +287,21 @@ fn of_orbit(orbit: &PeriodicOrbit) -> String {
 }
 
 /// The impacts of the periodic attractors: label, phase (periods), normalised speed.
-fn impacts(attractors: &Attractors) -> Vec<(Label, f64, f64)> {
-    let periodic =
-        attractors.all().iter().enumerate().filter_map(|(number, attractor)| match &attractor.kind {
-            AttractorKind::Periodic(known) => Some((attractors.label(number)?, known.orbit())),
-            AttractorKind::Marginal(orbit) => Some((attractors.label(number)?, orbit)),
-            _ => None,
-        });
+fn impacts<'a>(known: &'a Known) -> Vec<(Label, f64, f64)> {
+    let periodic: Vec<_> = match known {
+        Known::Sine(attractors) => {
+            let numbered = attractors.all().iter().enumerate();
+            let of_kind = |(number, attractor): (usize, &'a Attractor)| match &attractor.kind {
+                AttractorKind::Periodic(known) => Some((attractors.label(number)?, known.orbit())),
+                AttractorKind::Marginal(orbit) => Some((attractors.label(number)?, orbit)),
+                _ => None,
+            };
+            numbered.filter_map(of_kind).collect()
+        }
+        Known::Driven(_, orbits) => (FIRST_ORBIT..).zip(orbits.iter().map(KnownOrbit::orbit)).collect(),
+    };
     periodic
+        .into_iter()
         .flat_map(|(label, orbit)| {
             orbit.states.iter().map(move |state| (label, state.phase().cycles(), state.normalised_speed()))
         })

@@ -1,17 +1,19 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
-use bouncing_disk::Observer;
+use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
 use bouncing_disk::core::{
     ChatterPolicy, ImpactState, Orbit,
     sweep::{MAX_RECORDED, orbit_diagram},
 };
+use bouncing_disk::parameters::Waveform;
+use bouncing_disk::{Observer, Progress};
 use bouncing_disk_plot::Figure;
 use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, STARTS, Start, VERTICAL, map, single};
+use super::map::{MapArgs, STARTS, Start, VERTICAL, and_shape, driven_map, is_sine, map, shape, single};
 use super::prelude::*;
 
 /// Forcings of the paper's Fig. 6.
@@ -36,7 +38,7 @@ pub(crate) struct DiagramArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given"))]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given, of a [drive] `rest` and `rise`"))]
     start: Vec<Start>,
     /// Impacts to discard before the recorded ones
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 3_000)]
@@ -51,19 +53,30 @@ pub(crate) struct DiagramArgs {
 }
 
 pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
-    let Some(system) = args.map.system.unless_template(&args.output, context)? else { return Ok(()) };
+    let given = args.map.system.driven_unless_template(&args.output, context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
+    let drive = shape(&system, &drive)?;
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
-    let starts = if args.start.is_empty() { vec![Start::Rest, Start::PeriodOne] } else { args.start.clone() };
+    let starts = match (&args.start[..], is_sine(&drive)) {
+        ([], true) => vec![Start::Rest, Start::PeriodOne],
+        ([], false) => vec![Start::Rest, Start::Rise],
+        (starts, is_sine) if is_sine || !starts.contains(&Start::PeriodOne) => starts.to_vec(),
+        _ => return Err(Failure::Usage(NO_PERIOD_ONE.to_owned())),
+    };
     let job = DiagramJob {
         axial_forcings,
         restitution: single(restitutions, "--restitution")?,
         starts,
         transient: args.transient,
         recorded: args.recorded,
+        drive,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
+
+const NO_PERIOD_ONE: &str =
+    "--start period-1: its closed form is that of the sine; give rest, rise or PHASE,SPEED";
 
 /// Phases nearer than this count as one (periods).
 const SAME_PHASE: f64 = 1e-6;
@@ -79,6 +92,9 @@ pub(crate) struct DiagramJob {
     starts: Vec<Start>,
     transient: usize,
     recorded: usize,
+    /// The shape of the height.
+    #[serde(default, skip_serializing_if = "is_sine")]
+    drive: Waveform,
 }
 
 /// The impacts of one forcing and one start: phases (periods) and normalised speeds.
@@ -144,14 +160,38 @@ impl<'a> Diagram<'a> {
     }
 
     fn draw(self) -> Figure {
-        let DiagramJob { axial_forcings, restitution, starts, .. } = self.job;
-        let named = |start: &Start| (start.in_words(), Vec::new());
+        let DiagramJob { axial_forcings, restitution, starts, drive, .. } = self.job;
+        let named = |start: &Start| (start.in_words() + &and_shape(drive), Vec::new());
         let mut starts: Vec<OrbitsFrom> = starts.iter().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
             starts[start].1.push((forcing, phase, speed));
         }
         let axial_forcings = axial_forcings.cell_ends(0.01);
         OrbitDiagram { axial_forcings, restitution: *restitution, starts: &starts }.draw()
+    }
+}
+
+impl DiagramJob {
+    /// The rows of a platform that is no sine.
+    fn compute_driven(&self, rows: Rows, observer: &dyn Observer) -> Result<Vec<Column>> {
+        let of_row = |row| driven_map(&self.drive, self.axial_forcings.value(row), self.restitution);
+        let maps = rows.map(of_row).collect::<Result<Vec<_>>>()?;
+        // Neither start depends on the forcing.
+        let sine = map(0.0, self.restitution)?;
+        let mut columns = vec![Column::new(); maps.len()];
+        for (number, start) in self.starts.iter().enumerate() {
+            let part = |Progress { done, total }| {
+                let total_of = total * self.starts.len() as u64;
+                observer.observe(Progress { done: number as u64 * total + done, total: total_of })
+            };
+            let Some(state) = start.of(&sine)? else { continue };
+            let (transient, policy) = (self.transient, ChatterPolicy::Complete);
+            let found = driven_diagram(&maps, state, transient, self.recorded, policy, &part)?;
+            for (column, impacts) in columns.iter_mut().zip(found) {
+                column.push(Some(Impacts::of(&impacts)));
+            }
+        }
+        Ok(columns)
     }
 }
 
@@ -171,6 +211,7 @@ impl GridJob for DiagramJob {
         let (low, high) = self.axial_forcings.ends();
         for forcing in [low, high] {
             map(forcing, self.restitution)?;
+            driven_map(&self.drive, forcing, self.restitution)?;
         }
         let orbits = (self.axial_forcings.count() * self.starts.len()) as u64;
         grid::check_room(
@@ -182,6 +223,9 @@ impl GridJob for DiagramJob {
     }
 
     fn compute(&self, (): &(), rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
+        if !is_sine(&self.drive) {
+            return self.compute_driven(rows, observer);
+        }
         let mut orbits: Vec<Orbit> = Vec::new();
         let mut places = Vec::new();
         for row in rows.clone() {

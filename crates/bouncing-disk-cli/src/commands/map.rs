@@ -5,7 +5,8 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use bouncing_disk::System;
-use bouncing_disk::core::{Error, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::core::{DrivenMap, Error, ImpactMap, ImpactState, Phase, Vibration};
+use bouncing_disk::parameters::{DriveParameters, DrivenPlatform, Waveform};
 use serde::{Deserialize, Serialize};
 
 use super::prelude::*;
@@ -50,6 +51,26 @@ pub(super) fn single(range: Range, option: &str) -> Result<f64> {
 
 pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Error> {
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
+}
+
+/// The map of a platform whose height has another shape than the sine.
+pub(super) fn driven_map(shape: &Waveform, axial_forcing: f64, restitution: f64) -> Result<DrivenMap> {
+    Ok(DrivenMap::new(shape.drive(axial_forcing)?, restitution)?)
+}
+
+/// The shape of the height, which alone decides the vertical motion.
+pub(super) fn shape(system: &System, drive: &DriveParameters) -> Result<Waveform> {
+    Ok(DrivenPlatform::of_drive(*system.platform(), drive)?.height().clone())
+}
+
+/// A field of a job that a sine leaves out.
+pub(super) fn is_sine(shape: &Waveform) -> bool {
+    *shape == Waveform::Sine
+}
+
+/// What is added to a line on the vertical motion of another shape.
+pub(super) fn and_shape(shape: &Waveform) -> String {
+    if is_sine(shape) { String::new() } else { format!(", {shape}") }
 }
 
 /// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the

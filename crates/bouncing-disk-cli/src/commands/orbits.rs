@@ -1,9 +1,9 @@
 //! `bouncing-disk orbits`: the periodic orbits, stable and unstable.
 
-use bouncing_disk::core::orbits::{OrbitSearch, OrbitsFound, PeriodicOrbit, Stability};
+use bouncing_disk::core::orbits::{OrbitCoverage, OrbitSearch, PeriodicOrbit, Stability};
 use bouncing_disk_plot::Figure;
 
-use super::map::{MapArgs, VERTICAL, map};
+use super::map::{MapArgs, VERTICAL, and_shape, driven_map, is_sine, map, shape};
 use super::prelude::*;
 
 /// Past the second period doubling.
@@ -41,27 +41,41 @@ pub(crate) struct OrbitsArgs {
 }
 
 pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
-    let Some(system) = args.map.system.begin(&args.output, true, context)? else { return Ok(()) };
+    let given = args.map.system.begin_driven(&args.output, true, context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
+    let drive = shape(&system, &drive)?;
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =
         OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
-    let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &context.watch("orbits"))?;
-    let job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
-    let numbered = found.orbits.iter().enumerate();
+    let watch = context.watch("orbits");
+    let (orbits, coverage) = if is_sine(&drive) {
+        let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &watch)?;
+        (found.orbits, Some(found.coverage))
+    } else {
+        (driven_map(&drive, axial_forcing, restitution)?.periodic_orbits(&search, &watch)?, None)
+    };
+    let mut job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
+    if !is_sine(&drive) {
+        job["drive"] = json!(drive);
+    }
+    let numbered = orbits.iter().enumerate();
     let rows = numbered
         .flat_map(|(number, orbit)| (0..orbit.states.len()).map(move |impact| (number, orbit, impact)))
         .collect();
     let report = Report {
         provenance: provenance("bouncing-disk orbits", &job)?,
-        text: text(&found),
+        text: text(&orbits, coverage.as_ref()),
         table: impacts().csv_of(rows),
-        data: vec![("orbits", stored(&found.orbits)?), ("coverage", stored(&found.coverage)?)],
-        figure: Some(Box::new(|| draw(axial_forcing, restitution, &found))),
+        data: vec![("orbits", stored(&orbits)?), ("coverage", stored(&coverage)?)],
+        figure: Some(Box::new(|| {
+            let title = pictures::forcing_and_restitution(axial_forcing, restitution);
+            draw(&(title + &and_shape(&drive)), &orbits)
+        })),
     };
     report.deliver(&args.output, context)
 }
 
-fn text(found: &OrbitsFound) -> String {
+fn text(orbits: &[PeriodicOrbit], coverage: Option<&OrbitCoverage>) -> String {
     let columns = Columns::<PeriodicOrbit>::new()
         .column("impacts", "1", |orbit| orbit.period())
         .column("platform_periods", "1", |orbit| orbit.platform_periods)
@@ -69,24 +83,23 @@ fn text(found: &OrbitsFound) -> String {
         .column("first_speed", "1", |orbit| orbit.states.first().map(|state| state.normalised_speed()))
         .column("largest_multiplier", "1", |orbit| orbit.multipliers().spectral_radius())
         .column("stability", "1", |orbit| orbit.stability().to_string());
-    let coverage = &found.coverage;
+    let Some(coverage) = coverage else { return columns.to_text(orbits) };
     format!(
         "{}{} starts up to an impact speed of {:.3} g/omega; {} of {} orbits are found from half the resolution, too\n",
-        columns.to_text(&found.orbits),
+        columns.to_text(orbits),
         coverage.starts,
         coverage.impact_speed_bound,
         coverage.found_by_coarser,
-        found.orbits.len()
+        orbits.len()
     )
 }
 
-fn draw(axial_forcing: f64, restitution: f64, found: &OrbitsFound) -> Figure {
+fn draw(title: &str, orbits: &[PeriodicOrbit]) -> Figure {
     let impacts = |orbit: &PeriodicOrbit| {
         let states = orbit.states.iter().map(|state| (state.phase().cycles(), state.normalised_speed()));
         (orbit.stability() == Stability::Stable, states.collect())
     };
-    let orbits: Vec<_> = found.orbits.iter().map(impacts).collect();
-    pictures::periodic_orbits(&pictures::forcing_and_restitution(axial_forcing, restitution), &orbits)
+    pictures::periodic_orbits(title, &orbits.iter().map(impacts).collect::<Vec<_>>())
 }
 
 /// An orbit with its number, and the place of one of its impacts in it.

@@ -2,6 +2,7 @@
 
 use bouncing_disk::Motor;
 use bouncing_disk::motor::MotorField;
+use bouncing_disk::parameters::DriveParameters;
 
 use super::{Described, Format, Setting, SourceArgs};
 use crate::range::Words;
@@ -22,11 +23,11 @@ impl Described for Motor {
         ("paper-184-khz", "The same at its second operating frequency, 184 kHz", Self::paper_184_khz),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String> {
         let changes = changes(settings)?;
         let read = match format {
-            Format::Json => Self::from_json_with(text, &changes),
-            Format::Toml => Self::from_toml_with(text, &changes),
+            Format::Json => Self::driven_from_json(text, &changes),
+            Format::Toml => Self::driven_from_toml(text, &changes),
         };
         read.map_err(|error| error.to_string())
     }

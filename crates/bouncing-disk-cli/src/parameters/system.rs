@@ -1,6 +1,7 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
 use bouncing_disk::System;
+use bouncing_disk::parameters::DriveParameters;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
@@ -25,10 +26,12 @@ const FIELDS: [(&str, &str, &str); 10] = [
 
 /// A file, which may lack parameters that --set gives.
 #[derive(Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields, default, expecting = "the tables platform and disk")]
+#[serde(deny_unknown_fields, default, expecting = "the tables platform, disk and drive")]
 struct File {
     platform: PlatformTable,
     disk: DiskTable,
+    #[serde(skip_serializing)]
+    drive: DriveParameters,
 }
 
 #[derive(Serialize, Deserialize, Default)]
@@ -77,11 +80,12 @@ impl Described for System {
         ("motor", "The motor of Table III at 70 kHz", Self::motor),
     ];
 
-    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<Self, String> {
+    fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String> {
         let mut file: File = parse(text, format)?;
         // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
-        tables(&file).and_then(|tables| build(tables, settings))
+        file.drive.check().map_err(|error| error.to_string())?;
+        Ok((build(tables(&file)?, settings)?, file.drive))
     }
 
     fn template(&self) -> String {
@@ -107,7 +111,7 @@ mod tests {
     use super::*;
 
     fn read(text: &str, format: Format) -> Result<System, String> {
-        System::read(text, format, &[])
+        System::read(text, format, &[]).map(|(system, _)| system)
     }
 
     #[test]

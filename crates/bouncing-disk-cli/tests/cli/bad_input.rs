@@ -47,11 +47,57 @@ fn files_of_parameters_that_cannot_be_read() {
         ),
         ("motor report motor.toml --set friction=-1", "motor.toml with --set: friction = -1 is outside"),
         // A file of the other kind.
-        ("toss motor.toml", "the key \"amplitude\" is unknown; the known ones are platform, disk"),
-        ("toss motor.json", "the key \"mass\" is unknown; the known ones are platform, disk"),
+        ("toss motor.toml", "the key \"amplitude\" is unknown; the known ones are platform, disk, drive"),
+        ("toss motor.json", "the key \"mass\" is unknown; the known ones are platform, disk, drive"),
         ("motor report toss.toml", "the key \"disk\" is unknown"),
     ];
     folder.all_refused(2, &lines);
+}
+
+/// A drive is legal or refused by name, and never ignored.
+#[test]
+fn drives() {
+    let folder = Folder::new();
+    for command in ["toss", "motor report"] {
+        let template = folder.done(&format!("{command} --template"));
+        let file = |name: &str, drive: &str| {
+            folder.write(&format!("{name}.toml"), &format!("{template}\n[drive]\n{drive}\n"));
+        };
+        file("triangle", "height = 'triangle'");
+        file("key", "hight = 'triangle'");
+        file("shape", "height = 'triangel'");
+        file("jump", "height = { pieces = [[1, [0, 0.5, 0, 0]]] }");
+        file("nan", "height = { fourier = [[1, 0], [nan, 0]] }");
+        file("none", "angle = { pieces = [] }");
+        file("few", "height = { sampled = [0, 1] }");
+        file("burst", "segments = [{ periods = 2.25 }]");
+        let sine_only = "this computes the sine of Eq. (1) only";
+        let lines = if command == "toss" {
+            ["verdicts", "doublings", "design", "toss --template"]
+        } else {
+            ["motor report", "motor stall", "motor traps", "motor sweep --over friction=0.1:0.2:2"]
+        };
+        let (template, sine) = lines.split_last().unwrap();
+        for line in sine {
+            folder.all_refused(2, &[(&format!("{line} triangle.toml"), sine_only)]);
+        }
+        if command == "toss" {
+            let copy = "--template writes no table [drive]";
+            folder.all_refused(2, &[(&format!("{template} triangle.toml"), copy)]);
+            folder.all_refused(2, &[("diagram triangle.toml --start period-1", "give rest, rise or")]);
+            folder.all_refused(2, &[("orbits burst.toml", "the drive is a schedule")]);
+        }
+        for (name, told) in [
+            ("key", "\"hight\" is unknown; did you mean \"height\"?"),
+            ("shape", "\"triangel\" is unknown; did you mean \"triangle\"?"),
+            ("jump", "jump.toml: the height jumps by -0.5 amplitudes where piece 0 begins"),
+            ("nan", "nan.toml: the height: harmonic number 1"),
+            ("none", "none.toml: sum of the durations of the pieces = 0"),
+            ("few", "few.toml: the height: number of samples = 2"),
+        ] {
+            folder.all_refused(2, &[(&format!("{command} {name}.toml"), told)]);
+        }
+    }
 }
 
 #[test]

@@ -4,13 +4,14 @@ use std::f64::consts::TAU;
 
 use crate::common::Folder;
 use bouncing_disk::core::attractors::{
-    AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, verdicts,
+    AttractorSearch, Axis, BasinSettings, Grid, VerdictSettings, driven_diagram, verdicts,
 };
-use bouncing_disk::core::orbits::doubling_cascade;
+use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
-use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
+use bouncing_disk::core::{ChatterPolicy, DrivenMap, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
+use bouncing_disk::parameters::Waveform;
 use bouncing_disk::toss::{InitialSpin, TossConstraints, best_toss, single_toss};
 use bouncing_disk::{Motor, System};
 use serde::Serialize;
@@ -58,6 +59,44 @@ fn diagrams_from_rest() {
         let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
         assert_eq!(found["impacts"]["impact_phase_periods"], stored(&phases));
     }
+}
+
+/// The same for a platform that is no sine, whose rows may be computed in parts.
+#[test]
+fn diagrams_orbits_and_basins_of_parabolas() {
+    let folder = Folder::new();
+    let drive = "[drive]\nheight = 'parabolas'\n";
+    folder.write("a.toml", &(folder.done("toss --template --set disk.restitution=0.5") + drive));
+    let written = |line: &str| -> Value {
+        folder.done(&format!("{line} --out a.json --force"));
+        serde_json::from_slice(&folder.read("a.json")).unwrap()
+    };
+    let map = |forcing| DrivenMap::new(Waveform::Parabolas.drive(forcing).unwrap(), 0.5).unwrap();
+    let maps: Vec<_> = (0..5).map(|index| map(value(0.35, 0.5, 5, index))).collect();
+    let start = ImpactState::new(Phase::new(0.0).unwrap(), -TAU / 1.5).unwrap();
+    let columns = driven_diagram(&maps, start, 100, 40, ChatterPolicy::Complete, &Unobserved).unwrap();
+    let found = written("diagram a.toml -G 0.35:0.5:5 --transient 100 --recorded 40");
+    let of_rise = found["columns"].as_array().unwrap().iter().skip(1).step_by(2);
+    for (column, found) in columns.iter().zip(of_rise) {
+        let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
+        assert_eq!(
+            (&found["start"], &found["impacts"]["impact_phase_periods"]),
+            (&json!("rise"), &stored(&phases))
+        );
+    }
+    let search = OrbitSearch::new(2, 2).unwrap().with_starts(20, 20).unwrap();
+    let orbits = map(0.36).periodic_orbits(&search, &Unobserved).unwrap();
+    let line = "orbits a.toml -G 0.36 --impacts 2 --platform-periods 2 --starts 20";
+    assert_eq!(written(line)["orbits"], stored(&orbits));
+    assert!(orbits.iter().any(|orbit| orbit.stability() == Stability::Stable));
+    let labels = "hexadecimal_labels_by_speed";
+    let basins = "basins a.toml -G 0.36 --cells 12 --speed 0:2";
+    let whole = written(basins);
+    assert!(whole[labels].to_string().contains("02"), "{whole}");
+    for part in ["1", "2"] {
+        folder.done(&format!("{basins} --chunk {part}/2 --out {part}.json"));
+    }
+    assert_eq!(written("merge 1.json 2.json")[labels], whole[labels]);
 }
 
 #[test]

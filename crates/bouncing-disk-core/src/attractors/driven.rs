@@ -1,6 +1,7 @@
 //! Orbit diagrams and basins of attraction on drives.
 
 use core::f64::consts::PI;
+use core::ops::Range;
 
 use super::basin::{
     ATTACHED, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
@@ -74,18 +75,37 @@ impl DrivenMap {
         settings: BasinSettings,
         observer: &dyn Observer,
     ) -> Result<Basins, Error> {
+        self.basins_of_rows(grid, 0..grid.speed().cells(), known, settings, observer)
+    }
+
+    /// [`Self::basins`] of some rows of the grid.
+    ///
+    /// # Errors
+    /// [`Error::Unfitting`] for rows outside the grid; those of [`Self::basins`].
+    pub fn basins_of_rows(
+        &self,
+        grid: Grid,
+        rows: Range<usize>,
+        known: &[KnownOrbit],
+        settings: BasinSettings,
+        observer: &dyn Observer,
+    ) -> Result<Basins, Error> {
         check_number_of(known)?;
-        let (columns, rows) = (grid.phase().cells(), grid.speed().cells());
-        let count = columns as u64 * rows as u64;
+        let (columns, expected) = (grid.phase().cells(), grid.speed().cells() as u64);
+        if rows.end as u64 > expected {
+            let what = "end of the rows of a grid";
+            return Err(Error::Unfitting { what, found: rows.end as u64, expected });
+        }
+        let count = columns as u64 * rows.len() as u64;
         if count > MAX_CELLS {
             return Err(Error::TooLarge { what: "cells of basins", count, limit: MAX_CELLS });
         }
-        let watch = Watch::begin(observer, 0, rows as u64)?;
-        let labels = in_parallel(rows, |row| {
+        let watch = Watch::begin(observer, 0, rows.len() as u64)?;
+        let labels = in_parallel(rows.len(), |row| {
             let labels = (0..columns).map(|column| {
                 watch.ask()?;
                 let phase = Phase::new(grid.impact_angle(column))?;
-                let start = ImpactState::new(phase, -PI * grid.speed().centre(row))?;
+                let start = ImpactState::new(phase, -PI * grid.speed().centre(rows.start + row))?;
                 self.label(start, known, settings)
             });
             let labels = labels.collect::<Result<Vec<_>, Error>>();

@@ -60,8 +60,10 @@ macro_rules! read_checked {
             }
         }
     };
-    ($type:ident as $mirror:ident { $($field:ident: $kind:ty),+ $(,)? } => $make:path) => {
-        $crate::read_checked!(@mirror $mirror { $($field: $kind),+ });
+    ($type:ident as $mirror:ident {
+        $($(#[$attribute:meta])* $field:ident: $kind:ty),+ $(,)?
+    } => $make:path) => {
+        $crate::read_checked!(@mirror $mirror { $($(#[$attribute])* $field: $kind),+ });
 
         impl TryFrom<$mirror> for $type {
             type Error = Error;

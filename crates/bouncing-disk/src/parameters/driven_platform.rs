@@ -1,6 +1,9 @@
 //! A platform that moves and turns in any periodic way, in SI units.
 
 use std::f64::consts::TAU;
+use std::fmt::{self, Display, Formatter};
+
+use bouncing_disk_core::{Drive, Vibration};
 
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
@@ -40,6 +43,21 @@ pub enum Waveform {
     Cubics,
 }
 
+impl Display for Waveform {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sine => f.write_str("sine"),
+            Self::Fourier(harmonics) => write!(f, "Fourier sum of {} harmonics", harmonics.len()),
+            Self::Pieces(pieces) => write!(f, "{} pieces", pieces.len()),
+            Self::Sampled(samples) => write!(f, "{} samples", samples.len()),
+            Self::Triangle => f.write_str("triangle"),
+            Self::Sawtooth(rise) => write!(f, "sawtooth, rise {rise}"),
+            Self::Parabolas => f.write_str("parabolas"),
+            Self::Cubics => f.write_str("cubics"),
+        }
+    }
+}
+
 impl Waveform {
     /// The harmonics of a sine or a Fourier sum.
     pub(crate) fn harmonics(&self) -> Option<Vec<(f64, f64)>> {
@@ -48,6 +66,16 @@ impl Waveform {
             Self::Fourier(harmonics) => Some(harmonics.clone()),
             _ => None,
         }
+    }
+
+    /// The height over time that makes the vertical motion of this shape, without units as the sine's
+    /// [`Vibration`].
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for the forcing; those of [`DrivenPlatform::new`].
+    pub fn drive(&self, axial_forcing: f64) -> Result<Drive, Error> {
+        let amplitude = Vibration::from_axial_forcing(axial_forcing)?.peak_acceleration();
+        Ok(self.track("height", amplitude, 0.0)?.drive().clone())
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -207,7 +235,7 @@ impl From<Platform> for DrivenPlatform {
 /// [`Schedule::of_drive`](crate::driven::Schedule::of_drive) where it has segments.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table drive"))]
 pub struct DriveParameters {
     /// The shape of the height.
     pub height: Waveform,
@@ -226,6 +254,23 @@ impl DriveParameters {
     #[must_use]
     pub fn is_sine(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// That the platform moves as in Eq. (1).
+    ///
+    /// # Errors
+    /// [`Error::DriveNotSine`].
+    pub fn sine(&self) -> Result<(), Error> {
+        if self.is_sine() { Ok(()) } else { Err(Error::DriveNotSine) }
+    }
+
+    /// Checks the shapes; a schedule is checked with its disk.
+    ///
+    /// # Errors
+    /// As [`DrivenPlatform::new`].
+    pub fn check(&self) -> Result<(), Error> {
+        self.height.check("height")?;
+        self.angle.check("angle")
     }
 
     /// Whether segments follow one another, in place of a periodic motion.
@@ -274,7 +319,6 @@ pub enum AfterSchedule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bouncing_disk_core::Drive;
     use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
 
     fn hand() -> Platform {

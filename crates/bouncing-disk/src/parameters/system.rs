@@ -7,6 +7,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::error::Error;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
+use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
@@ -43,6 +44,13 @@ impl System {
         .build()?;
         Scales::new(&platform, &disk).check()?;
         Ok(Self { platform, disk, dimensionless })
+    }
+
+    /// The system of a file, whose platform must be that of Eq. (1).
+    #[cfg_attr(not(feature = "serde"), allow(dead_code, reason = "only a file may have a drive"))]
+    fn of_file(platform: Platform, disk: Disk, drive: DriveParameters) -> Result<Self, Error> {
+        drive.sine()?;
+        Self::new(platform, disk)
     }
 
     /// The platform.
@@ -108,7 +116,12 @@ impl From<&System> for DimensionlessSystem {
     }
 }
 
-read_checked!(System as UncheckedSystem { platform: Platform, disk: Disk } => System::new);
+read_checked!(System as UncheckedSystem {
+    platform: Platform,
+    disk: Disk,
+    #[serde(default)]
+    drive: DriveParameters,
+} => System::of_file);
 
 impl Display for System {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

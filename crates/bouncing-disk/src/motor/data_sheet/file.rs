@@ -7,8 +7,9 @@ use serde::de::{Deserializer, Error as _, MapAccess, Visitor};
 
 use crate::error::Error;
 use crate::motor::data_sheet::Motor;
-use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField, distance};
 use crate::motor::data_sheet::parameters::MotorParameters;
+use crate::parameters::driven_platform::DriveParameters;
 
 /// Why the text of a data sheet gives no motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -36,7 +37,9 @@ impl MotorFileError {
             "string values must be quoted, expected literal string" => {
                 "a value must be a number without a unit, such as 40e3".to_owned()
             }
-            other => other.replace("expected f64", "expected a number").replace(char::is_control, " "),
+            other => nearest_word(other)
+                .unwrap_or_else(|| other.replace("expected f64", "expected a number"))
+                .replace(char::is_control, " "),
         };
         Self::Text { line: line.max(1), column: column.max(1), reason }
     }
@@ -69,6 +72,18 @@ impl Motor {
     /// As [`Self::from_json`].
     #[cfg(feature = "json")]
     pub fn from_json_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
+        sine(Self::driven_from_json(text, changes)?)
+    }
+
+    /// [`Self::from_json_with`] of a data sheet that may have a table `drive`.
+    ///
+    /// # Errors
+    /// As [`Self::from_json`]; those of [`DriveParameters::check`].
+    #[cfg(feature = "json")]
+    pub fn driven_from_json(
+        text: &str,
+        changes: &[(MotorField, f64)],
+    ) -> Result<(Self, DriveParameters), MotorFileError> {
         let mut reader = serde_json::Deserializer::from_str(without_mark(text));
         let given = reader.deserialize_map(Entries).and_then(|given| reader.end().map(|()| given));
         let given = given.map_err(|error| {
@@ -119,6 +134,28 @@ impl Motor {
     /// As [`Self::from_toml`].
     #[cfg(feature = "toml")]
     pub fn from_toml_with(text: &str, changes: &[(MotorField, f64)]) -> Result<Self, MotorFileError> {
+        sine(Self::driven_from_toml(text, changes)?)
+    }
+
+    /// [`Self::from_toml_with`] of a data sheet that may have a table `[drive]`.
+    ///
+    /// ```
+    /// use bouncing_disk::Motor;
+    /// use bouncing_disk::parameters::Waveform;
+    ///
+    /// let text = Motor::paper_70_khz().to_toml() + "[drive]\nheight = 'triangle'\n";
+    /// let (motor, drive) = Motor::driven_from_toml(&text, &[])?;
+    /// assert_eq!((motor, drive.height), (Motor::paper_70_khz(), Waveform::Triangle));
+    /// # Ok::<(), bouncing_disk::motor::MotorFileError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Self::from_toml`]; those of [`DriveParameters::check`].
+    #[cfg(feature = "toml")]
+    pub fn driven_from_toml(
+        text: &str,
+        changes: &[(MotorField, f64)],
+    ) -> Result<(Self, DriveParameters), MotorFileError> {
         let text = without_mark(text);
         let given = toml::Deserializer::parse(text).and_then(|reader| reader.deserialize_map(Entries));
         let given = given.map_err(|error| {
@@ -141,8 +178,28 @@ impl Motor {
     }
 }
 
-/// The fields that a text names, and their values; `None` for `null`.
-type Given = BTreeMap<MotorField, Option<f64>>;
+/// The fields that a text names, and their values; `None` for `null`. And its drive.
+type Given = (BTreeMap<MotorField, Option<f64>>, Option<DriveParameters>);
+
+/// A key of a data sheet.
+#[derive(Clone, Copy, serde::Deserialize)]
+#[serde(try_from = "String")]
+enum Key {
+    Field(MotorField),
+    Drive,
+}
+
+impl TryFrom<String> for Key {
+    type Error = UnknownMotorField;
+
+    fn try_from(name: String) -> Result<Self, UnknownMotorField> {
+        match distance(&name.to_ascii_lowercase(), "drive") {
+            0 if name == "drive" => Ok(Self::Drive),
+            0 | 1 => Err(UnknownMotorField::instead_of(&name, "drive")),
+            _ => name.parse().map(Self::Field),
+        }
+    }
+}
 
 /// Reads an object, and refuses a key that is there twice.
 struct Entries;
@@ -155,20 +212,28 @@ impl<'de> Visitor<'de> for Entries {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Given, A::Error> {
-        let mut given = Given::new();
-        while let Some(field) = map.next_key::<MotorField>()? {
-            if given.contains_key(&field) {
-                return Err(A::Error::custom(format_args!("the key \"{field}\" is there twice")));
+        let (mut given, mut drive) = Given::default();
+        while let Some(key) = map.next_key::<Key>()? {
+            let twice = |name: &str| A::Error::custom(format_args!("the key \"{name}\" is there twice"));
+            match key {
+                Key::Field(field) if given.contains_key(&field) => return Err(twice(field.name())),
+                Key::Field(field) => {
+                    given.insert(field, map.next_value()?);
+                }
+                Key::Drive if drive.is_some() => return Err(twice("drive")),
+                Key::Drive => drive = Some(map.next_value()?),
             }
-            given.insert(field, map.next_value()?);
         }
-        Ok(given)
+        Ok((given, drive))
     }
 }
 
 /// The motor of a text and of the `changes`, which take the place of what the text says before anything is
 /// checked.
-fn motor_of(mut given: Given, changes: &[(MotorField, f64)]) -> Result<Motor, Error> {
+fn motor_of(
+    (mut given, drive): Given,
+    changes: &[(MotorField, f64)],
+) -> Result<(Motor, DriveParameters), Error> {
     let mut sheet = MotorParameters::EMPTY;
     for (field, value) in &given {
         (field.field().set)(&mut sheet, *value);
@@ -182,7 +247,27 @@ fn motor_of(mut given: Given, changes: &[(MotorField, f64)]) -> Result<Motor, Er
             return Err(Error::NotGiven { field: field.name() });
         }
     }
-    sheet.build()
+    let drive = drive.unwrap_or_default();
+    drive.check()?;
+    Ok((sheet.build()?, drive))
+}
+
+/// The motor, if its stator moves as in Eq. (1).
+fn sine((motor, drive): (Motor, DriveParameters)) -> Result<Motor, MotorFileError> {
+    drive.sine()?;
+    Ok(motor)
+}
+
+/// The words on an unknown key or shape of the drive, of which a reader lists all that are known.
+fn nearest_word(reason: &str) -> Option<String> {
+    let words = reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant "))?;
+    let mut words = words.split('`').skip(1).step_by(2);
+    let word = words.next()?;
+    let near =
+        words.clone().min_by_key(|known| distance(word, known)).filter(|near| distance(word, near) < 4);
+    let known = || format!("the known ones are {}", words.collect::<Vec<_>>().join(", "));
+    let hint = near.map_or_else(known, |near| format!("did you mean \"{near}\"?"));
+    Some(format!("\"{word}\" is unknown; {hint}"))
 }
 
 /// The text without a byte-order mark, which some editors put before it.
@@ -285,6 +370,34 @@ mod tests {
             let more = [&LINES[..], &[("preload_acceleration", "250")]].concat();
             assert_eq!(read(&write(&more), &[]), Err(both.into()));
         }
+    }
+
+    #[cfg(feature = "toml")]
+    #[test]
+    fn a_drive_is_read_and_refused_where_only_the_sine_is_computed() {
+        let sheet = Motor::paper_70_khz().to_toml();
+        let refused = |drive: &str| {
+            let found = Motor::driven_from_toml(&format!("{sheet}[drive]\n{drive}\n"), &[]);
+            found.expect_err(drive).to_string()
+        };
+        for (drive, told) in [
+            ("hight = 'sine'", "\"hight\" is unknown; did you mean \"height\"?"),
+            ("height = 'triangel'", "\"triangel\" is unknown; did you mean \"triangle\"?"),
+            ("height = 'square'", "the known ones are sine, fourier"),
+            ("height = { fourier = [[nan, 0]] }", "height: harmonic number 0"),
+            ("angle = { pieces = [[1, [0, 1, 0, 0]]] }", "the angle jumps by -1.0 amplitudes where piece 0"),
+            ("height = { pieces = [] }", "sum of the durations of the pieces = 0"),
+        ] {
+            let text = refused(drive);
+            assert!(text.contains(told), "{drive}: {text}");
+        }
+        for (key, told) in [("drives = 1", "\"drive\""), ("drive = 1", "expected the table drive")] {
+            let error = Motor::from_toml(&format!("{key}\n{sheet}")).expect_err(key);
+            assert!(error.to_string().contains(told), "{error}");
+        }
+        let legal = |drive| format!("{sheet}[drive]\nheight = \"{drive}\"\n");
+        assert_eq!(Motor::from_toml(&legal("triangle")), Err(Error::DriveNotSine.into()));
+        assert_eq!(Motor::from_toml(&legal("sine")), Ok(Motor::paper_70_khz()));
     }
 
     /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of

@@ -223,6 +223,13 @@ pub struct UnknownMotorField {
     nearest: Option<&'static str>,
 }
 
+impl UnknownMotorField {
+    #[cfg(any(feature = "json", feature = "toml"))]
+    pub(crate) fn instead_of(name: &str, nearest: &'static str) -> Self {
+        Self { name: excerpt(name), nearest: Some(nearest) }
+    }
+}
+
 impl Display for UnknownMotorField {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "the key {:?} is unknown; ", self.name)?;
@@ -298,7 +305,7 @@ fn nearest(key: &str) -> Option<&'static str> {
 
 /// The fewest letters to insert, to remove or to replace, two neighbours that are exchanged counting once
 /// (the optimal string alignment distance).
-fn distance(one: &str, other: &str) -> usize {
+pub(crate) fn distance(one: &str, other: &str) -> usize {
     let (one, other): (Vec<char>, Vec<char>) = (one.chars().collect(), other.chars().collect());
     let mut before_last: Vec<usize> = Vec::new();
     let mut last: Vec<usize> = (0..=other.len()).collect();
