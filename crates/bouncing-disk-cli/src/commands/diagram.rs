@@ -1,14 +1,14 @@
 //! `bouncing-disk diagram`: where the disk lands, as the platform shakes harder.
 
+use bouncing_disk::Observer;
 use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::numerics::circular::distinct;
 use bouncing_disk::core::numerics::statistics::extent;
 use bouncing_disk::core::{
-    ChatterPolicy, ImpactState, Orbit,
+    ChatterPolicy, DrivenOrbit, ImpactState, Orbit,
     sweep::{MAX_RECORDED, orbit_diagram},
 };
 use bouncing_disk::parameters::Waveform;
-use bouncing_disk::{Observer, Progress};
 use bouncing_disk_plot::Figure;
 use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
@@ -171,30 +171,6 @@ impl<'a> Diagram<'a> {
     }
 }
 
-impl DiagramJob {
-    /// The rows of a platform that is no sine.
-    fn compute_driven(&self, rows: Rows, observer: &dyn Observer) -> Result<Vec<Column>> {
-        let of_row = |row| driven_map(&self.drive, self.axial_forcings.value(row), self.restitution);
-        let maps = rows.map(of_row).collect::<Result<Vec<_>>>()?;
-        // Neither start depends on the forcing.
-        let sine = map(0.0, self.restitution)?;
-        let mut columns = vec![Column::new(); maps.len()];
-        for (number, start) in self.starts.iter().enumerate() {
-            let part = |Progress { done, total }| {
-                let total_of = total * self.starts.len() as u64;
-                observer.observe(Progress { done: number as u64 * total + done, total: total_of })
-            };
-            let Some(state) = start.of(&sine)? else { continue };
-            let (transient, policy) = (self.transient, ChatterPolicy::Complete);
-            let found = driven_diagram(&maps, state, transient, self.recorded, policy, &part)?;
-            for (column, impacts) in columns.iter_mut().zip(found) {
-                column.push(Some(Impacts::of(&impacts)));
-            }
-        }
-        Ok(columns)
-    }
-}
-
 impl GridJob for DiagramJob {
     const COMMAND: &'static str = "diagram";
 
@@ -223,21 +199,27 @@ impl GridJob for DiagramJob {
     }
 
     fn compute(&self, (): &(), rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
-        if !is_sine(&self.drive) {
-            return self.compute_driven(rows, observer);
-        }
-        let mut orbits: Vec<Orbit> = Vec::new();
+        let (mut orbits, mut driven) = (Vec::<Orbit>::new(), Vec::<DrivenOrbit>::new());
         let mut places = Vec::new();
         for row in rows.clone() {
             let map = map(self.axial_forcings.value(row), self.restitution)?;
             for (start, kind) in self.starts.iter().enumerate() {
                 if let Some(state) = kind.of(&map)? {
-                    orbits.push(map.orbit(state, ChatterPolicy::Complete));
+                    if is_sine(&self.drive) {
+                        orbits.push(map.orbit(state, ChatterPolicy::Complete));
+                    } else {
+                        driven.push(self.drive.map(&map)?.orbit(state, ChatterPolicy::Complete));
+                    }
                     places.push((row - rows.start, start));
                 }
             }
         }
-        let found = orbit_diagram(&orbits, self.transient, self.recorded, observer)?;
+        let (transient, recorded) = (self.transient, self.recorded);
+        let found = if is_sine(&self.drive) {
+            orbit_diagram(&orbits, transient, recorded, observer)?
+        } else {
+            driven_diagram(&driven, transient, recorded, observer)?
+        };
         let mut columns = vec![vec![None; self.starts.len()]; rows.len()];
         for ((row, start), impacts) in places.into_iter().zip(found) {
             columns[row][start] = Some(Impacts::of(&impacts));

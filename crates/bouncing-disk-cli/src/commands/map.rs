@@ -55,7 +55,7 @@ pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Err
 
 /// The map of a platform whose height has another shape than the sine.
 pub(super) fn driven_map(shape: &Waveform, axial_forcing: f64, restitution: f64) -> Result<DrivenMap> {
-    Ok(DrivenMap::new(shape.drive(axial_forcing)?, restitution)?)
+    Ok(shape.map(&map(axial_forcing, restitution)?)?)
 }
 
 /// The shape of the height, which alone decides the vertical motion.

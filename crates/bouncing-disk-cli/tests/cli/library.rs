@@ -8,7 +8,7 @@ use bouncing_disk::core::attractors::{
 };
 use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
-use bouncing_disk::core::{ChatterPolicy, DrivenMap, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
+use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
 use bouncing_disk::parameters::Waveform;
@@ -71,10 +71,11 @@ fn diagrams_orbits_and_basins_of_parabolas() {
         folder.done(&format!("{line} --out a.json --force"));
         serde_json::from_slice(&folder.read("a.json")).unwrap()
     };
-    let map = |forcing| DrivenMap::new(Waveform::Parabolas.drive(forcing).unwrap(), 0.5).unwrap();
-    let maps: Vec<_> = (0..5).map(|index| map(value(0.35, 0.5, 5, index))).collect();
+    let map = |forcing| Waveform::Parabolas.map(&map(forcing, 0.5)).unwrap();
     let start = ImpactState::new(Phase::new(0.0).unwrap(), -TAU / 1.5).unwrap();
-    let columns = driven_diagram(&maps, start, 100, 40, ChatterPolicy::Complete, &Unobserved).unwrap();
+    let orbits: Vec<_> =
+        (0..5).map(|index| map(value(0.35, 0.5, 5, index)).orbit(start, ChatterPolicy::Complete)).collect();
+    let columns = driven_diagram(&orbits, 100, 40, &Unobserved).unwrap();
     let found = written("diagram a.toml -G 0.35:0.5:5 --transient 100 --recorded 40");
     let of_rise = found["columns"].as_array().unwrap().iter().skip(1).step_by(2);
     for (column, found) in columns.iter().zip(of_rise) {

@@ -7,45 +7,43 @@ use super::basin::{
     ATTACHED, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
     check_number_of,
 };
-use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
-use crate::map::driven_map::{DrivenEvent, DrivenMap};
+use crate::map::driven_map::{DrivenEvent, DrivenMap, DrivenOrbit};
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
 use crate::orbits::periodic::phase_difference;
 use crate::run::{Observer, Watch, in_parallel};
 
-/// The columns of an orbit diagram: for each map the `recorded` impacts after the first `transient` ones of
-/// the orbit from `start`. A disk that comes to rest continues with its next separation; one that rests for
-/// ever has fewer impacts.
+/// The columns of an orbit diagram: for each orbit the `recorded` impacts after the first `transient` ones. A
+/// disk that comes to rest continues with its next separation; one that rests for ever has fewer impacts.
 ///
-/// The items of `observer` are the maps.
+/// The items of `observer` are the orbits.
 ///
 /// ```
 /// use bouncing_disk_core::attractors::driven_diagram;
 /// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenMap, ImpactState, Unobserved};
 ///
-/// let maps = [1.2, 1.6].map(|a| DrivenMap::new(Drive::triangle(a).unwrap(), 0.5).unwrap());
 /// let start = ImpactState::from_normalised(1.0, 1.3)?;
-/// let columns = driven_diagram(&maps, start, 100, 50, ChatterPolicy::Complete, &Unobserved)?;
+/// let orbits = [1.2, 1.6].map(|a| {
+///     DrivenMap::new(Drive::triangle(a).unwrap(), 0.5).unwrap().orbit(start, ChatterPolicy::Complete)
+/// });
+/// let columns = driven_diagram(&orbits, 100, 50, &Unobserved)?;
 /// assert_eq!(columns.len(), 2);
 /// # Ok::<(), bouncing_disk_core::Error>(())
 /// ```
 ///
 /// # Errors
-/// That of the first map whose orbit fails; [`Error::Stopped`].
+/// That of the first orbit that fails; [`Error::Stopped`].
 pub fn driven_diagram(
-    maps: &[DrivenMap],
-    start: ImpactState,
+    orbits: &[DrivenOrbit],
     transient: usize,
     recorded: usize,
-    policy: ChatterPolicy,
     observer: &dyn Observer,
 ) -> Result<Vec<Vec<ImpactState>>, Error> {
-    let watch = Watch::begin(observer, 0, maps.len() as u64)?;
-    let columns = in_parallel(maps.len(), |index| {
+    let watch = Watch::begin(observer, 0, orbits.len() as u64)?;
+    let columns = in_parallel(orbits.len(), |index| {
         watch.ask()?;
-        let impacts = maps[index].orbit(start, policy).filter_map(|event| match event {
+        let impacts = orbits[index].clone().filter_map(|event| match event {
             Ok(DrivenEvent::Impact(landing)) => Some(Ok(ImpactState::from(landing.impact))),
             Ok(_) => None,
             Err(error) => Some(Err(error)),

@@ -215,7 +215,7 @@ fn basins_and_diagrams_of_a_sum_are_those_of_the_sine() {
     let found = map.basins(grid, &known, settings, &Unobserved).unwrap();
     assert_eq!(found.labels(), expected.labels());
     let start = ImpactState::from_normalised(1.0, 1.3).unwrap();
-    let columns = driven_diagram(&[map], start, 500, 4, ChatterPolicy::Complete, &Unobserved).unwrap();
+    let columns = driven_diagram(&[map.orbit(start, ChatterPolicy::Complete)], 500, 4, &Unobserved).unwrap();
     let column = orbit_diagram(&[sine.orbit(start, ChatterPolicy::Complete)], 500, 4, &Unobserved).unwrap();
     for (a, b) in columns[0].iter().zip(&column[0]) {
         assert!((a.phase().angle() - b.phase().angle()).abs() < 1e-9);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::{Drive, Vibration};
+use bouncing_disk_core::{DrivenMap, ImpactMap};
 
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
@@ -68,14 +68,13 @@ impl Waveform {
         }
     }
 
-    /// The height over time that makes the vertical motion of this shape, without units as the sine's
-    /// [`Vibration`].
+    /// The impact map of a height of this shape, with the amplitude and the restitution of the `sine`'s.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for the forcing; those of [`DrivenPlatform::new`].
-    pub fn drive(&self, axial_forcing: f64) -> Result<Drive, Error> {
-        let amplitude = Vibration::from_axial_forcing(axial_forcing)?.peak_acceleration();
-        Ok(self.track("height", amplitude, 0.0)?.drive().clone())
+    /// Those of [`DrivenPlatform::new`].
+    pub fn map(&self, sine: &ImpactMap) -> Result<DrivenMap, Error> {
+        let track = self.track("height", sine.vibration().peak_acceleration(), 0.0)?;
+        Ok(DrivenMap::new(track.drive().clone(), sine.restitution())?)
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -319,6 +318,7 @@ pub enum AfterSchedule {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bouncing_disk_core::Drive;
     use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
 
     fn hand() -> Platform {
