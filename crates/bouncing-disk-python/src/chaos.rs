@@ -2,7 +2,7 @@
 
 use bouncing_disk::Error;
 use bouncing_disk::core::{
-    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, each_verdict},
+    attractors::{CycleTrust, UndecidedReason, Verdict, VerdictSettings, driven_diagram, each_verdict},
     chaos::{
         Crisis as CrisisModel, CrisisSearch, LifeAfterRest, LyapunovOutcome, Manifold, ManifoldBranch,
         ManifoldEnd, ManifoldKind, ManifoldSettings, NoCrisis, PieceEnd, Side,
@@ -48,13 +48,21 @@ impl Rows {
 pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
     let (starts, policy, py) = (Starts::of(&a)?, a.policy()?, a.py());
     let (transient, recorded) = (a.usize("transient")?, a.usize("recorded")?);
+    let shape = a.shape()?;
     let rows = a.run(|observer| {
-        let columns = bouncing_disk::core::sweep::orbit_diagram(
-            &starts.orbits(policy)?,
-            transient,
-            recorded,
-            observer,
-        )?;
+        let columns = match &shape {
+            None => bouncing_disk::core::sweep::orbit_diagram(
+                &starts.orbits(policy)?,
+                transient,
+                recorded,
+                observer,
+            )?,
+            Some(shape) => {
+                let orbit = |(map, state)| Ok::<_, Error>(shape.map(&map)?.orbit(state, policy));
+                let orbits = starts.states()?.into_iter().map(orbit).collect::<Result<Vec<_>, _>>()?;
+                driven_diagram(&orbits, transient, recorded, observer)?
+            }
+        };
         Rows::of(columns.iter().map(Vec::as_slice))
     })?;
     make!(

@@ -23,7 +23,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
 }
 
 /// The errors that arguments are the reason of which do not fit together.
-const INVALID: [&str; 11] = [
+const INVALID: [&str; 15] = [
     "not-of-kind",
     "no-closed-form",
     "no-decimal",
@@ -35,6 +35,10 @@ const INVALID: [&str; 11] = [
     "both-given",
     "empty-axis",
     "repeated-axis",
+    "waveform",
+    "waveform-jump",
+    "drive-not-sine",
+    "scheduled-drive",
 ];
 
 /// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as

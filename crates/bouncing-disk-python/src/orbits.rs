@@ -92,8 +92,14 @@ pub(crate) fn periodic_orbits(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>
     let (phases, speeds) = (a.u32("phases")?, a.u32("speeds")?);
     let search = OrbitSearch::new(impacts, periods).and_then(|search| search.with_starts(phases, speeds));
     let search = search.map_err(|error| a.refused(error))?;
-    let found = a.run(|observer| Ok(map.periodic_orbits(&search, observer)?))?;
-    found.orbits.into_iter().map(|orbit| shown_orbit(a.py(), orbit)).collect()
+    let shape = a.shape()?;
+    let orbits = a.run(|observer| {
+        Ok(match &shape {
+            None => map.periodic_orbits(&search, observer)?.orbits,
+            Some(shape) => shape.map(&map)?.periodic_orbits(&search, observer)?,
+        })
+    })?;
+    orbits.into_iter().map(|orbit| shown_orbit(a.py(), orbit)).collect()
 }
 
 /// The words of a continuation's parameter.

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{MotorField, MotorParameters};
+use bouncing_disk::parameters::{DriveParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -358,8 +359,35 @@ pub(crate) fn paper_cut() -> ChatterCut {
     ChatterCut(PAPER_CUT)
 }
 
+/// Checks a drive.
+#[pyfunction]
+pub(crate) fn check_drive(a: Arguments<'_>) -> PyResult<()> {
+    a.drive("self").map(|_| ())
+}
+
 /// The objects of this module among the arguments of a call.
 impl<'py> Arguments<'py> {
+    /// A drive; the sine if it is not given.
+    pub(crate) fn drive(&self, name: &str) -> PyResult<DriveParameters> {
+        let Some(given) = self.given(name)? else { return Ok(DriveParameters::default()) };
+        let wrong = |_| PyTypeError::new_err(format!("argument '{name}' must be a Drive"));
+        let text: String = given.call_method0("to_json").and_then(|text| text.extract()).map_err(wrong)?;
+        let drive: DriveParameters = serde_json::from_str(&text).map_err(|error| {
+            errors::of_text(self.py(), format!("the drive cannot be read: {error}"), None)
+        })?;
+        drive.check().map_err(|error| self.refused(error))?;
+        Ok(drive)
+    }
+
+    /// The shape of the height of the argument `drive`, which alone decides the vertical motion; `None` for the sine.
+    pub(crate) fn shape(&self) -> PyResult<Option<Waveform>> {
+        let drive = self.drive("drive")?;
+        if drive.is_schedule() {
+            return Err(self.refused(Error::ScheduledDrive));
+        }
+        Ok(Some(drive.height).filter(|shape| *shape != Waveform::Sine))
+    }
+
     /// The name of an argument; of a method that has none of it, the object itself.
     fn or_self(&self, name: &'static str) -> PyResult<&'static str> {
         Ok(if self.0.contains(name)? { name } else { "self" })

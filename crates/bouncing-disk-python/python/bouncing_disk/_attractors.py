@@ -11,7 +11,7 @@ import numpy as np
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
-from bouncing_disk._system import ChatterCut
+from bouncing_disk._system import ChatterCut, Drive
 
 __all__ = [
     "ATTACHED",
@@ -180,6 +180,7 @@ def basins(
     speed_range: Pair = (0.0, 3.0),
     known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, Float]] | None = None,
     max_impacts: Int = 2000,
+    drive: Drive | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> Basins:
@@ -196,6 +197,7 @@ def basins(
             radius (rad) within which a start counts as caught; without a radius it is the
             :meth:`PeriodicOrbit.trapping_radius`.
         max_impacts: impacts after which a start is left undecided.
+        drive: how the platform moves; ``None`` for the sine. On another drive each orbit needs a radius.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd

@@ -11,7 +11,7 @@ import numpy as np
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._orbits import ImpactMap, PeriodicOrbit
-from bouncing_disk._system import ChatterCut
+from bouncing_disk._system import ChatterCut, Drive
 
 __all__ = [
     "Crisis",
@@ -91,6 +91,7 @@ def orbit_diagram(
     normalised_speed: ArrayLike,
     transient: Int = 3000,
     recorded: Int = 256,
+    drive: Drive | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> OrbitDiagram:
@@ -105,6 +106,7 @@ def orbit_diagram(
         normalised_speed: normalised speed of the first impact, not negative, shape (n,).
         transient: impacts of each orbit that are not recorded.
         recorded: impacts of each orbit that are; fewer if the disk rests for ever.
+        drive: how the platform moves; ``None`` for the sine.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd

@@ -8,7 +8,7 @@ from typing import Literal
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
-from bouncing_disk._system import System
+from bouncing_disk._system import Drive, System
 
 __all__ = [
     "Bifurcation",
@@ -218,6 +218,7 @@ def periodic_orbits(
     max_platform_periods: Int,
     phases: Int = 96,
     speeds: Int = 96,
+    drive: Drive | None = None,
     progress: Progress = None,
 ) -> list[PeriodicOrbit]:
     """The periodic orbits of few impacts, stable and unstable.
@@ -229,6 +230,8 @@ def periodic_orbits(
         max_impacts: the most impacts of an orbit, in [1, 64].
         max_platform_periods: the most periods of the platform that it takes, in [1, 10000].
         phases, speeds: starts along each axis, in [2, 4096].
+        drive: how the platform moves; ``None`` for the sine. On another drive all orbits are found from the grid,
+            and those with an impact on a kink are left out: they have no multipliers.
 
     Returns:
         By rising number of impacts, then of platform periods, then by falling speed.

@@ -3,13 +3,19 @@
 # mypy: disable-error-code="no-any-return"
 from __future__ import annotations
 
+import json as json_module
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
 from typing import Any
+
+import numpy as np
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 
 __all__ = [
     "ChatterCut",
+    "Drive",
     "System",
 ]
 
@@ -115,6 +121,99 @@ class System(Parameters):
         if not isinstance(parameters, dict) or set(parameters) != {"platform", "disk"}:
             raise TypeError("a system is a dictionary of two: its platform and its disk")
         return System(**parameters["platform"], **parameters["disk"])
+
+
+@dataclass(frozen=True)
+class Drive:
+    """How a platform moves in place of the sine: the table ``[drive]`` of the command line's files.
+
+    A shape multiplies the amplitude of the platform: ``"sine"``, ``"triangle"``, ``"parabolas"``, ``"cubics"``, or a
+    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. It is checked as the object is made.
+
+    Args:
+        height, angle: the shapes; the angle is the phase lag earlier.
+        start_phase, segments, then: a schedule: where it starts (rad); dictionaries of ``periods``, ``amplitude``,
+            ``ramp_to``, ``frequency`` and ``lag``; ``"repeat"`` the last one, or ``"rest"``.
+
+    >>> import bouncing_disk as bd
+    >>> bd.Drive.sawtooth(0.3)
+    Drive(height={'sawtooth': 0.3}, angle='sine', start_phase=0.0, segments=(), then='repeat')
+    >>> bd.Drive.from_json(bd.Drive.parabolas().to_json()) == bd.Drive(height="parabolas")
+    True
+    """
+
+    height: Any = "sine"
+    angle: Any = "sine"
+    start_phase: float = 0.0
+    segments: Any = ()
+    then: str = "repeat"
+
+    def __post_init__(self) -> None:
+        native.check_drive(locals())
+
+    @staticmethod
+    def fourier(height: Iterable[Pair], angle: Iterable[Pair] | None = None) -> Drive:
+        """Sums of a_j sin(j tau + phi_j) over j = 1, 2, ...: pairs of a_j and phi_j (rad), at most 32.
+
+        Args:
+            height: those of the height.
+            angle: those of the angle; the sine unless given.
+        """
+        return Drive._of(lambda sums: {"fourier": np.asarray(list(sums), float).tolist()}, height, angle)
+
+    @staticmethod
+    def pieces(height: Iterable[Any], angle: Iterable[Any] | None = None) -> Drive:
+        """Polynomials one after the other: pairs of a duration and (c0, c1, c2, c3), in periods from its start.
+
+        Args:
+            height: those of the height, which is continuous; its velocity may jump.
+            angle: those of the angle; the sine unless given.
+        """
+        return Drive._of(
+            lambda all: {"pieces": [[float(d), np.asarray(c, float).tolist()] for d, c in all]}, height, angle
+        )
+
+    @staticmethod
+    def sampled(height: ArrayLike, angle: ArrayLike | None = None) -> Drive:
+        """The periodic cubic spline through samples at equal distances over one period.
+
+        Args:
+            height: at least 3 heights, in multiples of the amplitude, shape (n,).
+            angle: those of the angle; the sine unless given.
+        """
+        return Drive._of(lambda samples: {"sampled": np.asarray(samples, float).tolist()}, height, angle)
+
+    @staticmethod
+    def triangle() -> Drive:
+        """A height of straight lines through the zeros and extremes of the sine."""
+        return Drive("triangle")
+
+    @staticmethod
+    def sawtooth(rise: Float) -> Drive:
+        """A height of straight lines.
+
+        Args:
+            rise: share of the period in which it rises, in [1e-9, 1 - 1e-9].
+        """
+        return Drive({"sawtooth": float(rise)})
+
+    @staticmethod
+    def parabolas() -> Drive:
+        """A height of one parabola for each half of the period."""
+        return Drive("parabolas")
+
+    @staticmethod
+    def _of(shape: Any, height: Any, angle: Any) -> Drive:
+        return Drive(shape(height), "sine" if angle is None else shape(angle))
+
+    def to_json(self) -> str:
+        """The table as JSON."""
+        return json_module.dumps(asdict(self), allow_nan=False)
+
+    @staticmethod
+    def from_json(json: str) -> Drive:
+        """The drive of such a text."""
+        return Drive(**json_module.loads(readable(json)))
 
 
 class ChatterCut(Parameters):
