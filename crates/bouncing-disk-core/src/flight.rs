@@ -27,10 +27,10 @@ pub(crate) mod platform;
 pub mod reference;
 
 // The model reads a drop through the same check.
-pub use drive::contact::{ChatterDuration, ContactEnd};
+pub use drive::contact::ChatterDuration;
 pub use drive::landing::{Doubt, DrivenImpact};
 pub use drive::pieces::MAX_PIECES;
-pub use drive::{DriveBounds, DriveState, MAX_HARMONICS};
+pub use drive::{DriveBounds, DriveState, MAX_HARMONICS, TimeAhead};
 #[doc(hidden)]
 pub use drop::check_drop;
 pub use first_impact::MAX_FLIGHT_DURATION;

@@ -37,7 +37,6 @@ use crate::motion::state::{DiskState, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
-use crate::parameters::track::Track;
 
 mod chatter;
 mod contact;
@@ -58,8 +57,8 @@ pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss}
 /// fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {
-    pub(crate) height: Track,
-    pub(crate) angle: Track,
+    pub(crate) height: Drive,
+    pub(crate) angle: Drive,
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
     pub(crate) load: f64,
@@ -88,13 +87,13 @@ impl DrivenSystem {
     /// The drive of the height.
     #[must_use]
     pub const fn height(&self) -> &Drive {
-        self.height.drive()
+        &self.height
     }
 
     /// The drive of the angle, in the units of the angle.
     #[must_use]
     pub const fn angle(&self) -> &Drive {
-        self.angle.drive()
+        &self.angle
     }
 
     fn is_ramp(&self) -> bool {

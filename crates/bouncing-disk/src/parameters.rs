@@ -29,7 +29,6 @@ pub(crate) mod presets;
 pub(crate) mod scales;
 pub(crate) mod stroke;
 pub(crate) mod system;
-pub(crate) mod track;
 
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use crate::flight::drive::pieces::Pieces;
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::{sin_cos, wrapped_angle};
-use crate::numerics::error::{Error, within};
-use crate::numerics::quasi_polynomial::DampedSine;
+use crate::numerics::error::{Error, finite, within};
+use crate::numerics::quasi_polynomial::{DampedSine, QuasiPolynomial};
 
 pub(crate) mod contact;
 pub(crate) mod landing;
@@ -70,6 +70,18 @@ pub struct DriveBounds {
     pub acceleration: f64,
     /// Bound on the derivative of the acceleration between kinks.
     pub jerk: f64,
+}
+
+/// A time ahead at which a drive changes, or the contact with it ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct TimeAhead {
+    /// How far ahead, in radians.
+    pub after: f64,
+    /// When: in [0, 2 pi) unless the drive is a ramp.
+    pub time: f64,
+    /// By how much the velocity of the platform jumps there, in units of g/omega: zero without a kink.
+    pub velocity_jump: f64,
 }
 
 /// A harmonic: (amplitude + rate t) sin(number t + angle).
@@ -152,27 +164,75 @@ impl Drive {
         Ok(Self { shape: Shape::Fourier(Arc::new(fourier)) })
     }
 
+    /// The same motion `phase` (rad) earlier.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a phase that is not finite, or beyond the end of a ramp.
+    pub fn earlier(&self, phase: f64) -> Result<Self, Error> {
+        let phase = self.reduced(finite("phase", phase)?);
+        match &self.shape {
+            _ if phase == 0.0 => Ok(self.clone()),
+            Shape::Fourier(fourier) => fourier.earlier(phase),
+            Shape::Pieces(pieces) => pieces.earlier(phase),
+        }
+    }
+
     /// Height, velocity, acceleration and its derivative at this time, in closed form.
     ///
     /// Any finite time of a periodic drive is reduced to a period.
     #[must_use]
     pub fn at(&self, time: f64) -> DriveState {
+        let time = self.reduced(time);
         match &self.shape {
-            Shape::Fourier(fourier) => {
-                fourier.at(if fourier.is_periodic() { wrapped_angle(time) } else { time })
-            }
-            Shape::Pieces(pieces) => pieces.at(wrapped_angle(time)),
+            Shape::Fourier(fourier) => fourier.at(time),
+            Shape::Pieces(pieces) => pieces.at(time),
         }
     }
 
-    /// [`Self::at`], and what the gap of a flight from there on needs.
-    pub(super) fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it is
+    /// sines.
+    fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
+        let time = self.reduced(time);
         match &self.shape {
-            Shape::Fourier(fourier) => {
-                fourier.at_with_terms(if fourier.is_periodic() { wrapped_angle(time) } else { time })
-            }
-            Shape::Pieces(pieces) => (pieces.at(wrapped_angle(time)), Vec::new()),
+            Shape::Fourier(fourier) => fourier.at_with_terms(time, order, factor),
+            Shape::Pieces(pieces) => (pieces.at(time), Vec::new()),
         }
+    }
+
+    /// The derivative of this order (0 to 2; 0 is the height) from `time` on, as a function of the time since
+    /// then: it holds up to the next joint.
+    #[must_use]
+    pub fn derivative(&self, order: u32, time: f64) -> QuasiPolynomial {
+        let order = order.min(2);
+        let (at, terms) = self.at_with_terms(time, order, 1.0);
+        let bounds = self.bounds();
+        let height = bounds.highest.abs().max(bounds.lowest.abs());
+        let errors =
+            [height, bounds.speed, bounds.acceleration, bounds.jerk].map(|size| 8.0 * f64::EPSILON * size);
+        let values = [at.height, at.velocity, at.acceleration, at.jerk, 0.0, 0.0];
+        let k = order as usize;
+        let bend = match &self.shape {
+            Shape::Fourier(_) => [0.0; 2],
+            Shape::Pieces(_) => [0.5 * values[k + 2], values[k + 3] * (1.0 / 6.0)],
+        };
+        QuasiPolynomial::known([values[k], values[k + 1]], [errors[k], errors[k + 1]], bend, terms)
+    }
+
+    /// By how much the velocity changes from `time` on in a `span` >= 0, but for kinks; and the height less the
+    /// first velocity times the span: both accurate relative to themselves in a short span.
+    #[must_use]
+    pub fn change(&self, time: f64, span: f64) -> (f64, f64) {
+        let (mut here, mut left, mut velocity, mut height) = (time, span, 0.0, 0.0);
+        while left > 0.0 {
+            let joint = self.next_joint(here);
+            let step = joint.map_or(left, |joint| joint.after.min(left));
+            let change = self.derivative(0, here).starting_with([0.0; 2], [0.0; 2]).at(step, step);
+            height += step * velocity + change.value;
+            velocity += change.slope;
+            left -= step;
+            here = joint.map_or(here, |joint| joint.time);
+        }
+        (velocity, height)
     }
 
     /// Height at this time, in units of g/omega^2.
@@ -185,6 +245,18 @@ impl Drive {
     #[must_use]
     pub fn velocity(&self, time: f64) -> f64 {
         self.at(time).velocity
+    }
+
+    /// Velocity just before this time, in units of g/omega: at a kink that of the earlier piece.
+    #[must_use]
+    pub fn velocity_before(&self, time: f64) -> f64 {
+        self.velocity(time) - self.velocity_jump(time)
+    }
+
+    /// By how much the velocity jumps at this time, in units of g/omega.
+    #[must_use]
+    pub fn velocity_jump(&self, time: f64) -> f64 {
+        self.as_pieces().map_or(0.0, |pieces| pieces.velocity_jump(wrapped_angle(time)))
     }
 
     /// Acceleration at this time, in units of g.
@@ -217,13 +289,46 @@ impl Drive {
         }
     }
 
+    /// The highest number of a harmonic; 1 if there is none.
+    #[must_use]
+    pub fn highest_harmonic(&self) -> f64 {
+        match &self.shape {
+            Shape::Fourier(fourier) => fourier.highest_harmonic(),
+            Shape::Pieces(_) => 1.0,
+        }
+    }
+
     /// The times in [0, 2 pi) at which the velocity jumps, and by how much.
     pub fn kinks(&self) -> impl Iterator<Item = (f64, f64)> {
-        let pieces = match &self.shape {
+        self.as_pieces().map_or(&[][..], Pieces::kinks).iter().copied()
+    }
+
+    /// The next kink after `time`.
+    #[must_use]
+    pub fn next_kink(&self, time: f64) -> Option<TimeAhead> {
+        self.as_pieces()?.next_kink(wrapped_angle(time))
+    }
+
+    /// The next joint of two pieces after `time`; `None` for a Fourier sum.
+    #[must_use]
+    pub fn next_joint(&self, time: f64) -> Option<TimeAhead> {
+        self.as_pieces().map(|pieces| pieces.next_joint(wrapped_angle(time)))
+    }
+
+    fn as_pieces(&self) -> Option<&Pieces> {
+        match &self.shape {
             Shape::Fourier(_) => None,
             Shape::Pieces(pieces) => Some(pieces),
-        };
-        pieces.into_iter().flat_map(|pieces| pieces.kinks())
+        }
+    }
+
+    fn is_periodic(&self) -> bool {
+        self.duration() == f64::INFINITY
+    }
+
+    /// The time in [0, 2 pi), unless the drive is a ramp.
+    fn reduced(&self, time: f64) -> f64 {
+        if self.is_periodic() { wrapped_angle(time) } else { time }
     }
 }
 
@@ -259,11 +364,43 @@ impl Harmonic {
         state.jerk -= number * number * (3.0 * rate * sin + size * number * cos);
         (sin, cos)
     }
+
+    /// Adds `factor` times the derivative of this order, where the harmonic has this sine and cosine.
+    fn add_terms(
+        &self,
+        time: f64,
+        (sin, cos): (f64, f64),
+        (order, factor): (u32, f64),
+        terms: &mut Vec<DampedSine>,
+    ) {
+        let &Self { number, amplitude, rate, .. } = self;
+        // Of the derivative, and of the one below it, as coefficients of cosine and sine.
+        let (mut own, mut below, mut power) = ([sin, cos], [0.0; 2], factor);
+        for _ in 0..order {
+            (own, below) = ([own[1], -own[0]], own.map(|x| x * power));
+            power *= number;
+        }
+        let (size, turns) = (power * (amplitude + rate * time), f64::from(order) * rate);
+        let [cosine, sine] = [0, 1].map(|k| size * own[k] + turns * below[k]);
+        terms.push(DampedSine::steady(cosine, sine, number));
+        if rate != 0.0 {
+            let [cosine, sine] = own.map(|x| power * rate * x);
+            terms.push(DampedSine { with_time: true, ..DampedSine::steady(cosine, sine, number) });
+        }
+    }
 }
 
 impl Fourier {
-    fn is_periodic(&self) -> bool {
-        self.duration == f64::INFINITY
+    fn earlier(&self, phase: f64) -> Result<Drive, Error> {
+        let mut ramps = [(0.0, 0.0, 0.0); MAX_HARMONICS];
+        for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
+            ramps[number as usize - 1] = (amplitude + rate * phase, rate, angle + number * phase);
+        }
+        if self.duration.is_finite() {
+            Drive::ramped_fourier(&ramps, self.duration - phase)
+        } else {
+            Drive::sum(&ramps, self.duration)
+        }
     }
 
     fn at(&self, time: f64) -> DriveState {
@@ -274,27 +411,24 @@ impl Fourier {
         state
     }
 
-    /// [`Self::at`], and minus the height from `time` on as terms of a quasi-polynomial.
-    fn at_with_terms(&self, time: f64) -> (DriveState, Vec<DampedSine>) {
+    /// [`Drive::at_with_terms`].
+    fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
         let mut state = DriveState::default();
         let mut terms = Vec::with_capacity(self.harmonics.len());
         for harmonic in &self.harmonics {
-            let (sin, cos) = harmonic.add(time, &mut state);
-            let size = -(harmonic.amplitude + harmonic.rate * time);
-            terms.push(DampedSine::steady(size * sin, size * cos, harmonic.number));
-            if harmonic.rate != 0.0 {
-                let slope = -harmonic.rate;
-                let steady = DampedSine::steady(slope * sin, slope * cos, harmonic.number);
-                terms.push(DampedSine { with_time: true, ..steady });
-            }
+            let turned = harmonic.add(time, &mut state);
+            harmonic.add_terms(time, turned, (order, factor), &mut terms);
         }
         (state, terms)
     }
 
+    fn highest_harmonic(&self) -> f64 {
+        self.harmonics.iter().fold(1.0, |most, harmonic| harmonic.number.max(most))
+    }
+
     /// Bounds on the height: between two samples it differs from the line between them by at most s'' d^2/8.
     fn height_bounds(&self) -> (f64, f64) {
-        let highest = self.harmonics.iter().fold(1.0, |most: f64, h| most.max(h.number));
-        let count = 512.0 * highest;
+        let count = 512.0 * self.highest_harmonic();
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut k = 0.0;
         while k < count {

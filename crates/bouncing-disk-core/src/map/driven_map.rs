@@ -7,9 +7,8 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
-use crate::flight::drive::Drive;
-use crate::flight::drive::contact::ContactEnd;
 use crate::flight::drive::landing::DrivenImpact;
+use crate::flight::drive::{Drive, TimeAhead};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::wrapped_angle;
@@ -89,7 +88,7 @@ impl DrivenMap {
         if landing.on_kink {
             return on_kink(landing.impact.phase.angle());
         }
-        if self.drive.kinks().any(|(time, _)| time.to_bits() == state.phase().angle().to_bits()) {
+        if self.drive.velocity_jump(state.phase().angle()) != 0.0 {
             return on_kink(state.phase().angle());
         }
         let (from, to) = (self.drive.at(state.phase().angle()), self.drive.at(landing.impact.phase.angle()));
@@ -248,7 +247,7 @@ impl DrivenOrbit {
             Next::Contact(since) => {
                 let Some(end) = self.map.drive.contact_end(since, f64::INFINITY)? else { return Ok(None) };
                 let change = ContactChange {
-                    duration: end.duration,
+                    duration: end.after,
                     phase: Phase::of_angle(end.time),
                     turns: turns(since, end),
                     velocity: -end.velocity_jump,
@@ -312,8 +311,8 @@ impl DrivenOrbit {
 }
 
 /// How often the phase passes 0 in a contact of at most one period.
-fn turns(since: f64, end: ContactEnd) -> u64 {
-    u64::from(end.time < since || end.time <= since && end.duration > 0.5 * TAU)
+fn turns(since: f64, end: TimeAhead) -> u64 {
+    u64::from(end.time < since || end.time <= since && end.after > 0.5 * TAU)
 }
 
 impl Iterator for DrivenOrbit {

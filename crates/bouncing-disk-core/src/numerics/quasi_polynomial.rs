@@ -4,6 +4,8 @@
 //! zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
 //! stretch on which the function falls, or is concave, all the way (docs/numerics/drives.md).
 
+use core::ops::{Add, Mul};
+
 use crate::numerics::elementary::{exp, sin_cos, sine_deficit_ratio, versine_ratio};
 use crate::numerics::error::{Error, finite, within};
 
@@ -218,37 +220,22 @@ impl QuasiPolynomial {
     /// [`Error::OutOfRange`] for numbers that are not finite, and for growing terms.
     pub fn new(polynomial: [f64; 4], terms: Vec<DampedSine>) -> Result<Self, Error> {
         let (mut start, mut error) = ([polynomial[0], polynomial[1]], [0.0; 2]);
+        for coefficient in polynomial {
+            finite("coefficient of a quasi-polynomial", coefficient)?;
+        }
         for term in &terms {
+            term.check()?;
             let at_zero = term.at_zero();
             for k in 0..2 {
                 start[k] += at_zero[k];
                 error[k] += ROUNDING * at_zero[k].abs();
             }
         }
-        Self::anchored(start, error, [polynomial[2], polynomial[3]], terms)
+        Ok(Self::known(start, error, [polynomial[2], polynomial[3]], terms))
     }
 
     /// The function with this value and slope at t = 0, known to these errors: c2 t^2 + c3 t^3 and the terms
-    /// bend it from there on.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn anchored(
-        start: [f64; 2],
-        start_error: [f64; 2],
-        [c2, c3]: [f64; 2],
-        terms: Vec<DampedSine>,
-    ) -> Result<Self, Error> {
-        for coefficient in [start[0], start[1], start_error[0], start_error[1], c2, c3] {
-            finite("coefficient of a quasi-polynomial", coefficient)?;
-        }
-        for term in &terms {
-            term.check()?;
-        }
-        Ok(Self::known(start, start_error, [c2, c3], terms))
-    }
-
-    /// [`Self::anchored`] with numbers that are known to be legal.
+    /// bend it from there on. All numbers are known to be legal.
     pub(crate) fn known(
         start: [f64; 2],
         start_error: [f64; 2],
@@ -269,6 +256,12 @@ impl QuasiPolynomial {
             }
         }
         Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth }
+    }
+
+    /// The function that bends as this one does, from another value and slope at t = 0, known to these errors.
+    #[must_use]
+    pub fn starting_with(self, start: [f64; 2], start_error: [f64; 2]) -> Self {
+        Self { start, start_error, ..self }
     }
 
     /// Adds `change` to the second derivative at all times.
@@ -338,6 +331,53 @@ impl QuasiPolynomial {
     /// [`Error::NoConvergence`] after 100,000 evaluations.
     pub fn first_root(&self, from: f64, to: f64) -> Result<FirstRoot, Error> {
         first_root(|t| self.at(t, to), from, to)
+    }
+}
+
+impl Add<f64> for QuasiPolynomial {
+    type Output = Self;
+
+    fn add(mut self, constant: f64) -> Self {
+        self.start[0] += constant;
+        self
+    }
+}
+
+impl Add for QuasiPolynomial {
+    type Output = Self;
+
+    fn add(mut self, other: Self) -> Self {
+        for k in 0..2 {
+            self.start[k] += other.start[k];
+            self.start_error[k] += other.start_error[k];
+        }
+        self.sizes = core::array::from_fn(|k| self.sizes[k] + other.sizes[k]);
+        self.bend += other.bend;
+        self.third += other.third;
+        self.steady_fourth += other.steady_fourth;
+        self.terms.extend(other.terms);
+        self
+    }
+}
+
+impl Mul<f64> for QuasiPolynomial {
+    type Output = Self;
+
+    fn mul(mut self, factor: f64) -> Self {
+        for term in &mut self.terms {
+            term.cosine *= factor;
+            term.sine *= factor;
+        }
+        let size = factor.abs();
+        Self {
+            start: self.start.map(|value| value * factor),
+            start_error: self.start_error.map(|error| error * size),
+            bend: self.bend * factor,
+            third: self.third * factor,
+            terms: self.terms,
+            sizes: self.sizes.map(|term| term * size),
+            steady_fourth: self.steady_fourth * size,
+        }
     }
 }
 

@@ -7,11 +7,11 @@
 //! ```
 //!
 //! A disk sticks while the rate is positive in neither direction. Both functions are polynomials and sines between
-//! two knots, so that the core's first root misses no event.
+//! two joints, so that the core's first root misses no event.
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::flight::{MAX_FLIGHT_DURATION, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
@@ -19,7 +19,6 @@ use super::DrivenSystem;
 use crate::error::Error;
 use crate::motion::rotary_change::RotaryChange;
 use crate::motion::state::SlipDirection;
-use crate::parameters::track::Bend;
 
 /// Rounding of a rate, in units of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -68,7 +67,7 @@ impl DrivenSystem {
 
     /// Nothing turns the disk: friction holds it to the end of the contact.
     fn is_unloaded(&self) -> bool {
-        self.angle.is_still() && self.load == 0.0
+        self.angle.bounds().speed == 0.0 && self.load == 0.0
     }
 
     /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then slips.
@@ -90,11 +89,9 @@ impl DrivenSystem {
                     _ => -rate,
                 };
                 let error = if spare == 0.0 { 0.0 } else { doubt };
-                let mut bend = Bend::default();
-                self.height.add(2, here, self.friction, &mut bend);
-                self.angle.add(2, here, direction.sign(), &mut bend);
                 let holds = spare >= -doubt && (spare > 0.0 || change < 0.0);
-                Ok(holds.then(|| bend.from([spare, -change], [error, change_doubt])).transpose()?)
+                let pull = || self.pull_on(2, direction, here);
+                holds.then(|| pull().starting_with([spare, -change], [error, change_doubt]))
             })?;
             if let Some(after) = found
                 && first.is_none_or(|(earliest, _)| after < earliest)
@@ -157,32 +154,29 @@ impl DrivenSystem {
     ) -> Result<Option<f64>, Error> {
         let mut known = Some(speed);
         self.first_fall(at, limit, |here, passed| {
-            // Carried from knot to knot by the closed form.
+            // Carried from joint to joint by the closed form.
             let value = known.take().unwrap_or_else(|| self.slip_after(direction, at, speed, passed));
             let ([rate, change], [doubt, _]) = self.growth(direction, here);
             if value <= 0.0 && (rate <= doubt && change <= 0.0 || rate < -doubt) {
-                return Ok(None);
+                return None;
             }
-            self.slip_from(direction, here, value, doubt).map(Some)
+            Some(self.slip_from(direction, here, value, doubt))
         })
     }
 
     /// The slip speed from `here` on, with this value there and a rate known to `doubt`.
-    fn slip_from(
-        &self,
-        direction: SlipDirection,
-        here: f64,
-        value: f64,
-        doubt: f64,
-    ) -> Result<QuasiPolynomial, Error> {
+    fn slip_from(&self, direction: SlipDirection, here: f64, value: f64, doubt: f64) -> QuasiPolynomial {
         let ([rate, _], _) = self.growth(direction, here);
         let (value, error) = if value > 0.0 { (value, ROUNDING * value) } else { (0.0, 0.0) };
         // A slip that begins does not end by a rounding.
         let rate = if value == 0.0 && rate.abs() <= doubt { 0.0 } else { rate };
-        let mut bend = Bend::default();
-        self.height.add(1, here, -self.friction, &mut bend);
-        self.angle.add(1, here, -direction.sign(), &mut bend);
-        Ok(bend.from([value, rate], [error, doubt])?)
+        (self.pull_on(1, direction, here) * -1.0).starting_with([value, rate], [error, doubt])
+    }
+
+    /// mu s + d beta, or a derivative of it.
+    fn pull_on(&self, order: u32, direction: SlipDirection, here: f64) -> QuasiPolynomial {
+        self.height.derivative(order, here) * self.friction
+            + self.angle.derivative(order, here) * direction.sign()
     }
 
     /// Slip speed after a slide of this `span`.
@@ -192,21 +186,26 @@ impl DrivenSystem {
         speed - ((self.friction + d * self.load) * span + self.friction * lifted + d * turned)
     }
 
-    /// The first time at which a function falls through zero, knot by knot; `of` gives it from a time on (and the
+    /// The next joint of height or angle.
+    fn next_joint(&self, here: f64) -> Option<TimeAhead> {
+        let joints = [self.height.next_joint(here), self.angle.next_joint(here)];
+        joints.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after))
+    }
+
+    /// The first time at which a function falls through zero, joint by joint; `of` gives it from a time on (and the
     /// time passed until then), and nothing where it has fallen already.
     fn first_fall(
         &self,
         at: f64,
         limit: f64,
-        mut of: impl FnMut(f64, f64) -> Result<Option<QuasiPolynomial>, Error>,
+        mut of: impl FnMut(f64, f64) -> Option<QuasiPolynomial>,
     ) -> Result<Option<f64>, Error> {
         let (mut here, mut passed) = (at, 0.0);
         loop {
-            let knots = [self.height.next_knot(here), self.angle.next_knot(here)];
-            let knot = knots.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after));
+            let joint = self.next_joint(here);
             let left = limit - passed;
-            let step = knot.map_or(left, |knot| knot.after.min(left));
-            let Some(function) = of(here, passed)? else { return Ok(Some(passed)) };
+            let step = joint.map_or(left, |joint| joint.after.min(left));
+            let Some(function) = of(here, passed) else { return Ok(Some(passed)) };
             let mut from = 0.0;
             while from < step {
                 match function.first_root(from, step)? {
@@ -217,8 +216,8 @@ impl DrivenSystem {
                     FirstRoot::Undecided { until, .. } => from = until,
                 }
             }
-            match knot {
-                Some(knot) if knot.after < left => (here, passed) = (knot.time, passed + knot.after),
+            match joint {
+                Some(joint) if joint.after < left => (here, passed) = (joint.time, passed + joint.after),
                 _ => return Ok(None),
             }
         }
@@ -255,22 +254,20 @@ impl DrivenSystem {
     }
 
     fn slide_work_within(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
-        let number = self.height.highest_number().max(self.angle.highest_number());
+        let number = self.height.highest_harmonic().max(self.angle.highest_harmonic());
         let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
         while passed < span {
-            let knots = [self.height.next_knot(here), self.angle.next_knot(here)];
-            let knot = knots.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after));
+            let joint = self.next_joint(here);
             let left = span - passed;
-            let stretch = knot.map_or(left, |knot| knot.after.min(left));
+            let stretch = joint.map_or(left, |joint| joint.after.min(left));
             // A rule of eight points is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
             let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
             let (slip, force, carrier) = (
                 self.slip_from(direction, here, value, 0.0),
-                self.height.derivative(2, here, 1.0),
-                self.angle.derivative(1, here, 0.0),
+                self.height.derivative(2, here) + 1.0,
+                self.angle.derivative(1, here),
             );
-            let (Ok(slip), Ok(force), Ok(carrier)) = (slip, force, carrier) else { break };
             let half = 0.5 * stretch / panels;
             let mut panel = 0.0;
             while panel < panels {
@@ -286,8 +283,8 @@ impl DrivenSystem {
                 }
                 panel += 1.0;
             }
-            match knot {
-                Some(knot) if knot.after < left => (here, passed) = (knot.time, passed + knot.after),
+            match joint {
+                Some(joint) if joint.after < left => (here, passed) = (joint.time, passed + joint.after),
                 _ => break,
             }
         }

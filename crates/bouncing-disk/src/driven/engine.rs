@@ -257,7 +257,7 @@ impl DrivenEngine {
         if let (Ok(Some(end)), Stage::Contact(contact)) =
             (self.system.height().contact_end(at, f64::INFINITY), &mut self.stage)
         {
-            contact.end = Some((end.duration, end.time, end.velocity_jump));
+            contact.end = Some((end.after, end.time, end.velocity_jump));
         }
     }
 
@@ -561,7 +561,7 @@ impl DrivenEngine {
         }
         if let Some(kink) = kink {
             let jump = contact.slip.map_or(0.0, |d| d.sign() * self.slip_speed_at(kink.after, kink.time))
-                - kink.jump;
+                - kink.velocity_jump;
             let next = SlipDirection::of(jump);
             let event = match (contact.slip, next) {
                 (_, None) => DrivenEvent::SlipToStick,

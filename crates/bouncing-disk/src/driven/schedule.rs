@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::ChatterPolicy;
+use bouncing_disk_core::{ChatterPolicy, Drive};
 
 use super::engine::DrivenEngine;
 use super::{DrivenRecord, DrivenStart, DrivenSystem};
@@ -15,7 +15,6 @@ use crate::parameters::driven_platform::{
 };
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
-use crate::parameters::track::Track;
 
 /// A jump of the height at a joint that is smaller than this share of the heights is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-9;
@@ -104,7 +103,7 @@ impl Schedule {
             let length = self.platform.scales(disk).length;
             let height = last.height(last.duration) / length;
             let still = |height: f64| {
-                Track::pieces(&[(TAU, [height, 0.0, 0.0, 0.0])])
+                Drive::pieces(&[(TAU, [height, 0.0, 0.0, 0.0])])
                     .map_err(|source| Error::Waveform { of: "height", source })
             };
             parts.push(Part {
@@ -144,7 +143,7 @@ impl Schedule {
                     (a * full * amplitude, a * full * rate, phi + (j + 1) as f64 * (phase + lag))
                 };
                 let harmonics: Vec<_> = harmonics.into_iter().enumerate().map(ramped).collect();
-                Track::ramps(&harmonics, duration).map_err(|source| Error::Waveform { of, source })
+                Drive::ramped_fourier(&harmonics, duration).map_err(|source| Error::Waveform { of, source })
             }
         };
         Ok(Part {

@@ -5,11 +5,12 @@ use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::{DrivenMap, ImpactMap};
 
+use bouncing_disk_core::Drive;
+
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
-use crate::parameters::track::Track;
 
 /// The shape of a motion over one period: height or angle in multiples of its amplitude, where the sine of
 /// Eq. (1) has sin(tau). Not yet checked.
@@ -78,7 +79,7 @@ impl Waveform {
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
-    pub(crate) fn track(&self, of: &'static str, amplitude: f64, lag: f64) -> Result<Track, Error> {
+    pub(crate) fn track(&self, of: &'static str, amplitude: f64, lag: f64) -> Result<Drive, Error> {
         let refuse = |source| match source {
             bouncing_disk_core::Error::HeightJump { piece, jump } => {
                 Error::WaveformJump { of, piece, jump: jump / amplitude }
@@ -97,11 +98,11 @@ impl Waveform {
                     |(j, (a, phi)): (usize, (f64, f64))| (amplitude * a, phi + (j + 1) as f64 * lag);
                 let harmonics: Vec<_> =
                     self.harmonics().into_iter().flatten().enumerate().map(earlier).collect();
-                return Track::sines(&harmonics).map_err(refuse);
+                return Drive::fourier(&harmonics).map_err(refuse);
             }
             Self::Sampled(samples) => {
                 let samples: Vec<_> = samples.iter().map(|sample| amplitude * sample).collect();
-                Track::sampled(&samples)
+                Drive::sampled(&samples)
             }
             Self::Pieces(pieces) => {
                 let total = pieces.iter().fold(0.0, |sum, (duration, _)| sum + duration);
@@ -147,12 +148,12 @@ impl Waveform {
 }
 
 /// Pieces whose times are in periods and that are made `size` times as large.
-fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Track, bouncing_disk_core::Error> {
+fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_disk_core::Error> {
     let scaled = |&(duration, [c0, c1, c2, c3]): &(f64, [f64; 4])| {
         let c = [c0 * size, c1 * size / TAU, c2 * size / (TAU * TAU), c3 * size / (TAU * TAU * TAU)];
         (duration * TAU, c)
     };
-    Track::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
+    Drive::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
 /// A [`Platform`] whose sines are replaced by any [`Waveform`]s: height A f(tau), angle Phi h(tau + theta). The

@@ -3,23 +3,10 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, Fourier, Harmonic, Shape, turned};
+use super::{Drive, Shape, TimeAhead};
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, finite};
-use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial};
-
-/// The end of a contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ContactEnd {
-    /// How long the contact lasts, in radians.
-    pub duration: f64,
-    /// When it ends: in [0, 2 pi) unless the drive is a ramp.
-    pub time: f64,
-    /// How much the velocity of the platform jumps there: zero where the force falls to zero, negative where
-    /// the platform leaves the disk behind, positive where it hits the disk.
-    pub velocity_jump: f64,
-}
+use crate::numerics::quasi_polynomial::FirstRoot;
 
 /// How long a chatter lasts, from a launch to the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,26 +19,44 @@ pub struct ChatterDuration {
 }
 
 impl Drive {
-    /// The end of a contact that holds at `time`, within `limit` radians; `None` if it lasts for longer.
+    /// The end of a contact that holds at `time`, within `limit` radians; `None` if it lasts for longer. The
+    /// velocity jumps there by zero where the force falls to zero, by less where the platform leaves the disk
+    /// behind, by more where it hits the disk.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a time that is not finite; [`Error::NoConvergence`].
-    pub fn contact_end(&self, time: f64, limit: f64) -> Result<Option<ContactEnd>, Error> {
+    pub fn contact_end(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         finite("time", time)?;
-        let periodic = self.duration() == f64::INFINITY;
-        let time = if periodic { wrapped_angle(time) } else { time };
+        let time = self.reduced(time);
         // What does not happen within a period never does.
-        let limit = limit.min(if periodic { TAU } else { self.duration() - time });
-        let found = match &self.shape {
-            Shape::Fourier(fourier) => {
-                fourier.separation(time, limit)?.map(|after| (after, time + after, 0.0))
-            }
+        let limit = limit.min(if self.is_periodic() { TAU } else { self.duration() - time });
+        let end = match &self.shape {
+            Shape::Fourier(_) => self.separation(time, limit)?,
             Shape::Pieces(pieces) => pieces.contact_end(time, limit),
         };
-        Ok(found.map(|(duration, time, velocity_jump)| {
-            let time = if periodic { wrapped_angle(time) } else { time };
-            ContactEnd { duration, time, velocity_jump }
-        }))
+        Ok(end.map(|end| TimeAhead { time: self.reduced(end.time), ..end }))
+    }
+
+    /// The first fall of the contact force 1 + s'' of a Fourier sum through zero.
+    fn separation(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
+        if self.bounds().acceleration <= 1.0 {
+            return Ok(None);
+        }
+        let ahead = |after| Ok(Some(TimeAhead { after, time: time + after, velocity_jump: 0.0 }));
+        let force = self.derivative(2, time) + 1.0;
+        if force.at(0.0, 0.0).value < 0.0 {
+            return ahead(0.0);
+        }
+        let mut from = 0.0;
+        loop {
+            match force.first_root(from, limit)? {
+                FirstRoot::Root(root) => return ahead(root.at),
+                FirstRoot::None { .. } => return Ok(None),
+                // A force that touches zero presses on.
+                FirstRoot::Undecided { until, .. } if until < limit => from = until,
+                FirstRoot::Undecided { .. } => return Ok(None),
+            }
+        }
     }
 
     /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if a
@@ -100,44 +105,6 @@ impl Drive {
                 Some((pull - change, pull + change))
             }
             Shape::Pieces(pieces) => pieces.pull_within(wrapped_angle(time), duration),
-        }
-    }
-}
-
-impl Fourier {
-    /// The time to the first fall of the contact force 1 + s'' through zero.
-    fn separation(&self, time: f64, limit: f64) -> Result<Option<f64>, Error> {
-        if self.bounds.acceleration <= 1.0 {
-            return Ok(None);
-        }
-        let here = self.at(time);
-        let pull = 1.0 + here.acceleration;
-        if pull < 0.0 {
-            return Ok(Some(0.0));
-        }
-        let mut terms = Vec::with_capacity(self.harmonics.len());
-        for &Harmonic { number, amplitude, rate, angle } in &self.harmonics {
-            let (sin, cos) = turned(number, time, angle);
-            let (size, turn) = (number * number * (amplitude + rate * time), 2.0 * number * rate);
-            terms.push(DampedSine::steady(turn * cos - size * sin, -turn * sin - size * cos, number));
-            if rate != 0.0 {
-                let slope = -number * number * rate;
-                let steady = DampedSine::steady(slope * sin, slope * cos, number);
-                terms.push(DampedSine { with_time: true, ..steady });
-            }
-        }
-        let error = 8.0 * f64::EPSILON * self.bounds.acceleration;
-        let jerk_error = 8.0 * f64::EPSILON * self.bounds.jerk;
-        let force = QuasiPolynomial::known([pull, here.jerk], [error, jerk_error], [0.0; 2], terms);
-        let mut from = 0.0;
-        loop {
-            match force.first_root(from, limit)? {
-                FirstRoot::Root(root) => return Ok(Some(root.at)),
-                FirstRoot::None { .. } => return Ok(None),
-                // A force that touches zero presses on.
-                FirstRoot::Undecided { until, .. } if until < limit => from = until,
-                FirstRoot::Undecided { .. } => return Ok(None),
-            }
         }
     }
 }

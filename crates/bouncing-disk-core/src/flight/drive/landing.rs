@@ -127,12 +127,9 @@ impl Drive {
 
     /// The first impact within `limit`, of a start that is known to be legal.
     pub(crate) fn land(&self, mut start: Start, limit: f64) -> Result<Option<DrivenImpact>, Error> {
-        let periodic = self.duration() == f64::INFINITY;
-        if periodic {
-            start.time = wrapped_angle(start.time);
-        }
+        start.time = self.reduced(start.time);
         let limit = limit.min(self.duration() - start.time);
-        let (here, terms) = self.at_with_terms(start.time);
+        let (here, terms) = self.at_with_terms(start.time, 0, -1.0);
         let bounds = self.bounds();
         if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
             return Err(self.no_lift_off(start.time));
@@ -170,9 +167,10 @@ impl Drive {
         if limit <= down {
             return Ok(None);
         }
+        let periodic = self.is_periodic();
         let (periods, rest) = if periodic && down > TAU { nearest_periods(down) } else { (0.0, down) };
         let time = start.time + rest;
-        let (there, terms) = self.at_with_terms(time);
+        let (there, terms) = self.at_with_terms(time, 0, -1.0);
         // Time and speed at which the disk is back are rounded, and so were height and speed before.
         let height_error = ROUNDING * (height.abs() + bounds.highest.abs() + bounds.highest - bounds.lowest);
         let radicand_error = ROUNDING * (speed * speed + depth.abs()) + height_error;

@@ -5,8 +5,9 @@ use core::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::landing::{DOUBTFUL_PULL, Doubt, Found, Start, decided};
-use super::{Drive, DriveBounds, DriveState, Shape};
+use super::{Drive, DriveBounds, DriveState, Shape, TimeAhead};
 use crate::flight::platform::vibration::Vibration;
+use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
 use crate::numerics::quasi_polynomial::{Jet, QuasiPolynomial, Root};
 
@@ -30,6 +31,8 @@ pub(crate) struct Pieces {
     coefficients: Vec<[f64; 4]>,
     /// By how much the velocity jumps where a piece begins.
     jumps: Vec<f64>,
+    /// When the velocity jumps, and by how much.
+    kinks: Vec<(f64, f64)>,
     /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
     /// of pieces where it never ends.
     exits: Vec<u32>,
@@ -92,6 +95,7 @@ impl Drive {
             starts,
             coefficients,
             jumps: Vec::new(),
+            kinks: Vec::new(),
             exits: Vec::new(),
             joint_rounding: [0.0; 2],
             tops: Vec::new(),
@@ -209,8 +213,45 @@ impl Pieces {
         at(self.coefficients[piece], time - self.starts[piece])
     }
 
-    pub(super) fn kinks(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.starts.iter().copied().zip(self.jumps.iter().copied()).filter(|&(_, jump)| jump != 0.0)
+    pub(super) fn velocity_jump(&self, time: f64) -> f64 {
+        let piece = self.index(time);
+        if self.starts[piece].to_bits() == time.to_bits() { self.jumps[piece] } else { 0.0 }
+    }
+
+    pub(super) fn kinks(&self) -> &[(f64, f64)] {
+        &self.kinks
+    }
+
+    /// The next kink after a time in [0, 2 pi).
+    pub(super) fn next_kink(&self, time: f64) -> Option<TimeAhead> {
+        let next = self.kinks.partition_point(|&(kink, _)| kink <= time);
+        let (ahead, &(kink, velocity_jump)) = match self.kinks.get(next) {
+            Some(kink) => (0.0, kink),
+            None => (TAU, self.kinks.first()?),
+        };
+        Some(TimeAhead { after: kink + (ahead - time), time: kink, velocity_jump })
+    }
+
+    /// The next joint after a time in [0, 2 pi).
+    pub(super) fn next_joint(&self, time: f64) -> TimeAhead {
+        let piece = self.index(time);
+        let next = (piece + 1) % self.count();
+        let after = self.starts[piece + 1] - time;
+        TimeAhead { after, time: self.starts[next], velocity_jump: self.jumps[next] }
+    }
+
+    /// The same period begun at a phase in (0, 2 pi): the piece that holds there is cut in two.
+    pub(super) fn earlier(&self, phase: f64) -> Result<Drive, Error> {
+        let (cut, here) = (self.index(phase), self.at(phase));
+        let first = [here.height, here.velocity, 0.5 * here.acceleration, here.jerk / 6.0];
+        let others = (cut + 1..self.count()).chain(0..cut);
+        let mut pieces = vec![(self.starts[cut + 1] - phase, first)];
+        pieces.extend(others.map(|piece| (self.length(piece), self.coefficients[piece])));
+        let rest = phase - self.starts[cut];
+        if rest > 0.0 {
+            pieces.push((rest, self.coefficients[cut]));
+        }
+        Drive::pieces(&pieces)
     }
 
     /// The bounds, and the highest points.
@@ -270,6 +311,8 @@ impl Pieces {
             self.jumps.push(if is_kink { jump } else { 0.0 });
             self.joint_rounding[1] += if is_kink { 0.0 } else { jump.abs() };
         }
+        let jumps = self.starts.iter().copied().zip(self.jumps.iter().copied());
+        self.kinks = jumps.filter(|&(_, jump)| jump != 0.0).collect();
         Ok(())
     }
 
@@ -297,18 +340,21 @@ impl Pieces {
         self.exits = exits;
     }
 
-    /// How long after `time` a contact ends, when, and the jump of the velocity there.
-    pub(super) fn contact_end(&self, time: f64, limit: f64) -> Option<(f64, f64, f64)> {
+    /// [`Drive::contact_end`].
+    pub(super) fn contact_end(&self, time: f64, limit: f64) -> Option<TimeAhead> {
+        let ahead =
+            |after, time, velocity_jump| (after <= limit).then_some(TimeAhead { after, time, velocity_jump });
         let piece = self.index(time);
         let (force, change) = self.force(piece);
         let here = force + change * (time - self.starts[piece]);
         if here < 0.0 {
-            return Some((0.0, time, 0.0));
+            return ahead(0.0, time, 0.0);
         }
-        let left = self.starts[piece + 1] - time;
+        let joint = self.next_joint(time);
+        let left = joint.after;
         if change < 0.0 && here / -change < left {
             let after = here / -change;
-            return (after <= limit).then_some((after, time + after, 0.0));
+            return ahead(after, time + after, 0.0);
         }
         let next = (piece + 1) % self.count();
         let exit = self.exits[next] as usize;
@@ -319,10 +365,8 @@ impl Pieces {
         let inner = if self.jumps[exit] != 0.0 || force <= 0.0 { 0.0 } else { force / -change };
         let at = self.starts[exit];
         // Counted from the joint, so that a brief contact is not rounded.
-        let joint = if next == 0 { 0.0 } else { self.starts[next] };
-        let way = if at >= joint { at - joint } else { at - joint + TAU };
-        let after = left + way + inner;
-        (after <= limit).then_some((after, at + inner, self.jumps[exit]))
+        let way = if at >= joint.time { at - joint.time } else { at - joint.time + TAU };
+        ahead(left + way + inner, at + inner, self.jumps[exit])
     }
 
     /// The least and the largest contact force from `time` on for a `duration`.
@@ -351,11 +395,7 @@ impl Pieces {
 
     /// The first impact within `to`.
     pub(super) fn window(&self, start: Start, first_error: [f64; 2], to: f64) -> Result<Found, Error> {
-        let time = if start.time >= TAU || start.time < 0.0 {
-            crate::numerics::elementary::wrapped_angle(start.time)
-        } else {
-            start.time
-        };
+        let time = if start.time >= TAU || start.time < 0.0 { wrapped_angle(start.time) } else { start.time };
         let mut piece = self.index(time);
         let mut x = time - self.starts[piece];
         let mut left = self.starts[piece + 1] - time;
