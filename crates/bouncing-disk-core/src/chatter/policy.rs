@@ -2,8 +2,17 @@
 
 use core::f64::consts::{PI, TAU};
 
+use crate::flight::drive::Drive;
+use crate::flight::drive::contact::ChatterDuration;
 use crate::numerics::error::Error;
 use crate::numerics::stored::read_checked;
+
+/// Largest error of the end of a chatter on a drive (rad) with which [`ChatterPolicy::Complete`] is content.
+const COMPLETION_ERROR: f64 = 1.0e-14;
+
+/// A disk launched slower than this (g/omega), on a drive that pulls it, is put on it where no bound proves
+/// that its chatter ends.
+const SMALLEST_SPEED: f64 = 1.0e-18;
 
 /// How the infinite sequence of impacts of a chattering disk is treated.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -17,6 +26,52 @@ pub enum ChatterPolicy {
     /// The disk is put on the platform as soon as a rule says so, as in all simulations impact by impact, the
     /// paper's included (Sec. IV A).
     Cut(ChatterCut),
+}
+
+/// What a disk does after an impact on a [`Drive`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AfterImpact {
+    /// It leaves the platform with this relative speed, in units of g/omega: zero where a cut has taken the
+    /// rebound from a disk that the platform then leaves behind.
+    Launch(f64),
+    /// It chatters, and rests after this time.
+    Chatter(ChatterDuration),
+    /// It rests at once. The error is infinite if a rebound was cut off: no bound proves that the disk stays.
+    Rest {
+        /// Bound on the error of the time (rad).
+        error: f64,
+    },
+}
+
+impl ChatterPolicy {
+    /// What follows an impact on `drive` at `time` with this relative velocity <= 0, at the end of a flight
+    /// of this duration (rad; infinite if it does not count as a flight).
+    pub fn after_impact(
+        &self,
+        (drive, restitution): (&Drive, f64),
+        (time, velocity): (f64, f64),
+        flight: f64,
+        short_flights: &mut ShortFlightCount,
+    ) -> AfterImpact {
+        let speed = -restitution * velocity;
+        let pulls = drive.acceleration(time) >= -1.0;
+        let rest = AfterImpact::Rest { error: if speed > 0.0 { f64::INFINITY } else { 0.0 } };
+        match self {
+            Self::Cut(cut) => match short_flights.attaches(cut, flight, -velocity) || speed == 0.0 {
+                false => AfterImpact::Launch(speed),
+                true if pulls => rest,
+                true => AfterImpact::Launch(0.0),
+            },
+            Self::Complete => {
+                let chatter = drive.chatter_duration(time, speed, restitution);
+                match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
+                    Some(chatter) => AfterImpact::Chatter(chatter),
+                    None if speed <= SMALLEST_SPEED && pulls => rest,
+                    None => AfterImpact::Launch(speed),
+                }
+            }
+        }
+    }
 }
 
 /// When a disk that is followed impact by impact is put on the platform: as soon as an impact is slower than
@@ -89,9 +144,9 @@ impl ChatterCut {
     }
 }
 
-/// Counts what a cut needs to remember.
+/// The consecutive short flights of an orbit, which a cut needs to remember.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(crate) struct ShortFlightCount(u32);
+pub struct ShortFlightCount(u32);
 
 impl ShortFlightCount {
     /// No short flight yet.

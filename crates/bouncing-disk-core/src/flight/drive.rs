@@ -105,8 +105,8 @@ impl Drive {
     /// The sum of a_j sin(j t + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most [`MAX_HARMONICS`].
     ///
     /// # Errors
-    /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names one whose numbers are not finite;
-    /// [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
+    /// [`Error::TooLarge`] for too many harmonics; [`Error::NotOfKind`] names one whose numbers are not
+    /// finite; [`Error::OutOfRange`] for accelerations beyond [`Vibration::MAX_PEAK_ACCELERATION`].
     pub fn fourier(harmonics: &[(f64, f64)]) -> Result<Self, Error> {
         let ramps: Vec<_> = harmonics.iter().map(|&(amplitude, angle)| (amplitude, 0.0, angle)).collect();
         Self::sum(&ramps, f64::INFINITY)
@@ -189,8 +189,8 @@ impl Drive {
         }
     }
 
-    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it is
-    /// sines.
+    /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it
+    /// is sines.
     fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
         let time = self.reduced(time);
         match &self.shape {
@@ -218,8 +218,8 @@ impl Drive {
         QuasiPolynomial::known([values[k], values[k + 1]], [errors[k], errors[k + 1]], bend, terms)
     }
 
-    /// By how much the velocity changes from `time` on in a `span` >= 0, but for kinks; and the height less the
-    /// first velocity times the span: both accurate relative to themselves in a short span.
+    /// By how much the velocity changes from `time` on in a `span` >= 0, but for kinks; and the height less
+    /// the first velocity times the span: both accurate relative to themselves in a short span.
     #[must_use]
     pub fn change(&self, time: f64, span: f64) -> (f64, f64) {
         let (mut here, mut left, mut velocity, mut height) = (time, span, 0.0, 0.0);

@@ -6,20 +6,13 @@ use core::f64::consts::TAU;
 use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
-use crate::chatter::policy::{ChatterPolicy, ShortFlightCount};
+use crate::chatter::policy::{AfterImpact, ChatterPolicy, ShortFlightCount};
 use crate::flight::drive::landing::DrivenImpact;
 use crate::flight::drive::{Drive, TimeAhead};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
-
-/// Largest error of the end of a chatter (rad) with which [`ChatterPolicy::Complete`] is content.
-const COMPLETION_ERROR: f64 = 1.0e-14;
-
-/// A disk launched slower than this (g/omega), on a platform that pulls it, is put on it where no bound proves
-/// that its chatter ends.
-const SMALLEST_SPEED: f64 = 1.0e-18;
 
 /// The vertical impact map of a disk with a constant restitution on a [`Drive`].
 ///
@@ -42,8 +35,8 @@ impl DrivenMap {
     /// The map of a disk with `restitution` in [0, 1).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a restitution outside [0, 1), and for a ramp, which has no phase: its flights and
-    /// contacts are [`Drive::first_impact_within`] and [`Drive::contact_end`].
+    /// [`Error::OutOfRange`] for a restitution outside [0, 1), and for a ramp, which has no phase: its
+    /// flights and contacts are [`Drive::first_impact_within`] and [`Drive::contact_end`].
     pub fn new(drive: Drive, restitution: f64) -> Result<Self, Error> {
         let forever = f64::INFINITY;
         within(
@@ -173,8 +166,8 @@ pub struct ContactChange {
     pub phase: Phase,
     /// How often the phase passed 0 (mod 2 pi) since the disk came to rest.
     pub turns: u64,
-    /// The velocity of the disk relative to the platform just after the platform's velocity has jumped, before
-    /// any law of impact: zero or positive for a separation, negative for a kick.
+    /// The velocity of the disk relative to the platform just after the platform's velocity has jumped,
+    /// before any law of impact: zero or positive for a separation, negative for a kick.
     pub velocity: f64,
 }
 
@@ -187,7 +180,8 @@ enum Next {
     End,
 }
 
-/// The lazy sequence of [`DrivenEvent`]s of one orbit. It ends if the disk rests for ever, and after an error.
+/// The lazy sequence of [`DrivenEvent`]s of one orbit. It ends if the disk rests for ever, and after an
+/// error.
 #[derive(Debug, Clone)]
 pub struct DrivenOrbit {
     map: DrivenMap,
@@ -232,8 +226,8 @@ impl DrivenOrbit {
     pub fn advance(&mut self) -> Result<Option<DrivenEvent>, Error> {
         match core::mem::replace(&mut self.next, Next::End) {
             Next::Launch { time, separates: true, .. } => {
-                let landing = self.map.drive.impact_after_separation(time)?;
-                Ok(Some(self.report(landing)))
+                let landing = self.map.drive.impact_after_separation_within(time, f64::INFINITY)?;
+                Ok(landing.map(|landing| self.report(landing)))
             }
             Next::Launch { time, speed, separates: false } => {
                 let landing = self.map.drive.first_impact_from(time, 0.0, speed)?;
@@ -274,39 +268,19 @@ impl DrivenOrbit {
 
     /// Decides what follows an impact with relative `velocity` that ends a flight of this duration.
     fn after(&mut self, time: f64, velocity: f64, duration: f64) {
-        let speed = -self.map.restitution * velocity;
-        let launch = Next::Launch { time, speed, separates: false };
-        let pulls = self.map.drive.acceleration(time) >= -1.0;
-        let rest_at_once = |error_bound| {
-            let phase = Phase::of_angle(time);
-            Next::Attach(Accumulation { duration: 0.0, error_bound, phase, turns: 0 }, speed)
+        let surface = (&self.map.drive, self.map.restitution);
+        let attach = |duration, error_bound| {
+            let angle = time + duration;
+            let (phase, turns) = (Phase::of_angle(wrapped_angle(angle)), u64::from(angle >= TAU));
+            let last_speed = -self.map.restitution * velocity;
+            Next::Attach(Accumulation { duration, error_bound, phase, turns }, last_speed)
         };
-        self.next = match self.policy {
-            ChatterPolicy::Cut(cut) => {
-                if !self.short_flights.attaches(&cut, duration, -velocity) && speed > 0.0 {
-                    launch
-                } else if pulls {
-                    rest_at_once(if speed > 0.0 { f64::INFINITY } else { 0.0 })
-                } else {
-                    Next::Launch { time, speed: 0.0, separates: false }
-                }
-            }
-            ChatterPolicy::Complete => {
-                let chatter = self.map.drive.chatter_duration(time, speed, self.map.restitution);
-                match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
-                    Some(chatter) => {
-                        let angle = time + chatter.duration;
-                        let (phase, turns) = (Phase::of_angle(wrapped_angle(angle)), u64::from(angle >= TAU));
-                        let (duration, error_bound) = (chatter.duration, chatter.error);
-                        Next::Attach(Accumulation { duration, error_bound, phase, turns }, speed)
-                    }
-                    None if speed <= SMALLEST_SPEED && pulls => {
-                        rest_at_once(if speed > 0.0 { f64::INFINITY } else { 0.0 })
-                    }
-                    None => launch,
-                }
-            }
-        };
+        self.next =
+            match self.policy.after_impact(surface, (time, velocity), duration, &mut self.short_flights) {
+                AfterImpact::Launch(speed) => Next::Launch { time, speed, separates: false },
+                AfterImpact::Chatter(chatter) => attach(chatter.duration, chatter.error),
+                AfterImpact::Rest { error } => attach(0.0, error),
+            };
     }
 }
 

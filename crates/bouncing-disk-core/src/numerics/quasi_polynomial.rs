@@ -1,7 +1,7 @@
 //! The first root of a polynomial of degree at most 3 plus damped sines, with no root missed.
 //!
-//! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays above
-//! zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
+//! A step from t is certain where the cubic Taylor polynomial less the largest remainder M4 h^4/24 stays
+//! above zero; a root is certain to be the first one where the cubic plus that remainder ends below zero on a
 //! stretch on which the function falls, or is concave, all the way (docs/numerics/drives.md).
 
 use core::ops::{Add, Mul};
@@ -143,8 +143,8 @@ pub struct Jet {
 
 /// A polynomial of degree at most 3 plus damped sines.
 ///
-/// It is kept by value and slope at t = 0, and each term less its own value and slope there, so that a function
-/// that starts at zero keeps its relative accuracy however near to the start.
+/// It is kept by value and slope at t = 0, and each term less its own value and slope there, so that a
+/// function that starts at zero keeps its relative accuracy however near to the start.
 ///
 /// ```
 /// use bouncing_disk_core::numerics::elementary::{exp, sin};
@@ -180,8 +180,8 @@ pub struct Root {
     pub error: f64,
     /// The slope there.
     pub slope: f64,
-    /// Zero; or, where the function may also touch zero within the error, or miss it, the bound on its magnitude
-    /// there.
+    /// Zero; or, where the function may also touch zero within the error, or miss it, the bound on its
+    /// magnitude there.
     pub doubt: f64,
     /// Evaluations of the function.
     pub evaluations: u32,
@@ -197,8 +197,8 @@ pub enum FirstRoot {
         /// Evaluations of the function.
         evaluations: u32,
     },
-    /// The function comes as near to zero as its rounding, and leaves again: whether it has a root there cannot
-    /// be decided.
+    /// The function comes as near to zero as its rounding, and leaves again: whether it has a root there
+    /// cannot be decided.
     Undecided {
         /// Where it is lowest.
         at: f64,
@@ -258,7 +258,8 @@ impl QuasiPolynomial {
         Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth }
     }
 
-    /// The function that bends as this one does, from another value and slope at t = 0, known to these errors.
+    /// The function that bends as this one does, from another value and slope at t = 0, known to these
+    /// errors.
     #[must_use]
     pub fn starting_with(self, start: [f64; 2], start_error: [f64; 2]) -> Self {
         Self { start, start_error, ..self }
@@ -381,8 +382,8 @@ impl Mul<f64> for QuasiPolynomial {
     }
 }
 
-/// Whether a polynomial is positive on (0, 1] because its Bernstein coefficients are: the first one is exact, the
-/// others have this `rounding`.
+/// Whether a polynomial is positive on (0, 1] because its Bernstein coefficients are: the first one is exact,
+/// the others have this `rounding`.
 fn all_positive<const N: usize>(bernstein: [f64; N], rounding: f64) -> bool {
     bernstein[0] > 0.0 && bernstein[1..].iter().all(|&b| b > rounding)
 }
@@ -506,8 +507,8 @@ impl Jet {
         }
     }
 
-    /// How far the root next to here may be off, and, where the slope may vanish as near as that, the bound on
-    /// the value there: another root may then be there, or none.
+    /// How far the root next to here may be off, and, where the slope may vanish as near as that, the bound
+    /// on the value there: another root may then be there, or none.
     pub(crate) fn root_error(&self) -> (f64, f64) {
         let Self { error, slope, bend, third, fourth, .. } = *self;
         let steep = 2.0 * error / slope.abs();
@@ -643,8 +644,8 @@ impl<F: Fn(f64) -> Jet> Search<F> {
         (self.at)(t)
     }
 
-    /// The root between two times, of which the first is above zero (or the start of the flight) and the second
-    /// below.
+    /// The root between two times, of which the first is above zero (or the start of the flight) and the
+    /// second below.
     fn bracketed(&mut self, (mut lo, mut hi): (f64, f64), guess: f64) -> Result<Root, Error> {
         let mut t = guess;
         let mut worst = (0.0, 0.0);

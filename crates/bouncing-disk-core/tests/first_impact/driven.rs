@@ -132,8 +132,8 @@ fn the_derivative_is_that_of_differences() {
 
 /// By hand: on a triangle the impacts of one period may be anywhere on a slope u = 2 a/pi that they meet with
 /// w = -2 pi/(1 + r): the flight lasts 2 pi for any phase. That is a neutral family, multipliers 1 and r^2,
-/// but for the slope: u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the flight above a slope lasts,
-/// 2 r 2 pi/(1 + r), belong to it.
+/// but for the slope: u = pi (1 - r)/(1 + r). Only phases nearer to the crest than the flight above a slope
+/// lasts, 2 r 2 pi/(1 + r), belong to it.
 #[test]
 fn the_triangle_has_a_neutral_family_of_period_one() {
     for restitution in [0.2, 0.5, 0.8] {

@@ -12,23 +12,43 @@ use crate::sums::{Dd, Gap, dd, has_root_at, positive};
 /// A drive, and what an oracle needs to know of it.
 pub struct Exact {
     pub drive: Drive,
-    /// The harmonics of a Fourier drive (amplitude, angle), or else none.
-    harmonics: Vec<(f64, f64)>,
+    /// The harmonics (amplitude, its rate, angle) of a Fourier drive or a ramp, or else none.
+    harmonics: Vec<(f64, f64, f64)>,
     /// When the pieces begin, and 2 pi.
     pub joints: Vec<f64>,
 }
 
 impl Exact {
     fn fourier(harmonics: Vec<(f64, f64)>) -> Self {
-        Self { drive: Drive::fourier(&harmonics).unwrap(), harmonics, joints: Vec::new() }
+        let drive = Drive::fourier(&harmonics).unwrap();
+        let harmonics = harmonics.into_iter().map(|(a, angle)| (a, 0.0, angle)).collect();
+        Self { drive, harmonics, joints: Vec::new() }
+    }
+
+    /// Up to three harmonics whose amplitudes grow or fall in time.
+    fn ramp(random: &mut SplitMix) -> Self {
+        let duration = random.uniform(5.0, 60.0);
+        let harmonics: Vec<_> = (0..=random.below(3))
+            .map(|_| {
+                let (a, end) = (random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
+                (a, (end - a) / duration, random.angle())
+            })
+            .collect();
+        Self { drive: Drive::ramped_fourier(&harmonics, duration).unwrap(), harmonics, joints: Vec::new() }
     }
 
     fn pieces(drive: Drive, joints: Vec<f64>) -> Self {
         Self { drive, harmonics: Vec::new(), joints }
     }
 
-    fn sizes(&self, power: f64) -> f64 {
-        (1..).zip(&self.harmonics).map(|(j, (a, _))| a.abs() * libm::pow(f64::from(j), power)).sum()
+    /// Bound on a derivative of a sum of harmonics.
+    fn sizes(&self, order: i32) -> f64 {
+        let end = if self.drive.duration().is_finite() { self.drive.duration() } else { 0.0 };
+        let size = |(j, (a, b, _)): (i32, &(f64, f64, f64))| {
+            let power = |order: i32| libm::pow(f64::from(j), f64::from(order));
+            (a.abs() + b.abs() * end) * power(order) + b.abs() * f64::from(order) * power(order - 1)
+        };
+        (1..).zip(&self.harmonics).map(size).sum()
     }
 
     /// The piece at a time in [0, 2 pi), its coefficients and when it starts.
@@ -44,16 +64,22 @@ impl Exact {
     fn at(&self, time: Dd) -> (Dd, Dd) {
         if self.joints.is_empty() {
             let (mut height, mut velocity) = (dd(0.0), dd(0.0));
-            for (j, &(a, angle)) in (1..).zip(&self.harmonics) {
+            for (j, &(a, b, angle)) in (1..).zip(&self.harmonics) {
                 let j = dd(f64::from(j));
                 let (sin, cos) = (j * time + dd(angle)).sin_cos();
-                height = height + dd(a) * sin;
-                velocity = velocity + dd(a) * j * cos;
+                let size = dd(a) + dd(b) * time;
+                height = height + size * sin;
+                velocity = velocity + size * j * cos + dd(b) * sin;
             }
             return (height, velocity);
         }
         let (_, c, start) = self.piece(time.high());
         polynomial(c, time - dd(start))
+    }
+
+    /// The gap above a sum of harmonics after a launch at `time` with relative speed `w`.
+    fn above(&self, time: f64, w: f64) -> Sines<'_> {
+        Sines { of: self, time: dd(time), w: dd(w), start: self.at(dd(time)) }
     }
 
     /// What must hold for the impact after a launch at `time` with relative speed `w`.
@@ -70,7 +96,7 @@ impl Exact {
         }
         let (height, velocity) = self.at(dd(time));
         // Nothing is to be hit above all heights.
-        let crude = if self.joints.is_empty() { self.sizes(0.0) } else { self.drive.max_height() };
+        let crude = if self.joints.is_empty() { self.sizes(0) } else { self.drive.max_height() };
         let (u, depth) = (velocity.high() + w, crude + 1e-6 - height.high());
         let radicand = u * u - 2.0 * depth;
         let above = if u > 0.0 && radicand > 0.0 {
@@ -82,7 +108,7 @@ impl Exact {
         let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
         let last = (h - dd(4.0 * error)).high();
         if self.joints.is_empty() {
-            let gap = Sines { of: self, time: dd(time), w: dd(w), start: (height, velocity) };
+            let gap = self.above(time, w);
             if landing.doubt.is_none_or(|doubt| gap.at(h).0.high().abs() > doubt.bound) {
                 has_root_at(&gap, h, error)?;
             }
@@ -155,13 +181,14 @@ impl Gap for Sines<'_> {
         let (mut rest, mut slope) = (dd(0.0), dd(0.0));
         if t.high() * (self.of.harmonics.len() as f64) < 1e-2 {
             // The Taylor series from the second order on.
-            for (j, &(a, angle)) in (1..).zip(&self.of.harmonics) {
+            for (j, &(a, b, angle)) in (1..).zip(&self.of.harmonics) {
                 let j = dd(f64::from(j));
                 let (sin, cos) = (j * self.time + dd(angle)).sin_cos();
-                let derivatives = [-sin, -cos, sin, cos];
-                let mut factor = dd(a) * j * t;
+                let derivatives = [sin, cos, -sin, -cos];
+                let (size, mut factor) = (dd(a) + dd(b) * self.time, j * t);
                 for k in 2..14_u32 {
-                    let derivative = derivatives[((k - 2) % 4) as usize];
+                    let [own, below] = [k, k - 1].map(|k| derivatives[(k % 4) as usize]);
+                    let derivative = size * own + dd(b) * dd(f64::from(k)) / j * below;
                     factor = factor * j;
                     slope = slope + factor * derivative;
                     factor = factor * t / dd(f64::from(k));
@@ -177,11 +204,11 @@ impl Gap for Sines<'_> {
     }
 
     fn bend(&self, _: f64, _: f64) -> f64 {
-        1.0 + self.of.sizes(2.0)
+        1.0 + self.of.sizes(2)
     }
 
     fn start(&self) -> (f64, f64) {
-        (-1.0 - self.of.drive.acceleration(self.time.high()), self.of.sizes(3.0))
+        (-1.0 - self.of.drive.acceleration(self.time.high()), self.of.sizes(3))
     }
 }
 
@@ -214,10 +241,6 @@ impl Gap for Cubic {
     fn start(&self) -> (f64, f64) {
         (self.bend_at_start().high(), 6.0 * self.c[3].high().abs())
     }
-}
-
-fn below(random: &mut SplitMix, n: usize) -> usize {
-    (random.unit() * n as f64) as usize
 }
 
 /// A kind of drive.
@@ -265,7 +288,7 @@ impl Kind {
             Self::Cubics => Exact::pieces(Drive::cubics(a).unwrap(), vec![0.0, q, 2.0 * q, 3.0 * q, TAU]),
             Self::Polygon => polygon(a, random),
             Self::Spline => {
-                let count = 8 + below(random, 200);
+                let count = 8 + random.below(200);
                 let (phase, third) = (random.angle(), random.unit());
                 let time = |k: usize| k as f64 / count as f64 * TAU;
                 let samples: Vec<_> = (0..count)
@@ -280,7 +303,7 @@ impl Kind {
 
 /// Cubic arcs between random heights, with a kink at each joint.
 fn polygon(a: f64, random: &mut SplitMix) -> Exact {
-    let count = 2 + below(random, 6);
+    let count = 2 + random.below(6);
     let mut joints = vec![0.0];
     for k in 1..count {
         joints.push(TAU * (k as f64 + random.uniform(-0.3, 0.3)) / count as f64);
@@ -308,17 +331,17 @@ fn polygon(a: f64, random: &mut SplitMix) -> Exact {
 
 /// A time in [0, 2 pi), most often on a seam or next to one.
 fn seam(of: &Exact, random: &mut SplitMix) -> f64 {
-    let time = match below(random, 4) {
+    let time = match random.below(4) {
         0 => random.angle(),
         1 => 0.0,
-        2 if !of.joints.is_empty() => of.joints[below(random, of.joints.len())],
+        2 if !of.joints.is_empty() => of.joints[random.below(of.joints.len())],
         2 => 0.5 * TAU,
         _ => TAU,
     };
-    let time = match below(random, 4) {
+    let time = match random.below(4) {
         0 => time,
-        1 => (0..=below(random, 3)).fold(time, |t, _| t.next_down()),
-        2 => (0..=below(random, 3)).fold(time, |t, _| t.next_up()),
+        1 => (0..=random.below(3)).fold(time, |t, _| t.next_down()),
+        2 => (0..=random.below(3)).fold(time, |t, _| t.next_up()),
         _ => time + random.sign() * random.decades(-15.0, -3.0),
     };
     time.clamp(0.0, TAU.next_down())
@@ -327,7 +350,7 @@ fn seam(of: &Exact, random: &mut SplitMix) -> f64 {
 /// A launch that grazes a crest or a corner, by a little more or less.
 fn graze(of: &Exact, random: &mut SplitMix) -> Option<(f64, f64)> {
     let touch = if of.joints.len() > 2 && random.unit() < 0.5 {
-        of.joints[below(random, of.joints.len() - 1)]
+        of.joints[random.below(of.joints.len() - 1)]
     } else {
         random.angle()
     };
@@ -370,7 +393,7 @@ fn launch(of: &Exact, random: &mut SplitMix) -> Option<(f64, f64)> {
         return graze(of, random);
     }
     let time = seam(of, random);
-    let speed = match below(random, 6) {
+    let speed = match random.below(6) {
         0 => random.decades(-280.0, -10.0),
         1 => random.decades(-12.0, -6.0),
         2 => random.decades(-6.0, 0.0),
@@ -584,78 +607,81 @@ fn ramps_are_followed_to_their_end() {
     let mut random = SplitMix::new(98);
     let (mut landed, mut flown) = (0, 0);
     for _ in 0..4_000 {
-        let duration = random.uniform(5.0, 60.0);
-        let harmonics: Vec<_> = (0..1 + below(&mut random, 3))
-            .map(|_| {
-                let (a, end) = (random.uniform(-3.0, 3.0), random.uniform(-3.0, 3.0));
-                (a, (end - a) / duration, random.angle())
-            })
-            .collect();
-        let drive = Drive::ramped_fourier(&harmonics, duration).unwrap();
-        let (time, speed) = (duration * random.unit(), random.decades(-6.0, 1.3));
-        let ramp = Ramp { harmonics: &harmonics, time, speed };
-        match drive.first_impact_within(time, 0.0, speed, f64::INFINITY).unwrap() {
-            Some(landing) => {
-                landed += 1;
-                let h = dd(landing.impact.periods as f64) * (Dd::PI + Dd::PI) + dd(landing.impact.remainder);
-                has_root_at(&ramp, h, landing.error).unwrap();
-                let raised = landing.doubt.map_or(0.0, |doubt| 2.0 * doubt.bound);
-                positive(&ramp, 0.0, h.high() - 4.0 * landing.error, raised).unwrap();
-            }
-            None => {
-                flown += 1;
-                positive(&ramp, 0.0, duration - time, 0.0).unwrap();
-                assert!(drive.first_impact_from(time, 0.0, speed).is_err());
-            }
+        let ramp = Exact::ramp(&mut random);
+        let left = ramp.drive.duration() * random.unit();
+        let (time, speed) = (ramp.drive.duration() - left, random.decades(-6.0, 1.3));
+        if let Some(landing) = ramp.drive.first_impact_within(time, 0.0, speed, f64::INFINITY).unwrap() {
+            landed += 1;
+            ramp.judge(time, speed, &landing).unwrap();
+        } else {
+            flown += 1;
+            positive(&ramp.above(time, speed), 0.0, left, 0.0).unwrap();
+            assert!(ramp.drive.first_impact_from(time, 0.0, speed).is_err());
         }
     }
     assert!(landed > 300 && flown > 300, "{landed} {flown}");
 }
 
-/// The gap above a ramp after a launch.
-struct Ramp<'a> {
-    harmonics: &'a [(f64, f64, f64)],
-    time: f64,
-    speed: f64,
+/// Drives of all kinds, and ramps.
+fn draws(random: &mut SplitMix) -> impl Iterator<Item = Drive> {
+    let mut draw = |kind: Option<&Kind>| match kind {
+        Some(kind) => kind.draw(random).drive,
+        None => Exact::ramp(random).drive,
+    };
+    (0..).map(move |k| draw(KINDS.get(k % (KINDS.len() + 1))))
 }
 
-impl Ramp<'_> {
-    fn height(&self, time: Dd) -> (Dd, Dd) {
-        let (mut height, mut velocity) = (dd(0.0), dd(0.0));
-        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
-            let j = dd(f64::from(j));
-            let (sin, cos) = (j * time + dd(angle)).sin_cos();
-            let size = dd(a) + dd(b) * time;
-            height = height + size * sin;
-            velocity = velocity + size * j * cos + dd(b) * sin;
+/// By the derivatives, as far as the next joint, and by the drive.
+#[test]
+fn derivatives_are_those_of_the_motion() {
+    let mut random = SplitMix::new(92);
+    for drive in draws(&mut random).take(900) {
+        let bounds = drive.bounds();
+        for time in [0.0, 0.7, 2.0, 4.4] {
+            let left = drive.next_joint(time).map_or(0.5, |joint| joint.after);
+            for step in 0..8 {
+                let after = left * f64::from(step) / 8.0;
+                let there = drive.at(time + after);
+                for (order, value, sizes) in [
+                    (0, there.height, bounds.highest - bounds.lowest + bounds.speed),
+                    (1, there.velocity, bounds.speed + bounds.acceleration),
+                    (2, there.acceleration, bounds.acceleration + bounds.jerk),
+                ] {
+                    let error = drive.derivative(order, time).at(after, left).value - value;
+                    assert!(error.abs() <= 1e-14 * sizes, "{order} {time} {after}: {error:e} {drive:?}");
+                }
+            }
         }
-        (height, velocity)
     }
 }
 
-impl Gap for Ramp<'_> {
-    fn at(&self, t: Dd) -> (Dd, Dd) {
-        let (from, to) = (self.height(dd(self.time)), self.height(dd(self.time) + t));
-        let w = dd(self.speed);
-        (t * (w + from.1 - dd(0.5) * t) - (to.0 - from.0), w + from.1 - to.1 - t)
-    }
-
-    fn bend(&self, _: f64, to: f64) -> f64 {
-        let end = self.time + to;
-        1.0 + (1..)
-            .zip(self.harmonics)
-            .map(|(j, (a, b, _))| (a.abs() + b.abs() * end) * f64::from(j * j) + 2.0 * b.abs() * f64::from(j))
-            .sum::<f64>()
-    }
-
-    fn start(&self) -> (f64, f64) {
-        let (mut bend, mut third) = (-1.0, 0.0);
-        for (j, &(a, b, angle)) in (1..).zip(self.harmonics) {
-            let j = f64::from(j);
-            let (sin, cos) = libm::sincos(j * self.time + angle);
-            bend += j * ((a + b * self.time) * j * sin - 2.0 * b * cos);
-            third += j * j * ((a.abs() + b.abs() * (self.time + 70.0)) * j + 3.0 * b.abs());
+#[test]
+fn changes_are_those_of_the_motion_and_keep_their_digits() {
+    let mut random = SplitMix::new(93);
+    for drive in draws(&mut random).take(900) {
+        let bounds = drive.bounds();
+        for (time, span) in [(0.3, 4.0), (2.0, 1.0), (3.0, 1e-9)] {
+            let (from, to) = (drive.at(time), drive.at(time + span));
+            let (mut kinks, mut kinked, mut here, mut passed) = (0.0, false, time, 0.0);
+            while let Some(kink) = drive.next_kink(here).filter(|kink| passed + kink.after <= span) {
+                let jump = drive.velocity(kink.time) - drive.velocity_before(kink.time);
+                assert!((jump - kink.velocity_jump).abs() <= 1e-15 * bounds.speed);
+                (here, passed) = (kink.time, passed + kink.after);
+                (kinks, kinked) = (kinks + jump, true);
+            }
+            let (velocity, height) = drive.change(time, span);
+            let error = velocity + kinks - (to.velocity - from.velocity);
+            assert!(error.abs() <= 1e-11 * (bounds.speed + bounds.acceleration), "{error:e} {drive:?}");
+            let error = height - (to.height - from.height - from.velocity * span);
+            assert!(kinked || error.abs() <= 1e-11 * (bounds.speed + bounds.highest), "{error:e} {drive:?}");
+            if span < 1e-6 {
+                // Accurate to the rounding of the acceleration.
+                let rounding = 1e-14 * span * bounds.acceleration;
+                let first = from.acceleration * span + 0.5 * from.jerk * span * span;
+                assert!((velocity - first).abs() <= rounding, "{drive:?}");
+                let lift = 0.5 * from.acceleration * span * span + from.jerk * span * span * span / 6.0;
+                assert!((height - lift).abs() <= rounding * span, "{drive:?}");
+            }
         }
-        (bend, third)
     }
 }

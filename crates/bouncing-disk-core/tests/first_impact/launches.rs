@@ -48,8 +48,8 @@ impl SplitMix {
         if self.next() & 1 == 0 { 1.0 } else { -1.0 }
     }
 
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
     }
 
     pub fn angle(&mut self) -> f64 {

@@ -1,8 +1,8 @@
-//! The end of a chatter whose duration is known: the impacts that are left, one by one, each flight by the pull and
-//! its derivative at the start.
+//! The end of a chatter whose duration is known: the impacts that are left, one by one, each flight by the
+//! pull and its derivative at the start.
 //!
-//! A chatter is completed where the first terms of its sum have an error below 1e-14 rad, which is where it lasts for
-//! some 1e-7 rad; what the neglected terms change in a flight is of the same order.
+//! A chatter is completed where the first terms of its sum have an error below 1e-14 rad, which is where it
+//! lasts for some 1e-7 rad; what the neglected terms change in a flight is of the same order.
 
 use super::DrivenSystem;
 use crate::motion::chatter::{ImpactEnergy, record_impact};

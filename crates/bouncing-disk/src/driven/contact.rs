@@ -6,8 +6,8 @@
 //! U' = -mu (1 + s'') - d (l + beta''),   U = U_0 - (mu + d l) t - mu (s' - s'_0) - d (beta' - beta'_0)
 //! ```
 //!
-//! A disk sticks while the rate is positive in neither direction. Both functions are polynomials and sines between
-//! two joints, so that the core's first root misses no event.
+//! A disk sticks while the rate is positive in neither direction. Both functions are polynomials and sines
+//! between two joints, so that the core's first root misses no event.
 
 use std::f64::consts::TAU;
 
@@ -70,7 +70,8 @@ impl DrivenSystem {
         self.angle.bounds().speed == 0.0 && self.load == 0.0
     }
 
-    /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then slips.
+    /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then
+    /// slips.
     pub(super) fn stick_end(&self, at: f64, limit: f64) -> Result<Option<(f64, SlipDirection)>, Error> {
         if self.is_unloaded() {
             return Ok(None);
@@ -192,8 +193,8 @@ impl DrivenSystem {
         joints.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after))
     }
 
-    /// The first time at which a function falls through zero, joint by joint; `of` gives it from a time on (and the
-    /// time passed until then), and nothing where it has fallen already.
+    /// The first time at which a function falls through zero, joint by joint; `of` gives it from a time on
+    /// (and the time passed until then), and nothing where it has fallen already.
     fn first_fall(
         &self,
         at: f64,

@@ -1,10 +1,11 @@
 //! The event engine on a driven platform.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::ChatterDuration;
+use bouncing_disk_core::ChatterPolicy;
+use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
+use bouncing_disk_core::flight::{ChatterDuration, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
-use bouncing_disk_core::{ChatterPolicy, DrivenEvent as CoreEvent, DrivenMap};
 
 use super::{DrivenEvent, DrivenRecord, DrivenStart, DrivenSystem, Hit};
 use crate::error::{Error, moderate};
@@ -16,14 +17,8 @@ use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
 use crate::motion::rotary_change::{RotaryChange, change_in_flight};
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 
-/// Largest error of the end of a chatter (rad) with which [`ChatterPolicy::Complete`] is content, as in the core.
-const COMPLETION_ERROR: f64 = 1.0e-14;
-
-/// A disk launched slower than this (g/omega), on a platform that pulls it, is put on it where no bound proves
-/// that its chatter ends, as in the core.
-const SMALLEST_SPEED: f64 = 1.0e-18;
-
-/// Events of friction that come this much before the end of a contact, relative to its time, are the end itself.
+/// Events of friction that come this much before the end of a contact, relative to its time, are the end
+/// itself.
 const JOINT: f64 = 16.0 * f64::EPSILON;
 
 /// What the disk does until the next event.
@@ -34,10 +29,8 @@ enum Stage {
         gap: f64,
         velocity: f64,
     },
-    /// It leaves a contact that has held since `since` and ends by a force that falls to zero.
-    Separated {
-        since: f64,
-    },
+    /// It leaves a contact that ends by a force that falls to zero.
+    Separated,
     /// It chatters from this launch speed to the rest.
     Chatter {
         speed: f64,
@@ -56,9 +49,7 @@ enum Stage {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Contact {
     slip: Option<SlipDirection>,
-    since: f64,
-    /// How long it still lasts, when it ends, and the jump of the platform's velocity there.
-    end: Option<(f64, f64, f64)>,
+    end: Option<TimeAhead>,
 }
 
 /// The instant of an event, for the drive and for the record.
@@ -71,13 +62,13 @@ struct Clock {
 
 /// The motion of a disk on a driven platform, as a lazy sequence of [`DrivenRecord`]s.
 ///
-/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a platform
-/// that moves may stick and slide for ever.
+/// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a
+/// platform that moves may stick and slide for ever.
 #[derive(Debug, Clone)]
 pub struct DrivenEngine {
     system: DrivenSystem,
     policy: ChatterPolicy,
-    short_flights: u32,
+    short_flights: ShortFlightCount,
     stage: Stage,
     now: Clock,
     state: DiskState,
@@ -87,9 +78,9 @@ pub struct DrivenEngine {
 }
 
 impl DrivenEngine {
-    /// An engine for a disk that starts in contact, by a launch or in the air. Where the platform falls away, a disk
-    /// that starts in contact flies at once; the angular speed of a disk in contact counts as the platform's within
-    /// rounding. The angle starts at the platform's.
+    /// An engine for a disk that starts in contact, by a launch or in the air. Where the platform falls away,
+    /// a disk that starts in contact flies at once; the angular speed of a disk in contact counts as the
+    /// platform's within rounding. The angle starts at the platform's.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] or an error of the core for an illegal start.
@@ -117,13 +108,13 @@ impl DrivenEngine {
         Ok(engine)
     }
 
-    /// An engine that goes on with a motion: the disk in `state`, as [`Self::state_after`] gives it. In contact its
-    /// height and axial velocity are those of the platform, whatever `state` has. How many short flights a cut has
-    /// counted, and a chatter that is being summed, are not in a state.
+    /// An engine that goes on with a motion: the disk in `state`, as [`Self::state_after`] gives it. In
+    /// contact its height and axial velocity are those of the platform, whatever `state` has. How many short
+    /// flights a cut has counted, and a chatter that is being summed, are not in a state.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a height below the platform by more than rounding, and for numbers that are not
-    /// finite.
+    /// [`Error::OutOfRange`] for a height below the platform by more than rounding, and for numbers that are
+    /// not finite.
     pub fn of_state(
         system: DrivenSystem,
         time: PhaseTime,
@@ -141,7 +132,7 @@ impl DrivenEngine {
         at: f64,
         state: DiskState,
         policy: ChatterPolicy,
-        short_flights: u32,
+        short_flights: ShortFlightCount,
     ) -> Result<Self, Error> {
         let mut engine = Self::begin(system, Clock { at, periods: 0 }, policy);
         engine.short_flights = short_flights;
@@ -158,7 +149,8 @@ impl DrivenEngine {
                 axial_velocity: state.axial_velocity,
                 ..engine.state
             };
-            engine.stage = Stage::Contact(Contact { slip, since: at, end: Some((0.0, at, jump)) });
+            let end = TimeAhead { after: 0.0, time: at, velocity_jump: jump };
+            engine.stage = Stage::Contact(Contact { slip, end: Some(end) });
         }
         Ok(engine)
     }
@@ -176,7 +168,7 @@ impl DrivenEngine {
             angle: LongSum::new(state.angle),
             system,
             policy,
-            short_flights: 0,
+            short_flights: ShortFlightCount::default(),
             stage: Stage::Ended,
             now,
             state,
@@ -213,7 +205,8 @@ impl DrivenEngine {
         Ok(())
     }
 
-    /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has had.
+    /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has
+    /// had.
     fn put_down(&mut self, mode: Option<Mode>) {
         let at = self.now.at;
         let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
@@ -225,7 +218,7 @@ impl DrivenEngine {
         let pull = self.system.load.abs()
             + beta.acceleration.abs()
             + self.system.friction * (1.0 + s.acceleration.abs());
-        let rounding = 4.0 * SAME_SPEED * (speed.abs() + self.system.angle().bounds().speed + at * pull);
+        let rounding = 4.0 * SAME_SPEED * (speed.abs() + self.system.angle.bounds().speed + at * pull);
         let moves_along = (speed - beta.velocity).abs() <= rounding;
         if moves_along {
             self.state.angular_speed = beta.velocity;
@@ -252,13 +245,9 @@ impl DrivenEngine {
         let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(at).velocity)
             .or_else(|| self.system.onset(at, None));
         self.state.mode = mode_of(slip);
-        self.stage = Stage::Contact(Contact { slip, since: at, end: None });
         // A contact without end, and one whose end cannot be found, is searched again at its event.
-        if let (Ok(Some(end)), Stage::Contact(contact)) =
-            (self.system.height().contact_end(at, f64::INFINITY), &mut self.stage)
-        {
-            contact.end = Some((end.after, end.time, end.velocity_jump));
-        }
+        let end = self.system.height.contact_end(at, f64::INFINITY).unwrap_or(None);
+        self.stage = Stage::Contact(Contact { slip, end });
     }
 
     /// The system.
@@ -280,12 +269,12 @@ impl DrivenEngine {
     }
 
     /// The short flights that a cut has counted.
-    pub(super) const fn short_flights(&self) -> u32 {
+    pub(super) const fn short_flights(&self) -> ShortFlightCount {
         self.short_flights
     }
 
-    /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is being
-    /// summed counts as rest.
+    /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
+    /// being summed counts as rest.
     #[must_use]
     pub fn state_after(&self, span: f64) -> (PhaseTime, DiskState) {
         let to = self.later(span);
@@ -310,11 +299,17 @@ impl DrivenEngine {
         self.advance_within(f64::INFINITY)
     }
 
-    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where it is.
+    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where
+    /// it is.
     pub(super) fn advance_within(&mut self, limit: f64) -> Result<Option<DrivenRecord>, Error> {
         let result = match self.stage {
             Stage::Flight { gap, velocity } => self.fly(gap, velocity, limit),
-            Stage::Separated { since } => self.fly_from_contact(since, limit),
+            Stage::Separated => {
+                let landing = self.system.height.impact_after_separation_within(self.now.at, limit);
+                landing
+                    .map(|landing| landing.map(|landing| self.land_on(&landing.impact)))
+                    .map_err(Error::from)
+            }
             Stage::Chatter { speed, chatter } if chatter.duration <= limit => {
                 Ok(Some(self.complete(speed, chatter)))
             }
@@ -332,7 +327,7 @@ impl DrivenEngine {
 
     /// Gives a flight that starts now another relative speed >= 0 (g/omega); does nothing at any other time.
     pub(super) fn perturb_launch(&mut self, speed: f64) {
-        if matches!(self.stage, Stage::Separated { .. }) {
+        if matches!(self.stage, Stage::Separated) {
             self.state.axial_velocity += speed;
             self.stage = Stage::Flight { gap: 0.0, velocity: speed };
         }
@@ -347,26 +342,8 @@ impl DrivenEngine {
             self.put_down(None);
             return self.advance_within(limit);
         }
-        let found = self.system.height().first_impact_within(self.now.at, gap, velocity, limit)?;
+        let found = self.system.height.first_impact_within(self.now.at, gap, velocity, limit)?;
         Ok(found.map(|landing| self.land_on(&landing.impact)))
-    }
-
-    /// The flight after a separation: the core knows its launch better than a height and a velocity tell.
-    fn fly_from_contact(&mut self, since: f64, limit: f64) -> Result<Option<DrivenRecord>, Error> {
-        if self.system.is_ramp() {
-            // From where the force is negative beyond its rounding.
-            let (mut at, mut step) = (self.now.at, f64::EPSILON);
-            while self.system.height.at(at).acceleration >= -1.0 && step < 1.0e-6 {
-                (at, step) = (self.now.at + step, 2.0 * step);
-            }
-            let found = self.system.height().first_impact_within(at, 0.0, 0.0, limit)?;
-            return Ok(found.map(|landing| self.land_on(&landing.impact)));
-        }
-        let map = DrivenMap::new(self.system.height().clone(), self.system.restitution)?;
-        let mut orbit = map.of_contact(since, self.policy);
-        orbit.advance()?;
-        let Some(CoreEvent::Impact(landing)) = orbit.advance()? else { return Ok(None) };
-        Ok((landing.impact.duration() <= limit).then(|| self.land_on(&landing.impact)))
     }
 
     fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> DrivenRecord {
@@ -379,8 +356,8 @@ impl DrivenEngine {
         self.hit(span, to, impact.velocity, span, DrivenEvent::Impact)
     }
 
-    /// An impact with relative `velocity` `span` after the last event, or a kick, at the end of a flight of this
-    /// duration.
+    /// An impact with relative `velocity` `span` after the last event, or a kick, at the end of a flight of
+    /// this duration.
     fn hit(
         &mut self,
         span: f64,
@@ -447,35 +424,14 @@ impl DrivenEngine {
         DrivenRecord { axial_impulse: axial, angular_impulse: rotary.impulse, ..record }
     }
 
-    /// What follows an impact with relative `velocity` that ends a flight of this duration: as the core decides it.
+    /// What follows an impact with relative `velocity` that ends a flight of this duration.
     fn stage_after(&mut self, at: f64, velocity: f64, flight: f64) -> Stage {
-        let speed = -self.system.restitution * velocity;
-        let launch = Stage::Flight { gap: 0.0, velocity: speed };
-        let pulls = self.system.height.at(at).acceleration >= -1.0;
-        let rest = Stage::Cut { speed, error: if speed > 0.0 { f64::INFINITY } else { 0.0 } };
-        match self.policy {
-            ChatterPolicy::Cut(cut) => {
-                self.short_flights =
-                    if flight < cut.short_flight() * TAU { self.short_flights + 1 } else { 0 };
-                let slow = -velocity < cut.smallest_speed() * PI;
-                let attaches = slow || self.short_flights >= cut.short_flights();
-                if attaches {
-                    self.short_flights = 0;
-                }
-                match attaches || speed == 0.0 {
-                    false => launch,
-                    true if pulls => rest,
-                    true => Stage::Flight { gap: 0.0, velocity: 0.0 },
-                }
-            }
-            _ => {
-                let chatter = self.system.height().chatter_duration(at, speed, self.system.restitution);
-                match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
-                    Some(chatter) => Stage::Chatter { speed, chatter },
-                    None if speed <= SMALLEST_SPEED && pulls => rest,
-                    None => launch,
-                }
-            }
+        let surface = (&self.system.height, self.system.restitution);
+        let speed = rebound_velocity(self.system.restitution, velocity);
+        match self.policy.after_impact(surface, (at, velocity), flight, &mut self.short_flights) {
+            AfterImpact::Launch(velocity) => Stage::Flight { gap: 0.0, velocity },
+            AfterImpact::Chatter(chatter) => Stage::Chatter { speed, chatter },
+            AfterImpact::Rest { error } => Stage::Cut { speed, error },
         }
     }
 
@@ -497,7 +453,7 @@ impl DrivenEngine {
             DiskState { angular_speed: if rest.capped { beta.velocity } else { rest.speed }, ..before };
         let start = self.state;
         ledger.record_axial_change([start.axial_velocity, s.velocity], [start.height, s.height]);
-        ledger.record_rounding(self.system.height().bounds().speed, s.velocity);
+        ledger.record_rounding(self.system.height.bounds().speed, s.velocity);
         let event = DrivenEvent::Attachment { impacts: rest.impacts, error_bound: error };
         let mut record = self.moved(duration, to, event, rest.angle, (before, after), ledger);
         self.land();
@@ -525,9 +481,9 @@ impl DrivenEngine {
         let at = self.now.at;
         if contact.end.is_none() {
             // An error of the search for it.
-            self.system.height().contact_end(at, f64::INFINITY)?;
+            self.system.height.contact_end(at, f64::INFINITY)?;
         }
-        let ends = contact.end.map_or(f64::INFINITY, |(after, ..)| after);
+        let ends = contact.end.map_or(f64::INFINITY, |end| end.after);
         let kink = self.system.angle.next_kink(at).filter(|kink| kink.after < ends);
         let to = limit.min(ends).min(kink.map_or(f64::INFINITY, |kink| kink.after));
         let slip = |direction: SlipDirection| {
@@ -572,7 +528,7 @@ impl DrivenEngine {
             let to = self.clock_at(kink.after, kink.time);
             return Ok(Some(self.change_contact(contact, kink.after, to, event, next)));
         }
-        let Some((span, time, jump)) = contact.end else { return Ok(None) };
+        let Some(TimeAhead { after: span, time, velocity_jump: jump }) = contact.end else { return Ok(None) };
         let to = self.clock_at(span, time);
         if jump > 0.0 {
             return Ok(Some(self.hit(span, to, -jump, f64::INFINITY, DrivenEvent::Kick)));
@@ -582,11 +538,7 @@ impl DrivenEngine {
         let before = self.drifted(span, to.at, change);
         let after = DiskState { mode: Mode::Flight, ..before };
         let record = self.moved(span, to, DrivenEvent::Separation, change.angle, (before, after), ledger);
-        self.stage = if jump < 0.0 {
-            Stage::Flight { gap: 0.0, velocity: -jump }
-        } else {
-            Stage::Separated { since: contact.since }
-        };
+        self.stage = if jump < 0.0 { Stage::Flight { gap: 0.0, velocity: -jump } } else { Stage::Separated };
         Ok(Some(record))
     }
 
@@ -629,8 +581,8 @@ impl DrivenEngine {
         }
         let after = DiskState { mode: mode_of(slip), ..before };
         let record = self.moved(span, to, event, change.angle, (before, after), ledger);
-        let end = contact.end.map(|(after, time, jump)| ((after - span).max(0.0), time, jump));
-        self.stage = Stage::Contact(Contact { slip, end, ..contact });
+        let end = contact.end.map(|end| TimeAhead { after: (end.after - span).max(0.0), ..end });
+        self.stage = Stage::Contact(Contact { slip, end });
         record
     }
 

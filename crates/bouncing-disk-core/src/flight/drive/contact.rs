@@ -95,7 +95,8 @@ impl Drive {
         Some(ChatterDuration { duration, error })
     }
 
-    /// The least and the largest pull 1 + s'' from `time` on for a `duration`; `None` if a kink is among them.
+    /// The least and the largest pull 1 + s'' from `time` on for a `duration`; `None` if a kink is among
+    /// them.
     fn pull_within(&self, time: f64, duration: f64) -> Option<(f64, f64)> {
         match &self.shape {
             Shape::Fourier(fourier) => {

@@ -1,13 +1,13 @@
 //! The first impact of a disk on a platform that moves in any way.
 //!
-//! While the parabola of the disk is above the highest point of the platform nothing is searched: a flight has
-//! two windows, before it has risen above that height and after it has come down to it. In each the gap is
-//! followed from the start of the window, so that a brief flight keeps its relative accuracy
+//! While the parabola of the disk is above the highest point of the platform nothing is searched: a flight
+//! has two windows, before it has risen above that height and after it has come down to it. In each the gap
+//! is followed from the start of the window, so that a brief flight keeps its relative accuracy
 //! (docs/numerics/drives.md).
 
 use core::f64::consts::TAU;
 
-use super::{Drive, Fourier, Shape};
+use super::{Drive, DriveBounds, Fourier, Shape};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::{Impact, Launch};
 use crate::flight::platform::phase::Phase;
@@ -18,8 +18,8 @@ use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, 
 /// Four roundoffs.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// An acceleration that is smaller than this share of its terms may be their rounding.
-pub(crate) const DOUBTFUL_PULL: f64 = 1.0e-12;
+/// A pull that is smaller than this share of its terms may be their rounding.
+const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -55,6 +55,15 @@ pub(crate) struct Start {
     pub(crate) separates: bool,
 }
 
+impl Start {
+    /// The second derivative of the gap: where a contact ends, a platform that still pushes by no more than a
+    /// rounding, also that of the time, does not push.
+    pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
+        let doubt = DOUBTFUL_PULL * (1.0 + bounds.acceleration) + ROUNDING * self.time.abs() * bounds.jerk;
+        if self.separates && bend < 0.0 && bend >= -doubt { 0.0 } else { bend }
+    }
+}
+
 /// What is found in a window.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Found {
@@ -77,8 +86,8 @@ impl Drive {
         self.first_impact_from(launch.phase().angle(), 0.0, launch.relative_speed())
     }
 
-    /// The first impact of a disk that is `gap` >= 0 above the platform at `time`, with this velocity relative
-    /// to it; on the platform (`gap` = 0) it leaves with that velocity >= 0.
+    /// The first impact of a disk that is `gap` >= 0 above the platform at `time`, with this velocity
+    /// relative to it; on the platform (`gap` = 0) it leaves with that velocity >= 0.
     ///
     /// # Errors
     /// As [`Self::first_impact`]; [`Error::OutOfRange`] for numbers outside their range.
@@ -115,14 +124,17 @@ impl Drive {
         self.land(Start { time, gap, velocity: relative_velocity, separates: false }, limit)
     }
 
-    /// The impact of a disk that separates from a contact at `time` without speed.
-    pub(crate) fn impact_after_separation(&self, time: f64) -> Result<DrivenImpact, Error> {
-        let start = Start { time, gap: 0.0, velocity: 0.0, separates: true };
-        self.land(start, f64::INFINITY)?.ok_or_else(|| self.no_lift_off(time))
-    }
-
-    fn no_lift_off(&self, time: f64) -> Error {
-        Error::NoLiftOff { phase: time, peak_acceleration: self.bounds().acceleration }
+    /// The impact of a disk that leaves a contact at `time` because the force falls to zero there, within
+    /// rounding ([`Self::contact_end`]), if it comes within `limit` radians; `None` if the disk flies on.
+    ///
+    /// # Errors
+    /// As [`Self::first_impact_from`].
+    pub fn impact_after_separation_within(
+        &self,
+        time: f64,
+        limit: f64,
+    ) -> Result<Option<DrivenImpact>, Error> {
+        self.land(Start { time: finite("time", time)?, gap: 0.0, velocity: 0.0, separates: true }, limit)
     }
 
     /// The first impact within `limit`, of a start that is known to be legal.
@@ -132,7 +144,7 @@ impl Drive {
         let (here, terms) = self.at_with_terms(start.time, 0, -1.0);
         let bounds = self.bounds();
         if start.gap == 0.0 && start.velocity == 0.0 && !start.separates && here.acceleration >= -1.0 {
-            return Err(self.no_lift_off(start.time));
+            return Err(Error::NoLiftOff { phase: start.time, peak_acceleration: bounds.acceleration });
         }
         let speed = here.velocity + start.velocity;
         let height = here.height + start.gap;
@@ -199,8 +211,8 @@ impl Drive {
         Ok(found.root.map(|root| self.landed(start.time, (periods, rest), root, &found)))
     }
 
-    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms` are
-    /// those of the drive there.
+    /// The first root of the gap within `to`; its value and slope at the start have these errors, and `terms`
+    /// are those of the drive there.
     fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         match &self.shape {
             Shape::Fourier(fourier) => fourier.window(start, error, terms, to),
@@ -248,10 +260,8 @@ impl Fourier {
     fn window(&self, start: Start, error: [f64; 2], terms: Vec<DampedSine>, to: f64) -> Result<Found, Error> {
         let mut gap = QuasiPolynomial::known([start.gap, start.velocity], error, [-0.5, 0.0], terms);
         if start.separates {
-            let pull = gap.at(0.0, 0.0).bend;
-            if pull < 0.0 && pull >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration) {
-                gap = gap.bent_by(-pull);
-            }
+            let bend = gap.at(0.0, 0.0).bend;
+            gap = gap.bent_by(start.bend(bend, &self.bounds) - bend);
         }
         decided(&gap, if to.is_finite() { to } else { 2.0 * MAX_FLIGHT_DURATION })
     }

@@ -4,7 +4,7 @@
 use core::f64::consts::TAU;
 use std::sync::Arc;
 
-use super::landing::{DOUBTFUL_PULL, Doubt, Found, Start, decided};
+use super::landing::{Doubt, Found, Start, decided};
 use super::{Drive, DriveBounds, DriveState, Shape, TimeAhead};
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::wrapped_angle;
@@ -36,8 +36,8 @@ pub(crate) struct Pieces {
     /// The first piece, this one or a later one, in which a contact ends that holds at its start; the number
     /// of pieces where it never ends.
     exits: Vec<u32>,
-    /// The jumps of height and velocity that count as rounding, all of one period together: by as much the gap
-    /// that is carried from joint to joint differs from that of the heights.
+    /// The jumps of height and velocity that count as rounding, all of one period together: by as much the
+    /// gap that is carried from joint to joint differs from that of the heights.
     pub(super) joint_rounding: [f64; 2],
     /// The highest point of each piece, of each two, of each four, and so on.
     tops: Vec<Vec<f64>>,
@@ -61,7 +61,8 @@ impl Drive {
     /// # Errors
     /// [`Error::NotOfKind`] names a piece whose numbers are not finite or that has no duration;
     /// [`Error::OutOfRange`] if the durations do not sum up to 2 pi, or for accelerations beyond
-    /// [`Vibration::MAX_PEAK_ACCELERATION`]; [`Error::HeightJump`]; [`Error::TooLarge`] beyond [`MAX_PIECES`].
+    /// [`Vibration::MAX_PEAK_ACCELERATION`]; [`Error::HeightJump`]; [`Error::TooLarge`] beyond
+    /// [`MAX_PIECES`].
     pub fn pieces(pieces: &[(f64, [f64; 4])]) -> Result<Self, Error> {
         let count = pieces.len();
         if count > MAX_PIECES {
@@ -118,8 +119,8 @@ impl Drive {
         Self::sawtooth(amplitude, 0.5)
     }
 
-    /// A sawtooth that rises for this share of the period, in (0, 1), and falls for the rest: from 0 at time 0
-    /// to `amplitude`, to -`amplitude`, and back.
+    /// A sawtooth that rises for this share of the period, in (0, 1), and falls for the rest: from 0 at time
+    /// 0 to `amplitude`, to -`amplitude`, and back.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers outside their range.
@@ -145,8 +146,8 @@ impl Drive {
         Self::joined(vec![0.0, half, TAU], vec![[0.0, slope, -bend, 0.0], [0.0, -slope, bend, 0.0]])
     }
 
-    /// The cubic approximation of `amplitude` sin t through its zeros and extremes: (3 x - x^3)/2, x = 2 t/pi,
-    /// on the first quarter, and its reflections. Its acceleration is continuous.
+    /// The cubic approximation of `amplitude` sin t through its zeros and extremes: (3 x - x^3)/2, x = 2
+    /// t/pi, on the first quarter, and its reflections. Its acceleration is continuous.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for an amplitude outside its range.
@@ -411,12 +412,8 @@ impl Pieces {
             let [_, _, c2, c3] = self.coefficients[piece];
             let mut bend = -1.0 - (2.0 * c2 + x * (6.0 * c3));
             let bend_error = ROUNDING * (1.0 + 2.0 * c2.abs() + 6.0 * (x * c3).abs());
-            if entered == 0
-                && start.separates
-                && bend < 0.0
-                && bend >= -DOUBTFUL_PULL * (1.0 + self.bounds.acceleration)
-            {
-                bend = 0.0;
+            if entered == 0 {
+                bend = start.bend(bend, &self.bounds);
             }
             let stretch = Stretch { gap, velocity, error, bend, bend_error, third: -6.0 * c3 };
             let this = stretch.first_root(left.min(to - elapsed))?;
@@ -566,8 +563,8 @@ impl Stretch {
         Root { at: t, error: error + ROUNDING * t, slope, doubt, evaluations: 1 }
     }
 
-    /// The first root of c + b t + a t^2 in (0, `to`], where it leaves zero or is positive at 0; `divided`: it
-    /// is the gap over t.
+    /// The first root of c + b t + a t^2 in (0, `to`], where it leaves zero or is positive at 0; `divided`:
+    /// it is the gap over t.
     fn quadratic(&self, [c, b, a]: [f64; 3], to: f64, divided: bool) -> Found {
         let mut found = Found { evaluations: 1, ..Found::default() };
         let radicand = b * b - 4.0 * a * c;

@@ -7,8 +7,8 @@ use super::pieces::MAX_PIECES;
 use crate::numerics::error::{Error, within};
 
 impl Drive {
-    /// The periodic cubic spline through the heights at equal distances over one period, the first one at time
-    /// 0 and, again, 2 pi.
+    /// The periodic cubic spline through the heights at equal distances over one period, the first one at
+    /// time 0 and, again, 2 pi.
     ///
     /// ```
     /// use std::f64::consts::TAU;
@@ -23,8 +23,8 @@ impl Drive {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for less than 3 samples or too large accelerations; [`Error::NotOfKind`] names one
-    /// that is not finite; [`Error::TooLarge`] beyond [`MAX_PIECES`].
+    /// [`Error::OutOfRange`] for less than 3 samples or too large accelerations; [`Error::NotOfKind`] names
+    /// one that is not finite; [`Error::TooLarge`] beyond [`MAX_PIECES`].
     pub fn sampled(heights: &[f64]) -> Result<Self, Error> {
         let count = heights.len();
         if count > MAX_PIECES {

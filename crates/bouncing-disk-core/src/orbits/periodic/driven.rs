@@ -1,12 +1,12 @@
 //! Periodic orbits on a drive: Newton's method by multiple shooting, and a search from a grid of starts.
 
-use core::f64::consts::{PI, TAU};
+use core::f64::consts::TAU;
 
 use glam::{DMat2, DVec2};
 
-use super::newton::{prime_period, same_orbit};
+use super::newton::{Shooting, moved, prime_period, same_orbit, speed_scale};
 use super::search::OrbitSearch;
-use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, phase_difference};
+use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit};
 use crate::chatter::policy::ChatterPolicy;
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::{DrivenEvent, DrivenMap};
@@ -18,20 +18,8 @@ use crate::run::{Observer, Watch, in_parallel};
 /// A shooting residual (rad, relative speed) at which an orbit counts as found, if it no longer shrinks.
 const SHOOTING_RESIDUAL: f64 = 1.0e-11;
 
-/// The longest step of a phase (rad); a longer one is shortened, with all steps of that iteration.
-const LONGEST_STEP: f64 = 0.7;
-
 /// The error of one step of the map (rad, relative speed): that of its phase, made generous.
 const MAP_ROUNDING: f64 = 1.0e-14;
-
-/// One step of the multiple shooting: as in `newton.rs`, for a map whose derivative may not exist.
-struct Shooting {
-    derivatives: Vec<DMat2>,
-    right: Vec<DVec2>,
-    monodromy: DMat2,
-    turns: i64,
-    worst: f64,
-}
 
 impl DrivenMap {
     /// The periodic orbit next to `guess` (its impacts in order), with its multipliers. Its errors are
@@ -143,31 +131,14 @@ impl DrivenMap {
     }
 
     fn shoot(&self, states: &[ImpactState]) -> Result<Shooting, Error> {
-        let n = states.len();
-        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
-        let (mut derivatives, mut right) = (Vec::with_capacity(n), Vec::with_capacity(n));
-        let (mut monodromy, mut turns, mut worst) = (DMat2::IDENTITY, 0, 0.0_f64);
-        for (i, &state) in states.iter().enumerate() {
-            let (landing, derivative) = self.step_with_derivative(state)?;
-            monodromy = derivative * monodromy;
-            turns += landing.impact.turns as i64;
-            let target = states[(i + 1) % n];
-            let (landed, aimed) = (landing.impact.phase.angle(), target.phase().angle());
-            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
-            turns += i64::from(landed - aimed > PI) - i64::from(aimed - landed > PI);
-            let miss =
-                DVec2::new(phase_difference(landed, aimed), landing.impact.velocity - target.velocity());
-            worst = worst.max(miss.x.abs()).max(miss.y.abs() / scale);
-            derivatives.push(derivative);
-            right.push(-miss);
-        }
-        Ok(Shooting { derivatives, right, monodromy, turns, worst })
+        Shooting::from(states, speed_scale(states), |state| {
+            self.step_with_derivative(state).map(|(landing, derivative)| (landing.impact, derivative))
+        })
     }
 
     /// The orbit with its errors.
     fn measured(&self, states: Vec<ImpactState>, shooting: &Shooting) -> PeriodicOrbit {
-        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
-        let room = (shooting.worst + MAP_ROUNDING) * scale;
+        let room = (shooting.worst + MAP_ROUNDING) * speed_scale(&states);
         let mut position_error = 0.0_f64;
         for signs in [DVec2::new(room, room), DVec2::new(room, -room)] {
             for step in solve_block_cyclic(&shooting.derivatives, &vec![signs; states.len()]) {
@@ -185,23 +156,10 @@ impl DrivenMap {
         }
         PeriodicOrbit {
             states,
-            platform_periods: shooting.turns.max(0) as u64,
+            platform_periods: shooting.turns,
             monodromy: shooting.monodromy,
             position_error,
             trace_error,
         }
     }
-}
-
-/// The impacts after a step of each, or after a share of it; `None` if numbers get out of range.
-fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>> {
-    let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
-    let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
-    let moved = states.iter().zip(steps).map(|(state, step)| {
-        let velocity = state.velocity() + share * step.y;
-        // A step through speed zero goes half the way there.
-        let velocity = if velocity < 0.0 { velocity } else { 0.5 * state.velocity() };
-        ImpactState::new(Phase::new(state.phase().angle() + share * step.x)?, velocity)
-    });
-    moved.collect::<Result<_, _>>().ok()
 }

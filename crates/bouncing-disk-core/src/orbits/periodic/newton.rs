@@ -7,6 +7,7 @@ use glam::{DMat2, DVec2};
 
 use super::margin::{SAME, next_to_margin};
 use super::{MAX_NEWTON_STEPS, MAX_PERIOD, PeriodicOrbit, phase_difference};
+use crate::flight::launch::Impact;
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::{ImpactMap, ImpactState};
 use crate::numerics::block_cyclic::solve_block_cyclic;
@@ -32,15 +33,73 @@ const LONGEST_STEP: f64 = 0.7;
 /// One step of the multiple shooting.
 pub(super) struct Shooting {
     /// The derivative of the map at each impact.
-    derivatives: Vec<DMat2>,
+    pub(super) derivatives: Vec<DMat2>,
     /// How far the successor of each impact misses the next one: the step has to make up for it.
-    right: Vec<DVec2>,
+    pub(super) right: Vec<DVec2>,
     /// The derivative of the map around the orbit.
     pub(super) monodromy: DMat2,
     /// Turns of the phase around the orbit.
-    turns: u64,
+    pub(super) turns: u64,
     /// The largest distance of a successor from its target.
-    worst: f64,
+    pub(super) worst: f64,
+}
+
+impl Shooting {
+    /// The step from these impacts of a map, given with its derivative; distances of speeds count in units of
+    /// `scale`.
+    pub(super) fn from(
+        states: &[ImpactState],
+        scale: f64,
+        map: impl Fn(ImpactState) -> Result<(Impact, DMat2), Error>,
+    ) -> Result<Self, Error> {
+        let n = states.len();
+        let mut shooting = Self {
+            derivatives: Vec::with_capacity(n),
+            right: Vec::with_capacity(n),
+            monodromy: DMat2::IDENTITY,
+            turns: 0,
+            worst: 0.0,
+        };
+        let mut turns = 0;
+        for (i, &state) in states.iter().enumerate() {
+            let (impact, derivative) = map(state)?;
+            shooting.monodromy = derivative * shooting.monodromy;
+            turns += impact.turns as i64;
+            let target = states[(i + 1) % n];
+            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
+            let phase = phase_difference(landed, aimed);
+            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
+            if landed - aimed > PI {
+                turns += 1;
+            } else if aimed - landed > PI {
+                turns -= 1;
+            }
+            let velocity = impact.velocity - target.velocity();
+            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
+            shooting.derivatives.push(derivative);
+            shooting.right.push(DVec2::new(-phase, -velocity));
+        }
+        shooting.turns = turns.max(0) as u64;
+        Ok(shooting)
+    }
+}
+
+/// The unit of speeds in the residual of a shooting.
+pub(super) fn speed_scale(states: &[ImpactState]) -> f64 {
+    1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()))
+}
+
+/// The impacts after a step of each, or after a share of it; `None` if numbers get out of range.
+pub(super) fn moved(states: &[ImpactState], steps: &[DVec2]) -> Option<Vec<ImpactState>> {
+    let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
+    let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
+    let moved = states.iter().zip(steps).map(|(state, step)| {
+        let velocity = state.velocity() + share * step.y;
+        // A step through speed zero goes half the way there.
+        let velocity = if velocity < 0.0 { velocity } else { 0.5 * state.velocity() };
+        ImpactState::new(Phase::new(state.phase().angle() + share * step.x)?, velocity)
+    });
+    moved.collect::<Result<_, _>>().ok()
 }
 
 /// The outcome of an attempt from a rough guess.
@@ -98,7 +157,7 @@ impl ImpactMap {
         let n = guess.len();
         within("period", n as f64, 1.0, MAX_PERIOD as f64, "[1, 4096] impacts")?;
         let mut states = guess.to_vec();
-        let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(state.velocity().abs()));
+        let scale = speed_scale(&states);
         let mut residual = f64::INFINITY;
         // The last result below the residual, if a later step is worse: at the birth of an orbit the
         // derivative is singular.
@@ -147,37 +206,8 @@ impl ImpactMap {
         found.map_or(Err(not_settled(MAX_NEWTON_STEPS, residual)), accepted)
     }
 
-    /// One step of the multiple shooting from these impacts; distances of speeds count in units of `scale`.
     pub(super) fn shoot(&self, states: &[ImpactState], scale: f64) -> Result<Shooting, Error> {
-        let n = states.len();
-        let mut shooting = Shooting {
-            derivatives: Vec::with_capacity(n),
-            right: Vec::with_capacity(n),
-            monodromy: DMat2::IDENTITY,
-            turns: 0,
-            worst: 0.0,
-        };
-        let mut turns = 0;
-        for (i, &state) in states.iter().enumerate() {
-            let (impact, derivative) = self.step_with_derivative(state)?;
-            shooting.monodromy = derivative * shooting.monodromy;
-            turns += impact.turns as i64;
-            let target = states[(i + 1) % n];
-            let (landed, aimed) = (impact.phase.angle(), target.phase().angle());
-            let phase = phase_difference(landed, aimed);
-            // Where the two lie on either side of the seam, the turn between them belongs to neither flight.
-            if landed - aimed > PI {
-                turns += 1;
-            } else if aimed - landed > PI {
-                turns -= 1;
-            }
-            let velocity = impact.velocity - target.velocity();
-            shooting.worst = shooting.worst.max(phase.abs()).max(velocity.abs() / scale);
-            shooting.derivatives.push(derivative);
-            shooting.right.push(DVec2::new(-phase, -velocity));
-        }
-        shooting.turns = turns.max(0) as u64;
-        Ok(shooting)
+        Shooting::from(states, scale, |state| self.step_with_derivative(state))
     }
 
     /// Whether an impact is proven to be followed by rest.
@@ -234,21 +264,11 @@ impl ImpactMap {
     fn approached(&self, guess: &[ImpactState]) -> Option<Vec<ImpactState>> {
         let mut states = guess.to_vec();
         for _ in 0..MAX_STEPS {
-            let scale = 1.0 + states.iter().fold(0.0_f64, |most, state| most.max(-state.velocity()));
-            let shooting = self.shoot(&states, scale).ok()?;
+            let shooting = self.shoot(&states, speed_scale(&states)).ok()?;
             if shooting.worst <= NEAR {
                 return Some(states);
             }
-            let steps = solve_block_cyclic(&shooting.derivatives, &shooting.right);
-            let longest = steps.iter().fold(0.0_f64, |most, step| most.max(step.x.abs()));
-            let share = if longest > LONGEST_STEP { LONGEST_STEP / longest } else { 1.0 };
-            for (state, step) in states.iter_mut().zip(&steps) {
-                let phase = Phase::new(state.phase().angle() + share * step.x).ok()?;
-                let own = state.velocity();
-                // A step through speed zero goes half the way there.
-                let velocity = own + share * step.y;
-                *state = ImpactState::new(phase, if velocity < 0.0 { velocity } else { 0.5 * own }).ok()?;
-            }
+            states = moved(&states, &solve_block_cyclic(&shooting.derivatives, &shooting.right))?;
         }
         None
     }

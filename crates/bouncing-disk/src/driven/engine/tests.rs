@@ -143,8 +143,8 @@ proptest! {
         compare(system, start, policy, 40)?;
     }
 
-    /// On platforms of all kinds: each ledger closes, its changes are those of the states, and a motion that is
-    /// resumed between two events has the same next one.
+    /// On platforms of all kinds: each ledger closes, its changes are those of the states, and a motion that
+    /// is resumed between two events has the same next one.
     #[test]
     fn energy_is_balanced_on_every_platform(
         system in systems(), phase in testing::phase(), speed in 0.0..3.0_f64, spin in -2.0..2.0_f64,
@@ -174,7 +174,8 @@ proptest! {
                 let next = twin.advance().expect("no failure").expect("an event");
                 let ends = |event| matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_));
                 let same = std::mem::discriminant(&next.event) == std::mem::discriminant(&record.event);
-                // A slip may end where the angular acceleration jumps: whether before or after, rounding decides.
+                // A slip may end where the angular acceleration jumps: whether before or after, rounding
+                // decides.
                 prop_assert!(same || ends(next.event) && ends(record.event), "{next:?}\n{record:?}");
                 let error = (span + next.span.radians() - record.span.radians()).abs();
                 // A slow impact is as uncertain as the height over its speed.
@@ -243,9 +244,9 @@ fn the_comparison_meets_every_event() {
     assert!(counts[..6].iter().all(|&count| count > 10), "{counts:?}");
 }
 
-/// A disk on a triangle of speed u and angular speed b, by hand: it is left behind at the crest and is back after 4 u
-/// with -2 u; at the trough it is hit with 2 u; where the angular speed drops by 2 b it slides for 2 b/mu and loses
-/// 2 b^2.
+/// A disk on a triangle of speed u and angular speed b, by hand: it is left behind at the crest and is back
+/// after 4 u with -2 u; at the trough it is hit with 2 u; where the angular speed drops by 2 b it slides for
+/// 2 b/mu and loses 2 b^2.
 #[test]
 fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
