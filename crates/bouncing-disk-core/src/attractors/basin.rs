@@ -189,6 +189,12 @@ impl KnownOrbit {
     }
 }
 
+/// The label of the first known orbit within whose radius an impact is; speeds count in units of `scale`.
+pub(super) fn caught(known: &[KnownOrbit], state: ImpactState, scale: f64) -> Option<Label> {
+    let index = known.iter().position(|known| known.orbit.distance(state, scale) <= known.radius)?;
+    Some(FIRST_ORBIT + index as Label)
+}
+
 /// Refuses more known orbits than a label can count.
 pub(crate) fn check_number_of(known: &[KnownOrbit]) -> Result<(), Error> {
     within("number of known orbits", known.len() as f64, 0.0, MAX_KNOWN, "[0, 250]").map(|_| ())
@@ -379,10 +385,9 @@ impl ImpactMap {
         known: &[KnownOrbit],
         policy: ChatterPolicy,
     ) -> Option<Label> {
-        let scale = self.vibration().peak_acceleration();
-        let caught = known.iter().position(|known| known.orbit.distance(state, scale) <= known.radius);
-        if let Some(index) = caught {
-            return Some(FIRST_ORBIT + index as Label);
+        let caught = caught(known, state, self.vibration().peak_acceleration());
+        if caught.is_some() {
+            return caught;
         }
         let speed = -self.restitution() * state.velocity();
         let rests = policy == ChatterPolicy::Complete

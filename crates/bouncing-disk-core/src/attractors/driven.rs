@@ -4,14 +4,12 @@ use core::f64::consts::PI;
 use core::ops::Range;
 
 use super::basin::{
-    ATTACHED, BasinSettings, Basins, FIRST_ORBIT, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED,
-    check_number_of,
+    ATTACHED, BasinSettings, Basins, Grid, KnownOrbit, Label, MAX_CELLS, UNDECIDED, caught, check_number_of,
 };
 use crate::flight::platform::phase::Phase;
 use crate::map::driven_map::{DrivenEvent, DrivenMap, DrivenOrbit};
 use crate::map::impact_map::ImpactState;
 use crate::numerics::error::Error;
-use crate::orbits::periodic::phase_difference;
 use crate::run::{Observer, Watch, in_parallel};
 
 /// The columns of an orbit diagram: for each orbit the `recorded` impacts after the first `transient` ones. A
@@ -126,15 +124,7 @@ impl DrivenMap {
         for event in self.orbit(start, settings.policy) {
             match event? {
                 DrivenEvent::Impact(landing) => {
-                    let (angle, velocity) = (landing.impact.phase.angle(), landing.impact.velocity);
-                    let caught = known.iter().zip(FIRST_ORBIT..).find(|(known, _)| {
-                        known.orbit().states.iter().any(|state| {
-                            let apart = phase_difference(angle, state.phase().angle());
-                            let faster = (velocity - state.velocity()) / speed;
-                            apart * apart + faster * faster <= known.radius() * known.radius()
-                        })
-                    });
-                    if let Some((_, label)) = caught {
+                    if let Some(label) = caught(known, landing.impact.into(), speed) {
                         return Ok(label);
                     }
                     impacts += 1;

@@ -409,6 +409,8 @@ struct Tally {
     doubts: u64,
     kinks: u64,
     evaluations: u32,
+    /// The launch that needed the most.
+    longest: String,
     failures: Vec<String>,
 }
 
@@ -420,19 +422,25 @@ fn attack(kind: Kind, seed: u64, launches: u64) -> Tally {
         for _ in 0..20 {
             let Some((time, speed)) = launch(&exact, &mut random) else { continue };
             tally.launches += 1;
+            let start = || format!("{kind:?} from {time:?} at {speed:e}, {} joints", exact.joints.len());
             let verdict = match exact.drive.first_impact_from(time, 0.0, speed) {
                 Ok(landing) => {
                     tally.doubts += u64::from(landing.doubt.is_some());
                     tally.kinks += u64::from(landing.on_kink);
-                    tally.evaluations = tally.evaluations.max(landing.impact.evaluations);
+                    if landing.impact.evaluations > tally.evaluations {
+                        tally.evaluations = landing.impact.evaluations;
+                        tally.longest = format!("{}: {landing:?}", start());
+                    }
                     exact.judge(time, speed, &landing).map_err(|reason| format!("{landing:?}: {reason}"))
                 }
                 Err(error) => Err(error.to_string()),
             };
             if let Err(reason) = verdict {
                 tally.failures.push(format!(
-                    "{reason}; {kind:?} from {time:?} at {speed:e} {:?} {:?}",
-                    exact.harmonics, exact.joints
+                    "{reason}; {} {:?} {:?}",
+                    start(),
+                    exact.harmonics,
+                    exact.joints
                 ));
             }
         }
@@ -473,18 +481,9 @@ fn launches_on_seams_of_smooth_pieces() {
 #[ignore = "a campaign of some minutes"]
 fn drive_campaign() {
     let launches = std::env::var("DRIVE_LAUNCHES").map_or(400_000, |text| text.parse().unwrap());
-    let tallies =
-        in_parallel(KINDS.len(), |kind| (KINDS[kind], attack(KINDS[kind], 1_000 + kind as u64, launches)));
-    for (kind, tally) in &tallies {
-        let failures: Vec<_> = tally.failures.iter().take(3).collect();
-        println!("{kind:?}: {} launches, {} doubts, {} on kinks", tally.launches, tally.doubts, tally.kinks);
-        println!(
-            "at most {} evaluations, {} failures {failures:#?}",
-            tally.evaluations,
-            tally.failures.len()
-        );
-    }
-    assert!(tallies.iter().all(|(_, tally)| tally.failures.is_empty()));
+    let tallies = in_parallel(KINDS.len(), |kind| attack(KINDS[kind], 1_000 + kind as u64, launches));
+    println!("{tallies:#?}");
+    assert!(tallies.iter().all(|tally| tally.failures.is_empty()));
 }
 
 /// From the same state before each event the sum gives the events of the sine's own solver.

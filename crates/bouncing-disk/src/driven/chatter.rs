@@ -28,6 +28,18 @@ pub(super) struct Rest {
     pub(super) ledger: EnergyLedger,
 }
 
+/// What an impact does.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Impulses {
+    pub(super) axial: f64,
+    pub(super) rotary: f64,
+    /// Whether friction ends the slip within the impact.
+    pub(super) capped: bool,
+    /// The slip before, and the angular speed after.
+    pub(super) slip: f64,
+    pub(super) speed: f64,
+}
+
 impl DrivenSystem {
     /// The chatter that starts at `at` with the launch speed `launch` and lasts for `duration`.
     pub(super) fn chatter(&self, at: f64, launch: f64, speed: f64, duration: f64) -> Rest {
@@ -80,29 +92,41 @@ impl DrivenSystem {
         let work = self.load * change.angle;
         rest.ledger.record_rotary_change(rest.speed, change.speed);
         rest.ledger.record_load(work, work.abs());
-        let platform_speed = self.angle.at(at).velocity;
-        let slip = change.speed - platform_speed;
-        let axial = axial_impulse(restitution, velocity);
-        let rotary = friction_impact(self.friction, axial, slip);
+        let speeds = [change.speed, self.angle.at(at).velocity];
+        let impact = self.impact(&mut rest.ledger, restitution, [velocity, platform], speeds);
+        rest.ledger.record_rotary_change(change.speed, impact.speed);
+        rest.speed = impact.speed;
+        rest.angle += change.angle;
+        rest.capped = impact.capped;
+        rest.impacts += 1;
+        rest.axial_impulse += impact.axial;
+        rest.angular_impulse += impact.rotary;
+    }
+
+    /// An impact with this relative velocity and angular speed, each with that of the platform.
+    pub(super) fn impact(
+        &self,
+        ledger: &mut EnergyLedger,
+        restitution: f64,
+        [relative_velocity, platform_velocity]: [f64; 2],
+        [speed, platform_speed]: [f64; 2],
+    ) -> Impulses {
+        let slip = speed - platform_speed;
+        let axial = axial_impulse(restitution, relative_velocity);
+        let friction = friction_impact(self.friction, axial, slip);
+        let (rotary, capped) = (friction.impulse, friction.capped);
         record_impact(
-            &mut rest.ledger,
+            ledger,
             ImpactEnergy {
                 axial,
-                relative_velocity: velocity,
+                relative_velocity,
                 restitution,
-                platform_velocity: platform,
-                rotary: rotary.impulse,
+                platform_velocity,
+                rotary,
                 slip,
                 platform_speed,
             },
         );
-        let after = rotary.speed_after(change.speed, platform_speed);
-        rest.ledger.record_rotary_change(change.speed, after);
-        rest.speed = after;
-        rest.angle += change.angle;
-        rest.capped = rotary.capped;
-        rest.impacts += 1;
-        rest.axial_impulse += axial;
-        rest.angular_impulse += rotary.impulse;
+        Impulses { axial, rotary, capped, slip, speed: friction.speed_after(speed, platform_speed) }
     }
 }

@@ -9,10 +9,9 @@ use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 use super::{DrivenEvent, DrivenRecord, DrivenStart, DrivenSystem, Hit};
 use crate::error::{Error, moderate};
-use crate::motion::chatter::{ImpactEnergy, record_impact};
 use crate::motion::contact_motion::SAME_SPEED;
 use crate::motion::energy::EnergyLedger;
-use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
+use crate::motion::impact::rebound_velocity;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
 use crate::motion::rotary_change::{RotaryChange, change_in_flight};
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
@@ -386,26 +385,14 @@ impl DrivenEngine {
                 self.drifted(span, to.at, change)
             }
         };
-        let slip = change.speed - beta.velocity;
         let restitution = self.system.restitution;
-        let mut axial = axial_impulse(restitution, velocity);
-        let rotary = friction_impact(self.system.friction, axial, slip);
         let rebound = rebound_velocity(restitution, velocity);
         let stage = self.stage_after(to.at, velocity, flight);
         // Where the platform falls away, a cut takes the rebound and lets the disk go at once.
         let cut = rebound > 0.0 && stage == Stage::Flight { gap: 0.0, velocity: 0.0 };
-        record_impact(
-            &mut ledger,
-            ImpactEnergy {
-                axial,
-                relative_velocity: velocity,
-                restitution,
-                platform_velocity: s.velocity,
-                rotary: rotary.impulse,
-                slip,
-                platform_speed: beta.velocity,
-            },
-        );
+        let speeds = [change.speed, beta.velocity];
+        let impact = self.system.impact(&mut ledger, restitution, [velocity, s.velocity], speeds);
+        let mut axial = impact.axial;
         if cut {
             axial -= rebound;
             ledger.record_normal(-rebound * s.velocity, 0.5 * rebound * rebound);
@@ -413,15 +400,18 @@ impl DrivenEngine {
         let after = DiskState {
             mode: Mode::Flight,
             axial_velocity: if cut { 0.0 } else { rebound } + s.velocity,
-            angular_speed: rotary.speed_after(change.speed, beta.velocity),
+            angular_speed: impact.speed,
             ..before
         };
         record_jump(&mut ledger, &before, &after);
-        let hit =
-            Hit { axial_impact_velocity: velocity, tangential_impact_velocity: slip, capped: rotary.capped };
+        let hit = Hit {
+            axial_impact_velocity: velocity,
+            tangential_impact_velocity: impact.slip,
+            capped: impact.capped,
+        };
         let record = self.moved(span, to, event(hit), change.angle, (before, after), ledger);
         self.stage = stage;
-        DrivenRecord { axial_impulse: axial, angular_impulse: rotary.impulse, ..record }
+        DrivenRecord { axial_impulse: axial, angular_impulse: impact.rotary, ..record }
     }
 
     /// What follows an impact with relative `velocity` that ends a flight of this duration.
