@@ -54,19 +54,19 @@ impl ChatterPolicy {
         short_flights: &mut ShortFlightCount,
     ) -> AfterImpact {
         let speed = -restitution * velocity;
-        let pulls = drive.acceleration(time) >= -1.0;
+        let holds = drive.holds(time);
         let rest = AfterImpact::Rest { error: if speed > 0.0 { f64::INFINITY } else { 0.0 } };
         match self {
             Self::Cut(cut) => match short_flights.attaches(cut, flight, -velocity) || speed == 0.0 {
                 false => AfterImpact::Launch(speed),
-                true if pulls => rest,
+                true if holds => rest,
                 true => AfterImpact::Launch(0.0),
             },
             Self::Complete => {
                 let chatter = drive.chatter_duration(time, speed, restitution);
                 match chatter.filter(|chatter| chatter.error <= COMPLETION_ERROR) {
                     Some(chatter) => AfterImpact::Chatter(chatter),
-                    None if speed <= SMALLEST_SPEED && pulls => rest,
+                    None if speed <= SMALLEST_SPEED && holds => rest,
                     None => AfterImpact::Launch(speed),
                 }
             }

@@ -17,6 +17,9 @@ mod spline;
 /// Most harmonics of a Fourier drive.
 pub const MAX_HARMONICS: usize = 32;
 
+/// Four roundoffs.
+const ROUNDING: f64 = 2.0 * f64::EPSILON;
+
 /// The height of a platform over time: time in radians of the drive's fundamental, one period being 2 pi;
 /// height in g/omega^2.
 ///

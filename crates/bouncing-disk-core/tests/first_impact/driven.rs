@@ -304,3 +304,63 @@ fn a_disk_that_separates_flies() {
         separated += 1;
     }
 }
+
+/// Drives whose force touches zero within some roundings: a contact that ends there is followed by a flight to
+/// another time, so that the two cannot alternate for ever.
+#[test]
+fn a_contact_and_a_flight_do_not_alternate_at_one_time() {
+    let mut random = SplitMix::new(96);
+    let (mut flights, mut held) = (0, 0);
+    for k in 0..600 {
+        let harmonics: Vec<_> = (0..=random.below(3)).map(|_| (random.unit(), random.angle())).collect();
+        let make = |a: f64| match k % 3 {
+            0 => Drive::cubics(a).unwrap(),
+            1 => Drive::fourier(&harmonics.iter().map(|(b, angle)| (a * b, *angle)).collect::<Vec<_>>())
+                .unwrap(),
+            _ => {
+                let sum = Drive::fourier(&harmonics).unwrap();
+                let heights = (0..24).map(|k| a * sum.height(f64::from(k) / 24.0 * TAU));
+                Drive::sampled(&heights.collect::<Vec<_>>()).unwrap()
+            }
+        };
+        let unit = make(1.0);
+        let force = |time: f64| unit.acceleration(time);
+        // The lowest of samples, which joints are among, and from there on by halves.
+        let (mut touch, mut step) = (0.0, TAU / 480.0);
+        for sample in 0..480 {
+            let time = f64::from(sample) / 480.0 * TAU;
+            touch = if force(time) < force(touch) { time } else { touch };
+        }
+        while step > 1e-9 {
+            let sides = [touch - step, touch + step];
+            match sides.into_iter().find(|&time| force(time) < force(touch)) {
+                Some(lower) => touch = lower,
+                None => step *= 0.5,
+            }
+        }
+        let roundings = f64::from(random.below(33) as u32) - 16.0;
+        let drive = make((1.0 + roundings * f64::EPSILON) / -force(touch));
+        let map = DrivenMap::new(drive, if k % 2 == 0 { 0.0 } else { 0.5 }).unwrap();
+        let nudge = random.sign() * random.decades(-17.0, -6.0);
+        for start in [touch + nudge, touch, random.angle()] {
+            let mut orbit = map.of_contact(start, ChatterPolicy::Complete);
+            for _ in 0..60 {
+                let from = orbit.launch();
+                match orbit.next() {
+                    Some(Ok(DrivenEvent::Impact(landing))) => {
+                        flights += 1;
+                        let launch = from.expect("it was in the air");
+                        let at_once = launch.1 == 0.0 && landing.impact.phase.angle() == launch.0;
+                        assert!(!at_once, "{launch:?} {landing:?} {:?}", map.drive());
+                    }
+                    Some(event) => drop(event.unwrap()),
+                    None => {
+                        held += 1;
+                        break;
+                    }
+                }
+            }
+        }
+    }
+    assert!(flights > 100 && held > 100, "{flights} {held}");
+}

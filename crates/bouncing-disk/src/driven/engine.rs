@@ -209,7 +209,7 @@ impl DrivenEngine {
     fn put_down(&mut self, mode: Option<Mode>) {
         let at = self.now.at;
         let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
-        if s.acceleration < -1.0 {
+        if !self.system.height.holds(at) {
             self.take_off(0.0, 0.0);
             return;
         }
@@ -336,7 +336,7 @@ impl DrivenEngine {
         if gap <= 0.0 && velocity < 0.0 {
             return Ok(Some(self.hit(0.0, self.now, velocity, f64::INFINITY, DrivenEvent::Impact)));
         }
-        if gap <= 0.0 && velocity == 0.0 && self.system.height.at(self.now.at).acceleration >= -1.0 {
+        if gap <= 0.0 && velocity == 0.0 && self.system.height.holds(self.now.at) {
             // At a joint a disk may fly at zero distance: it lies on the platform.
             self.put_down(None);
             return self.advance_within(limit);

@@ -3,10 +3,13 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, Shape, TimeAhead};
+use super::{Drive, DriveBounds, ROUNDING, Shape, TimeAhead};
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, finite};
-use crate::numerics::quasi_polynomial::FirstRoot;
+use crate::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
+
+/// A pull that is smaller than this share of its terms may be their rounding.
+const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 /// How long a chatter lasts, from a launch to the rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,26 +40,46 @@ impl Drive {
         Ok(end.map(|end| TimeAhead { time: self.reduced(end.time), ..end }))
     }
 
-    /// The first fall of the contact force 1 + s'' of a Fourier sum through zero.
+    /// Whether a disk that rests on the platform at `time` stays there: the force presses it on, or does so but
+    /// for a rounding and does not fall.
+    #[must_use]
+    pub fn holds(&self, time: f64) -> bool {
+        self.acceleration(time) >= -1.0 || !self.leaves(time)
+    }
+
+    /// Whether the force is below zero by more than a rounding, or falls below it: the flight from there is
+    /// longer than a rounding of the time, so that a contact and a flight cannot follow each other at one time.
+    fn leaves(&self, time: f64) -> bool {
+        let time = self.reduced(time);
+        match &self.shape {
+            Shape::Fourier(fourier) => {
+                let (at, bounds) = (fourier.at(time), fourier.bounds);
+                // A flight lasts for four times the fall of the force over the bound on its change.
+                let fall = ROUNDING * (TAU + time.abs()) * fourier.highest_harmonic() * bounds.jerk;
+                1.0 + at.acceleration < -bounds.doubtful_pull(time) || at.jerk < -fall
+            }
+            Shape::Pieces(pieces) => pieces.leaves(time),
+        }
+    }
+
+    /// The end by the force of a contact with a Fourier sum.
     fn separation(&self, time: f64, limit: f64) -> Result<Option<TimeAhead>, Error> {
         if self.bounds().acceleration <= 1.0 {
             return Ok(None);
         }
-        let ahead = |after| Ok(Some(TimeAhead { after, time: time + after, velocity_jump: 0.0 }));
         let force = self.derivative(2, time) + 1.0;
-        if force.at(0.0, 0.0).value < 0.0 {
-            return ahead(0.0);
-        }
-        let mut from = 0.0;
-        loop {
-            match force.first_root(from, limit)? {
-                FirstRoot::Root(root) => return ahead(root.at),
-                FirstRoot::None { .. } => return Ok(None),
-                // A force that touches zero presses on.
-                FirstRoot::Undecided { until, .. } if until < limit => from = until,
-                FirstRoot::Undecided { .. } => return Ok(None),
+        let end = match force.at(0.0, 0.0).value {
+            value if value >= 0.0 => first_fall(&force, 0.0, limit)?,
+            _ => Some(0.0),
+        };
+        let end = match end {
+            // A force that goes through zero by no more than a rounding presses on.
+            Some(after) if !self.leaves(time + after) => {
+                first_fall(&(force + 2.0 * self.bounds().doubtful_pull(time)), after, limit)?
             }
-        }
+            end => end,
+        };
+        Ok(end.map(|after| TimeAhead { after, time: time + after, velocity_jump: 0.0 }))
     }
 
     /// The time from a launch at `time` with relative `speed` to the rest after infinitely many impacts, if a
@@ -106,6 +129,24 @@ impl Drive {
                 Some((pull - change, pull + change))
             }
             Shape::Pieces(pieces) => pieces.pull_within(wrapped_angle(time), duration),
+        }
+    }
+}
+
+impl DriveBounds {
+    /// A pull that is smaller may be the rounding of its terms, or of the time.
+    pub(super) fn doubtful_pull(&self, time: f64) -> f64 {
+        DOUBTFUL_PULL * (1.0 + self.acceleration) + ROUNDING * (TAU + time.abs()) * self.jerk
+    }
+}
+
+/// The first fall through zero from `from` on, of a function that touches zero elsewhere.
+fn first_fall(function: &QuasiPolynomial, mut from: f64, limit: f64) -> Result<Option<f64>, Error> {
+    loop {
+        match function.first_root(from, limit)? {
+            FirstRoot::Root(root) => return Ok(Some(root.at)),
+            FirstRoot::Undecided { until, .. } if until < limit => from = until,
+            FirstRoot::Undecided { .. } | FirstRoot::None { .. } => return Ok(None),
         }
     }
 }

@@ -7,19 +7,13 @@
 
 use core::f64::consts::TAU;
 
-use super::{Drive, DriveBounds, Fourier, Shape};
+use super::{Drive, DriveBounds, Fourier, ROUNDING, Shape};
 use crate::flight::first_impact::MAX_FLIGHT_DURATION;
 use crate::flight::launch::{Impact, Launch};
 use crate::flight::platform::phase::Phase;
 use crate::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle};
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
-
-/// Four roundoffs.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
-
-/// A pull that is smaller than this share of its terms may be their rounding.
-const DOUBTFUL_PULL: f64 = 1.0e-12;
 
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,10 +51,9 @@ pub(crate) struct Start {
 
 impl Start {
     /// The second derivative of the gap: where a contact ends, a platform that still pushes by no more than a
-    /// rounding, also that of the time, does not push.
+    /// rounding does not push.
     pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
-        let doubt = DOUBTFUL_PULL * (1.0 + bounds.acceleration) + ROUNDING * self.time.abs() * bounds.jerk;
-        if self.separates && bend < 0.0 && bend >= -doubt { 0.0 } else { bend }
+        if self.separates && bend < 0.0 && bend >= -bounds.doubtful_pull(self.time) { 0.0 } else { bend }
     }
 }
 

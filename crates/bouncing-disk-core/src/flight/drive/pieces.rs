@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::landing::{Doubt, Found, Start, decided};
-use super::{Drive, DriveBounds, DriveState, Shape, TimeAhead};
+use super::{Drive, DriveBounds, DriveState, ROUNDING, Shape, TimeAhead};
 use crate::flight::platform::vibration::Vibration;
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
@@ -16,9 +16,6 @@ pub const MAX_PIECES: usize = 1 << 20;
 
 /// A jump of the height or the velocity that is smaller than this share of the largest one is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-12;
-
-/// Four roundoffs.
-const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
 /// No pieces are passed over sooner than this after the start of a search (rad): heights above the platform
 /// are then taken from the height of both, whose rounding a shorter flight would feel.
@@ -323,12 +320,20 @@ impl Pieces {
         (1.0 + 2.0 * c2, 6.0 * c3)
     }
 
+    /// Whether the force, now this, is below zero by more than a rounding here or at the end of the piece.
+    fn falls_below(&self, piece: usize, here: f64) -> bool {
+        let (force, change) = self.force(piece);
+        here.min(force + change * self.length(piece)) < -self.bounds.doubtful_pull(TAU)
+    }
+
+    /// [`Drive::leaves`].
+    pub(super) fn leaves(&self, time: f64) -> bool {
+        self.falls_below(self.index(time), 1.0 + self.at(time).acceleration)
+    }
+
     fn find_exits(&mut self) {
         let count = self.count();
-        let leaves = |piece: usize| {
-            let (force, change) = self.force(piece);
-            self.jumps[piece] != 0.0 || force < 0.0 || force + change * self.length(piece) < 0.0
-        };
+        let leaves = |piece: usize| self.jumps[piece] != 0.0 || self.falls_below(piece, self.force(piece).0);
         let mut exits = vec![count as u32; count];
         // Twice round, so that each piece sees what follows in the next period.
         let mut next = count as u32;
@@ -348,15 +353,12 @@ impl Pieces {
         let piece = self.index(time);
         let (force, change) = self.force(piece);
         let here = force + change * (time - self.starts[piece]);
-        if here < 0.0 {
-            return ahead(0.0, time, 0.0);
+        if self.leaves(time) {
+            let after = if here > 0.0 { here / -change } else { 0.0 };
+            return ahead(after, time + after, 0.0);
         }
         let joint = self.next_joint(time);
         let left = joint.after;
-        if change < 0.0 && here / -change < left {
-            let after = here / -change;
-            return ahead(after, time + after, 0.0);
-        }
         let next = (piece + 1) % self.count();
         let exit = self.exits[next] as usize;
         if exit == self.count() {
