@@ -47,16 +47,16 @@ impl Drive {
         self.acceleration(time) >= -1.0 || !self.leaves(time)
     }
 
-    /// Whether the force is below zero by more than a rounding, or falls below it: the flight from there is
-    /// longer than a rounding of the time, so that a contact and a flight cannot follow each other at one time.
+    /// Whether the force is below zero by more than a rounding, or will be: the flight from there lasts longer
+    /// than a rounding of the time, so that a contact and a flight cannot follow each other at one time.
     fn leaves(&self, time: f64) -> bool {
         let time = self.reduced(time);
         match &self.shape {
             Shape::Fourier(fourier) => {
-                let (at, bounds) = (fourier.at(time), fourier.bounds);
-                // A flight lasts for four times the fall of the force over the bound on its change.
-                let fall = ROUNDING * (TAU + time.abs()) * fourier.highest_harmonic() * bounds.jerk;
-                1.0 + at.acceleration < -bounds.doubtful_pull(time) || at.jerk < -fall
+                let (at, doubt) = (fourier.at(time), fourier.bounds.doubtful_pull(time));
+                // A force that falls as steeply gets as low, whatever its second derivative.
+                let bend = fourier.highest_harmonic() * fourier.bounds.jerk;
+                1.0 + at.acceleration < -doubt || at.jerk < -(2.0 * doubt * bend).sqrt()
             }
             Shape::Pieces(pieces) => pieces.leaves(time),
         }
