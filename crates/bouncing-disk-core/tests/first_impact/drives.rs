@@ -37,7 +37,12 @@ impl Exact {
         Self { drive: Drive::ramped_fourier(&harmonics, duration).unwrap(), harmonics, joints: Vec::new() }
     }
 
-    fn pieces(drive: Drive, joints: Vec<f64>) -> Self {
+    fn pieces(drive: Drive) -> Self {
+        let mut joints = vec![0.0];
+        while let Some(joint) = drive.next_joint(joints[joints.len() - 1]).filter(|joint| joint.time > 0.0) {
+            joints.push(joint.time);
+        }
+        joints.push(TAU);
         Self { drive, harmonics: Vec::new(), joints }
     }
 
@@ -270,7 +275,6 @@ pub const KINDS: [Kind; 8] = [
 impl Kind {
     pub fn draw(self, random: &mut SplitMix) -> Exact {
         let a = random.decades(-2.0, 4.0);
-        let q = 0.25 * TAU;
         match self {
             Self::ThreeHarmonics => Exact::fourier(
                 (1..4).map(|j| (a * random.uniform(-1.0, 1.0) / f64::from(j), random.angle())).collect(),
@@ -278,14 +282,10 @@ impl Kind {
             Self::ManyHarmonics => Exact::fourier(
                 (1..33).map(|j| (a * random.uniform(-1.0, 1.0) / f64::from(j * j), random.angle())).collect(),
             ),
-            Self::Triangle => Exact::pieces(Drive::triangle(a).unwrap(), vec![0.0, q, 0.75 * TAU, TAU]),
-            Self::Sawtooth => {
-                let rise = random.uniform(0.05, 0.95);
-                let joints = vec![0.0, 0.5 * rise * TAU, (1.0 - 0.5 * rise) * TAU, TAU];
-                Exact::pieces(Drive::sawtooth(a, rise).unwrap(), joints)
-            }
-            Self::Parabolas => Exact::pieces(Drive::parabolas(a).unwrap(), vec![0.0, 0.5 * TAU, TAU]),
-            Self::Cubics => Exact::pieces(Drive::cubics(a).unwrap(), vec![0.0, q, 2.0 * q, 3.0 * q, TAU]),
+            Self::Triangle => Exact::pieces(Drive::triangle(a).unwrap()),
+            Self::Sawtooth => Exact::pieces(Drive::sawtooth(a, random.uniform(0.05, 0.95)).unwrap()),
+            Self::Parabolas => Exact::pieces(Drive::parabolas(a).unwrap()),
+            Self::Cubics => Exact::pieces(Drive::cubics(a).unwrap()),
             Self::Polygon => polygon(a, random),
             Self::Spline => {
                 let count = 8 + random.below(200);
@@ -294,8 +294,7 @@ impl Kind {
                 let samples: Vec<_> = (0..count)
                     .map(|k| a * (libm::sin(time(k) + phase) + 0.3 * third * libm::sin(3.0 * time(k))))
                     .collect();
-                let joints = (0..=count).map(|k| if k == count { TAU } else { time(k) }).collect();
-                Exact::pieces(Drive::sampled(&samples).unwrap(), joints)
+                Exact::pieces(Drive::sampled(&samples).unwrap())
             }
         }
     }
@@ -318,15 +317,7 @@ fn polygon(a: f64, random: &mut SplitMix) -> Exact {
             (d, [heights[k], c1, c2, c3])
         })
         .collect();
-    // The starts as the drive adds them up.
-    let mut time = 0.0;
-    let mut starts = Vec::new();
-    for &(duration, _) in &pieces {
-        starts.push(time);
-        time += duration;
-    }
-    starts.push(TAU);
-    Exact::pieces(Drive::pieces(&pieces).unwrap(), starts)
+    Exact::pieces(Drive::pieces(&pieces).unwrap())
 }
 
 /// A time in [0, 2 pi), most often on a seam or next to one.

@@ -3,9 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
-use bouncing_disk_core::{DrivenMap, ImpactMap};
-
-use bouncing_disk_core::Drive;
+use bouncing_disk_core::{Drive, DrivenMap, ImpactMap};
 
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
@@ -75,7 +73,7 @@ impl Waveform {
     /// Those of [`DrivenPlatform::new`].
     pub fn map(&self, sine: &ImpactMap) -> Result<DrivenMap, Error> {
         let track = self.track("height", sine.vibration().peak_acceleration(), 0.0)?;
-        Ok(DrivenMap::new(track.drive().clone(), sine.restitution())?)
+        Ok(DrivenMap::new(track, sine.restitution())?)
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -86,19 +84,10 @@ impl Waveform {
             }
             source => Error::Waveform { of, source },
         };
-        let line = |c0: f64, c1: f64| [c0, c1, 0.0, 0.0];
-        let sawtooth = |rise: f64| {
-            let (up, down) = (2.0 / rise, -2.0 / (1.0 - rise));
-            [(0.5 * rise, line(0.0, up)), (1.0 - rise, line(1.0, down)), (0.5 * rise, line(-1.0, up))]
-        };
-        let parabola = |crest: f64| (0.5, [0.0, 8.0 * crest, -16.0 * crest, 0.0]);
         let track = match self {
             Self::Sine | Self::Fourier(_) => {
-                let earlier =
-                    |(j, (a, phi)): (usize, (f64, f64))| (amplitude * a, phi + (j + 1) as f64 * lag);
-                let harmonics: Vec<_> =
-                    self.harmonics().into_iter().flatten().enumerate().map(earlier).collect();
-                return Drive::fourier(&harmonics).map_err(refuse);
+                let harmonics = self.harmonics().into_iter().flatten();
+                Drive::fourier(&harmonics.map(|(a, phase)| (amplitude * a, phase)).collect::<Vec<_>>())
             }
             Self::Sampled(samples) => {
                 let samples: Vec<_> = samples.iter().map(|sample| amplitude * sample).collect();
@@ -112,18 +101,10 @@ impl Waveform {
                 }
                 pieces_of(pieces, amplitude)
             }
-            Self::Triangle => pieces_of(&sawtooth(0.5), amplitude),
-            Self::Sawtooth(rise) => {
-                let legal = (1.0e-9..=1.0 - 1.0e-9).contains(rise);
-                check(legal, "rise", *rise, "[1e-9, 1 - 1e-9], a share of the period")?;
-                pieces_of(&sawtooth(*rise), amplitude)
-            }
-            Self::Parabolas => pieces_of(&[parabola(1.0), parabola(-1.0)], amplitude),
-            Self::Cubics => {
-                let rise = |side: f64| (0.25, [0.0, 6.0 * side, 0.0, -32.0 * side]);
-                let fall = |side: f64| (0.25, [side, 0.0, -24.0 * side, 32.0 * side]);
-                pieces_of(&[rise(1.0), fall(1.0), rise(-1.0), fall(-1.0)], amplitude)
-            }
+            Self::Triangle => Drive::triangle(amplitude),
+            Self::Sawtooth(rise) => Drive::sawtooth(amplitude, *rise),
+            Self::Parabolas => Drive::parabolas(amplitude),
+            Self::Cubics => Drive::cubics(amplitude),
         };
         track.and_then(|track| track.earlier(lag)).map_err(refuse)
     }
@@ -319,7 +300,6 @@ pub enum AfterSchedule {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bouncing_disk_core::Drive;
     use bouncing_disk_core::flight::{MAX_HARMONICS, MAX_PIECES};
 
     fn hand() -> Platform {
@@ -372,24 +352,6 @@ mod tests {
         ] {
             let refused = DrivenPlatform::new(hand(), height, Waveform::Sine).expect_err("refused");
             assert!(refused.to_string().contains(words), "{refused}");
-        }
-    }
-
-    /// Each shape of a name is the core's, with the amplitude A.
-    #[test]
-    fn named_shapes_are_those_of_the_core() {
-        for (shape, drive) in [
-            (Waveform::Triangle, Drive::triangle(0.3)),
-            (Waveform::Sawtooth(0.8), Drive::sawtooth(0.3, 0.8)),
-            (Waveform::Parabolas, Drive::parabolas(0.3)),
-            (Waveform::Cubics, Drive::cubics(0.3)),
-        ] {
-            let (track, drive) = (shape.track("height", 0.3, 0.0).expect("legal"), drive.expect("legal"));
-            for k in 0..97 {
-                let (own, other) = (track.at(0.065 * f64::from(k)), drive.at(0.065 * f64::from(k)));
-                assert!((own.height - other.height).abs() < 1e-15, "{shape:?} {k}");
-                assert!((own.velocity - other.velocity).abs() < 1e-15, "{shape:?} {k}");
-            }
         }
     }
 
