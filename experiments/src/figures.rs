@@ -9,6 +9,7 @@ pub mod extra_branches;
 pub mod extra_cascade;
 pub mod extra_crisis;
 pub mod extra_design;
+pub mod extra_drives;
 pub mod extra_efficiency;
 pub mod extra_fit;
 pub mod extra_lyapunov;

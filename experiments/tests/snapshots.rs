@@ -61,6 +61,7 @@ snapshots![
     extra_crisis,
     extra_manifolds,
     extra_attractors,
+    extra_drives,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.
