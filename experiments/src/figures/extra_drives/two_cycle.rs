@@ -5,7 +5,6 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 
 use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::numerics::roots::bisection;
-use bouncing_disk::core::orbits::Stability;
 use bouncing_disk::core::{DrivenMap, Error, ImpactState, Phase};
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -139,7 +138,6 @@ impl TwoCycle {
         let map = shape.map(axial_forcing, restitution)?;
         let moved = ImpactState::new(Phase::new(-10.0 * BEYOND)?, self.states[0].velocity())?;
         let orbit = map.refine(&[moved, self.states[1]])?;
-        debug_assert!(orbit.stability() == Stability::Unstable);
         let first = orbit.states[0].phase().angle();
         let (mut state, mut tangent, mut sum) = (moved, DVec2::X, 0.0);
         let mut ends = [(f64::INFINITY, f64::NEG_INFINITY); 2];
