@@ -6,7 +6,9 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI, TAU};
 use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::numerics::roots::bisection;
-use bouncing_disk::core::{ChatterPolicy, Drive, DrivenMap, Error, ImpactState, Phase, Unobserved};
+use bouncing_disk::core::{
+    ChatterPolicy, Drive, DrivenMap, DrivenOrbit, Error, ImpactState, Phase, Unobserved,
+};
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk_plot::pictures::{IMPACT_PHASE, OrbitDiagram};
 use bouncing_disk_plot::{
@@ -16,7 +18,7 @@ use bouncing_disk_plot::{
 use glam::{DMat2, DVec2};
 use serde::{Deserialize, Serialize};
 
-use super::shared::{distinct_phases, map_in_parallel};
+use super::shared::distinct_phases;
 use crate::claims::paper;
 use crate::experiment::{Experiment, ExperimentError, Quality};
 use crate::progress::Progress;
@@ -179,15 +181,14 @@ fn diagram(shape: Shape, restitution: f64, quality: Quality) -> Result<Diagram, 
     let (columns, transient, kept) = quality.choose((120, 400, 20), (480, 2_000, 80));
     let forcings: Vec<f64> =
         (0..columns).map(|k| RANGE.0 + (RANGE.1 - RANGE.0) * f64::from(k) / f64::from(columns - 1)).collect();
-    let map = |forcing: f64| DrivenMap::new(shape(PI * forcing)?, restitution);
-    let dots = |start: &(dyn Fn(&DrivenMap) -> Result<ImpactState, Error> + Sync)| {
-        let columns = map_in_parallel(&forcings, |forcing| {
-            let map = map(*forcing)?;
-            let start = start(&map)?;
-            let column = driven_diagram(&[map], start, transient, kept, PAPER_CHATTER, &Unobserved)?.concat();
-            Ok(distinct_phases(&column).into_iter().map(|phase| (*forcing, phase)).collect::<Vec<Dot>>())
-        });
-        columns.map(|columns| columns.concat())
+    let dots = |start: &dyn Fn(DrivenMap) -> Result<DrivenOrbit, Error>| -> Result<Vec<Dot>, Error> {
+        let orbits = forcings.iter().map(|forcing| start(DrivenMap::new(shape(PI * forcing)?, restitution)?));
+        let orbits = orbits.collect::<Result<Vec<_>, _>>()?;
+        let columns = driven_diagram(&orbits, transient, kept, &Unobserved)?;
+        let columns = forcings.iter().zip(&columns);
+        let dots = columns
+            .flat_map(|(forcing, column)| distinct_phases(column).into_iter().map(|phase| (*forcing, phase)));
+        Ok(dots.collect())
     };
     let (unit, rises) = (shape(1.0)?, PERIODS.map(|periods| PI * periods * ratio(restitution)));
     let mut from_orbits = Vec::new();
@@ -195,13 +196,13 @@ fn diagram(shape: Shape, restitution: f64, quality: Quality) -> Result<Diagram, 
         // Where the platform no longer rises so fast, or, if it never does, where it rises fastest.
         from_orbits.extend(dots(&|map| {
             let rising = |phase| Ok::<_, Error>(map.drive().velocity(phase) > rise);
-            let phase = bisection(0.0, FRAC_PI_2, 60, rising)? - BESIDE;
-            ImpactState::new(Phase::new(phase)?, -TAU * periods / (1.0 + restitution))
+            let phase = Phase::new(bisection(0.0, FRAC_PI_2, 60, rising)? - BESIDE)?;
+            Ok(map.orbit(ImpactState::new(phase, -TAU * periods / (1.0 + restitution))?, PAPER_CHATTER))
         })?);
     }
     Ok(Diagram {
         from_orbits,
-        from_rest: dots(&|_| ImpactState::new(Phase::new(-FRAC_PI_2)?, 0.0))?,
+        from_rest: dots(&|map| Ok(map.of_contact(-FRAC_PI_2, PAPER_CHATTER)))?,
         births: rises.iter().map(|rise| rise / unit.velocity(0.0) * FRAC_1_PI).collect(),
         doublings: rises.iter().filter_map(|rise| doubling(&unit, restitution, *rise)).collect(),
         branch: branch(shape, restitution)?,
