@@ -9,8 +9,8 @@ use std::f64::consts::{PI, TAU};
 
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::core::numerics::random::SplitMix64;
-use bouncing_disk::driven::{AfterSchedule, DrivenEvent, Schedule, ScheduleSegment, ScheduledEngine};
-use bouncing_disk::{Error, System};
+use bouncing_disk::driven::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine};
+use bouncing_disk::{Error, Event, System};
 
 /// What may be a little off: the first motion's amplitude and frequency as factors of the second one's, the
 /// second one's amplitude, and the restitution.
@@ -87,8 +87,8 @@ impl StartUp {
         for event in self.motion()? {
             let event = event?;
             match event.record.event {
-                DrivenEvent::Impact(_) => times.push(event.time),
-                DrivenEvent::Attachment { .. } => times.clear(),
+                Event::Impact { .. } => times.push(event.time),
+                Event::Attachment { .. } => times.clear(),
                 _ => {}
             }
             if event.time > PERIODS * period {

@@ -5,7 +5,7 @@
 //! place of Eq. (1): in contact the force is N = 1 + s'' (Eq. 3), a disk that slides is accelerated by -sgn(w_T)
 //! mu N - l (Eqs. 4 and 12), and an impact has the impulses of Eqs. (5) to (10). What a sine does not have is a
 //! *kink*: where the velocity of the platform drops it leaves the disk behind, where it rises it hits the disk
-//! at zero distance ([`DrivenEvent::Kick`]), and where its angular speed jumps friction cannot follow.
+//! at zero distance ([`Event::Kick`](crate::Event::Kick)), and where its angular speed jumps friction cannot follow.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -24,33 +24,30 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`single_toss`] and [`multi_toss`] are the tosses of such a hand, [`transient`] and [`speed_curve`] the motor
-//! with such a stator; a [`Schedule`] joins several motions, as a start-up does. The vertical motion alone is
+//! [`single_toss`] and [`multi_toss`] are the tosses of such a hand,
+//! [`DrivenMotor`](crate::motor::DrivenMotor) has such a stator; a [`Schedule`] joins several motions, as a start-up does. The vertical motion alone is
 //! the core's [`DrivenMap`](crate::core::DrivenMap).
 
 use bouncing_disk_core::Drive;
 
 use crate::error::Error;
-use crate::motion::energy::EnergyLedger;
-use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motion::state::{DiskState, SlipDirection};
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::platform::PlatformParameters;
+use crate::parameters::system::System;
 
 mod chatter;
 mod contact;
 pub(crate) mod engine;
-pub(crate) mod motor;
 pub(crate) mod schedule;
 pub(crate) mod toss;
 
 pub use crate::motion::initial_condition::InitialCondition as DrivenStart;
 pub use crate::parameters::driven_platform::{AfterSchedule, ScheduleSegment};
 pub use engine::DrivenEngine;
-pub use motor::{SpeedAtLoad, speed_curve, transient};
 pub use schedule::{Schedule, ScheduledEngine, ScheduledRecord};
-pub use toss::{DrivenToss, DrivenTossOrbit, TossImpact, multi_toss, single_toss};
+pub use toss::{multi_toss, single_toss};
 
 /// A disk on a platform that moves in any way, without units, as
 /// [`DimensionlessSystem`] is for a sine: time in radians of the
@@ -84,6 +81,15 @@ impl DrivenSystem {
         })
     }
 
+    /// The system of a motor's disk on its stator, with the motor's phase lag.
+    pub(crate) fn of_stator(stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
+        let platform = stator.platform().parameters();
+        let lag = motor.platform().phase_lag();
+        let platform = PlatformParameters { phase_lag: lag, ..platform }.build()?;
+        let stator = DrivenPlatform::new(platform, stator.height().clone(), stator.angle().clone())?;
+        Self::new(&stator, motor.disk())
+    }
+
     /// The drive of the height.
     #[must_use]
     pub const fn height(&self) -> &Drive {
@@ -114,68 +120,4 @@ impl TryFrom<DimensionlessSystem> for DrivenSystem {
             load: system.load(),
         })
     }
-}
-
-/// An event of the motion on a driven platform.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-#[non_exhaustive]
-pub enum DrivenEvent {
-    /// The disk hits the platform.
-    Impact(Hit),
-    /// The disk comes to rest on the platform at the end of a chattering sequence.
-    Attachment {
-        /// Impacts summed.
-        impacts: u64,
-        /// Bound on the error of its time (rad); infinite for a cut.
-        error_bound: f64,
-    },
-    /// The contact force falls to zero, or the velocity of the platform drops: the disk leaves.
-    Separation,
-    /// The velocity of the platform rises under the disk and hits it, at zero distance, by the law of impact.
-    Kick(Hit),
-    /// Friction no longer holds the disk.
-    StickToSlip(SlipDirection),
-    /// The slip ends and friction holds the disk.
-    SlipToStick,
-    /// The slip ends and another one begins, in this direction.
-    SlipReversal(SlipDirection),
-    /// The angular speed of the platform jumps, and the disk slides on in this direction.
-    SlipJump(SlipDirection),
-    /// A segment of a schedule ends.
-    Joint,
-}
-
-/// The numbers of an impact.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct Hit {
-    /// Relative axial velocity w_A (disk minus platform) just before, <= 0, in units of g/omega.
-    pub axial_impact_velocity: f64,
-    /// Relative angular speed w_T just before, in units of g a_e/(a_g^2 omega).
-    pub tangential_impact_velocity: f64,
-    /// Whether friction ended the slip within the impact.
-    pub capped: bool,
-}
-
-/// A [`DrivenEvent`], and what happened since the event before.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DrivenRecord {
-    /// When it happened; the phase is that of the fundamental. In a ramp it is counted from the ramp's start.
-    pub time: PhaseTime,
-    /// The time since the event before.
-    pub span: PhaseSpan,
-    /// The event.
-    pub event: DrivenEvent,
-    /// The disk just before.
-    pub before: DiskState,
-    /// The disk just after.
-    pub after: DiskState,
-    /// Axial impulse per unit mass, in units of g/omega; negative only where a cut takes a rebound away.
-    pub axial_impulse: f64,
-    /// Angular impulse per moment of inertia, in units of g a_e/(a_g^2 omega).
-    pub angular_impulse: f64,
-    /// The energy balance since the event before, the event itself included.
-    pub ledger: EnergyLedger,
 }

@@ -44,6 +44,7 @@ pub(crate) mod transition;
 
 pub use energy::EnergyLedger;
 pub use engine::sample::{MAX_SAMPLED_PERIODS, MAX_SAMPLES};
+pub use event::Motion;
 pub use friction::MAX_CONTACT_EVENTS;
 pub use paper_chatter::{PAPER_CHATTER, PAPER_CUT};
 pub use phase_time::{PhaseSpan, PhaseTime};

@@ -22,11 +22,12 @@
 //! ```
 //!
 //! [`transient`] computes the run-up of one rotor and [`transients`] those of many; [`MotorSweep`] varies the
-//! data sheet. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
+//! data sheet. [`DrivenMotor`] has a stator that moves in any way. Fits of run-ups, computed or measured, are in [`estimate`](crate::estimate). How far to trust
 //! the speeds: docs/numerics/motors.md.
 
 pub(crate) mod batch;
 pub(crate) mod data_sheet;
+pub(crate) mod driven_motor;
 pub(crate) mod impulse;
 pub(crate) mod operation;
 pub(crate) mod rotor;
@@ -43,6 +44,7 @@ pub use data_sheet::regime::MotorRegime;
 pub use data_sheet::report::MotorReport;
 pub use data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use data_sheet::warning::MotorWarning;
+pub use driven_motor::DrivenMotor;
 pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, PhasedImpulse};
 pub use operation::best_phase_lag::BestPhaseLag;
 pub use operation::ensemble::MAX_OPERATED_ROTORS;

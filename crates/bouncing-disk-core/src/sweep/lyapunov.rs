@@ -7,6 +7,7 @@ use core::ops::ControlFlow;
 use glam::{DMat2, DVec2};
 
 use crate::chatter::policy::ChatterPolicy;
+use crate::map::driven_map::DrivenMap;
 use crate::map::impact_map::{ImpactMap, ImpactState, Orbit};
 use crate::numerics::batch_means::BatchMeans;
 use crate::numerics::elementary::{hypot, ln};
@@ -168,6 +169,14 @@ impl LyapunovEstimate {
 impl ImpactMap {
     /// Impacts after which a transient may be taken as over: each impact shrinks an area of states by
     /// restitution^2, all of these by e^-10.
+    #[must_use]
+    pub fn transient_impacts(&self) -> f64 {
+        DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))
+    }
+}
+
+impl DrivenMap {
+    /// As [`ImpactMap::transient_impacts`].
     #[must_use]
     pub fn transient_impacts(&self) -> f64 {
         DISSIPATION_TIMES / (-2.0 * ln(self.restitution()))

@@ -7,13 +7,15 @@ use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
 use bouncing_disk_core::flight::{ChatterDuration, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
-use super::{DrivenEvent, DrivenRecord, DrivenStart, DrivenSystem, Hit};
+use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, moderate};
 use crate::motion::contact_motion::SAME_SPEED;
 use crate::motion::energy::EnergyLedger;
+use crate::motion::event::{Event, EventRecord, Motion};
 use crate::motion::impact::rebound_velocity;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
 use crate::motion::rotary_change::{RotaryChange, change_in_flight};
+use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 
 /// Events of friction that come this much before the end of a contact, relative to its time, are the end
@@ -59,7 +61,7 @@ struct Clock {
     periods: u64,
 }
 
-/// The motion of a disk on a driven platform, as a lazy sequence of [`DrivenRecord`]s.
+/// The motion of a disk on a driven platform, as a lazy sequence of [`EventRecord`]s.
 ///
 /// The sequence ends where nothing more can happen, and after an error. A disk that rests for ever on a
 /// platform that moves may stick and slide for ever.
@@ -267,6 +269,11 @@ impl DrivenEngine {
         &self.state
     }
 
+    /// Whether a flight begins now.
+    pub(crate) const fn launches(&self) -> bool {
+        matches!(self.stage, Stage::Flight { .. } | Stage::Separated)
+    }
+
     /// The short flights that a cut has counted.
     pub(super) const fn short_flights(&self) -> ShortFlightCount {
         self.short_flights
@@ -294,13 +301,13 @@ impl DrivenEngine {
     ///
     /// # Errors
     /// Those of the core's flights; [`Error::SlipTooLong`]. An error ends the motion.
-    pub fn advance(&mut self) -> Result<Option<DrivenRecord>, Error> {
+    pub fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
         self.advance_within(f64::INFINITY)
     }
 
     /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where
     /// it is.
-    pub(super) fn advance_within(&mut self, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+    pub(crate) fn advance_within(&mut self, limit: f64) -> Result<Option<EventRecord>, Error> {
         let result = match self.stage {
             Stage::Flight { gap, velocity } => self.fly(gap, velocity, limit),
             Stage::Separated => {
@@ -325,16 +332,16 @@ impl DrivenEngine {
     }
 
     /// Gives a flight that starts now another relative speed >= 0 (g/omega); does nothing at any other time.
-    pub(super) fn perturb_launch(&mut self, speed: f64) {
+    pub(crate) fn perturb_launch(&mut self, speed: f64) {
         if matches!(self.stage, Stage::Separated) {
             self.state.axial_velocity += speed;
             self.stage = Stage::Flight { gap: 0.0, velocity: speed };
         }
     }
 
-    fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+    fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<EventRecord>, Error> {
         if gap <= 0.0 && velocity < 0.0 {
-            return Ok(Some(self.hit(0.0, self.now, velocity, f64::INFINITY, DrivenEvent::Impact)));
+            return Ok(Some(self.hit(0.0, self.now, velocity, f64::INFINITY, false)));
         }
         if gap <= 0.0 && velocity == 0.0 && self.system.height.holds(self.now.at) {
             // At a joint a disk may fly at zero distance: it lies on the platform.
@@ -345,26 +352,19 @@ impl DrivenEngine {
         Ok(found.map(|landing| self.land_on(&landing.impact)))
     }
 
-    fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> DrivenRecord {
+    fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> EventRecord {
         let span = impact.duration();
         let to = if self.system.is_ramp() {
             self.later(span)
         } else {
             Clock { at: impact.phase.angle(), periods: self.now.periods + impact.turns }
         };
-        self.hit(span, to, impact.velocity, span, DrivenEvent::Impact)
+        self.hit(span, to, impact.velocity, span, false)
     }
 
     /// An impact with relative `velocity` `span` after the last event, or a kick, at the end of a flight of
     /// this duration.
-    fn hit(
-        &mut self,
-        span: f64,
-        to: Clock,
-        velocity: f64,
-        flight: f64,
-        event: fn(Hit) -> DrivenEvent,
-    ) -> DrivenRecord {
+    fn hit(&mut self, span: f64, to: Clock, velocity: f64, flight: f64, kick: bool) -> EventRecord {
         let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
         let change = self.change(span, to.at);
         let mut ledger = EnergyLedger::default();
@@ -404,14 +404,16 @@ impl DrivenEngine {
             ..before
         };
         record_jump(&mut ledger, &before, &after);
-        let hit = Hit {
-            axial_impact_velocity: velocity,
-            tangential_impact_velocity: impact.slip,
-            capped: impact.capped,
+        let (axial_impact_velocity, tangential_impact_velocity, capped) =
+            (velocity, impact.slip, impact.capped);
+        let event = if kick {
+            Event::Kick { axial_impact_velocity, tangential_impact_velocity, capped }
+        } else {
+            Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped }
         };
-        let record = self.moved(span, to, event(hit), change.angle, (before, after), ledger);
+        let record = self.moved(span, to, event, change.angle, (before, after), ledger);
         self.stage = stage;
-        DrivenRecord { axial_impulse: axial, angular_impulse: impact.rotary, ..record }
+        EventRecord { axial_impulse: axial, angular_impulse: impact.rotary, ..record }
     }
 
     /// What follows an impact with relative `velocity` that ends a flight of this duration.
@@ -426,7 +428,7 @@ impl DrivenEngine {
     }
 
     /// The rest of a chatter.
-    fn complete(&mut self, launch: f64, chatter: ChatterDuration) -> DrivenRecord {
+    fn complete(&mut self, launch: f64, chatter: ChatterDuration) -> EventRecord {
         let ChatterDuration { duration, error } = chatter;
         let to = self.later(duration);
         let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
@@ -444,30 +446,31 @@ impl DrivenEngine {
         let start = self.state;
         ledger.record_axial_change([start.axial_velocity, s.velocity], [start.height, s.height]);
         ledger.record_rounding(self.system.height.bounds().speed, s.velocity);
-        let event = DrivenEvent::Attachment { impacts: rest.impacts, error_bound: error };
+        let event = Event::Attachment { impacts: rest.impacts, error_bound: error };
         let mut record = self.moved(duration, to, event, rest.angle, (before, after), ledger);
         self.land();
         record.after.mode = self.state.mode;
-        DrivenRecord { axial_impulse: rest.axial_impulse, angular_impulse: rest.angular_impulse, ..record }
+        record.segment.chatter_speed = Some(launch);
+        EventRecord { axial_impulse: rest.axial_impulse, angular_impulse: rest.angular_impulse, ..record }
     }
 
     /// A cut takes the rebound `speed` away.
-    fn cut(&mut self, speed: f64, error: f64) -> DrivenRecord {
+    fn cut(&mut self, speed: f64, error: f64) -> EventRecord {
         let platform = self.system.height.at(self.now.at).velocity;
         let before = self.state;
         let after = DiskState { axial_velocity: platform, ..before };
         let mut ledger = EnergyLedger::default();
         ledger.record_normal(-speed * platform, 0.5 * speed * speed);
         record_jump(&mut ledger, &before, &after);
-        let event = DrivenEvent::Attachment { impacts: 0, error_bound: error };
+        let event = Event::Attachment { impacts: 0, error_bound: error };
         let mut record = self.moved(0.0, self.now, event, 0.0, (before, after), ledger);
         self.land();
         record.after.mode = self.state.mode;
-        DrivenRecord { axial_impulse: -speed, ..record }
+        EventRecord { axial_impulse: -speed, ..record }
     }
 
     /// A disk on the platform, to the next event.
-    fn touch(&mut self, contact: Contact, limit: f64) -> Result<Option<DrivenRecord>, Error> {
+    fn touch(&mut self, contact: Contact, limit: f64) -> Result<Option<EventRecord>, Error> {
         let at = self.now.at;
         if contact.end.is_none() {
             // An error of the search for it.
@@ -492,13 +495,7 @@ impl DrivenEngine {
                 Some(_) => self.end_slip(contact, direction, span),
                 None => {
                     let to = self.later(span);
-                    self.change_contact(
-                        contact,
-                        span,
-                        to,
-                        DrivenEvent::StickToSlip(direction),
-                        Some(direction),
-                    )
+                    self.change_contact(contact, span, to, Event::StickToSlip(direction), Some(direction))
                 }
             }));
         }
@@ -510,10 +507,10 @@ impl DrivenEngine {
                 - kink.velocity_jump;
             let next = SlipDirection::of(jump);
             let event = match (contact.slip, next) {
-                (_, None) => DrivenEvent::SlipToStick,
-                (None, Some(direction)) => DrivenEvent::StickToSlip(direction),
-                (Some(before), Some(direction)) if before == direction => DrivenEvent::SlipJump(direction),
-                (_, Some(direction)) => DrivenEvent::SlipReversal(direction),
+                (_, None) => Event::SlipToStick,
+                (None, Some(direction)) => Event::StickToSlip(direction),
+                (Some(before), Some(direction)) if before == direction => Event::SlipJump(direction),
+                (_, Some(direction)) => Event::SlipReversal(direction),
             };
             let to = self.clock_at(kink.after, kink.time);
             return Ok(Some(self.change_contact(contact, kink.after, to, event, next)));
@@ -521,13 +518,13 @@ impl DrivenEngine {
         let Some(TimeAhead { after: span, time, velocity_jump: jump }) = contact.end else { return Ok(None) };
         let to = self.clock_at(span, time);
         if jump > 0.0 {
-            return Ok(Some(self.hit(span, to, -jump, f64::INFINITY, DrivenEvent::Kick)));
+            return Ok(Some(self.hit(span, to, -jump, f64::INFINITY, true)));
         }
         let change = self.change(span, to.at);
         let ledger = self.ledger_of(span, to.at, change);
         let before = self.drifted(span, to.at, change);
         let after = DiskState { mode: Mode::Flight, ..before };
-        let record = self.moved(span, to, DrivenEvent::Separation, change.angle, (before, after), ledger);
+        let record = self.moved(span, to, Event::Separation, change.angle, (before, after), ledger);
         self.stage = if jump < 0.0 { Stage::Flight { gap: 0.0, velocity: -jump } } else { Stage::Separated };
         Ok(Some(record))
     }
@@ -539,10 +536,10 @@ impl DrivenEngine {
         (direction.sign() * (change.speed - self.system.angle.velocity_before(time))).max(0.0)
     }
 
-    fn end_slip(&mut self, contact: Contact, direction: SlipDirection, span: f64) -> DrivenRecord {
+    fn end_slip(&mut self, contact: Contact, direction: SlipDirection, span: f64) -> EventRecord {
         let to = self.later(span);
         let next = self.system.onset(to.at, Some(direction));
-        let event = next.map_or(DrivenEvent::SlipToStick, DrivenEvent::SlipReversal);
+        let event = next.map_or(Event::SlipToStick, Event::SlipReversal);
         self.change_contact(contact, span, to, event, next)
     }
 
@@ -552,14 +549,14 @@ impl DrivenEngine {
         contact: Contact,
         span: f64,
         to: Clock,
-        event: DrivenEvent,
+        event: Event,
         slip: Option<SlipDirection>,
-    ) -> DrivenRecord {
+    ) -> EventRecord {
         let change = self.change(span, to.at);
         let mut ledger = self.ledger_of(span, to.at, change);
         let mut before = self.drifted(span, to.at, change);
         let platform_speed = self.system.angle.at(to.at).velocity;
-        let settles = matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_))
+        let settles = matches!(event, Event::SlipToStick | Event::SlipReversal(_))
             && self.system.angle.velocity_before(to.at).to_bits() == platform_speed.to_bits();
         if settles && self.system.friction > 0.0 {
             // What rounding has left of the slip.
@@ -654,27 +651,37 @@ impl DrivenEngine {
         &mut self,
         span: f64,
         to: Clock,
-        event: DrivenEvent,
+        event: Event,
         turned: f64,
         (mut before, mut after): (DiskState, DiskState),
         ledger: EnergyLedger,
-    ) -> DrivenRecord {
+    ) -> EventRecord {
         self.angle.add(turned);
         before.angle = self.angle.value();
         after.angle = before.angle;
+        let segment = Segment { start: self.time(), state: self.state, chatter_speed: None };
         self.now = to;
         self.state = after;
-        let (time, span) = (self.record_time(to), PhaseSpan::from_radians(span));
-        DrivenRecord { time, span, event, before, after, axial_impulse: 0.0, angular_impulse: 0.0, ledger }
+        EventRecord {
+            time: self.time(),
+            event,
+            before,
+            after,
+            axial_impulse: 0.0,
+            angular_impulse: 0.0,
+            ledger,
+            segment,
+            span: PhaseSpan::from_radians(span),
+        }
     }
 
     /// The record of a joint `span` after the last event.
-    pub(super) fn pause(&mut self, span: f64) -> DrivenRecord {
+    pub(super) fn pause(&mut self, span: f64) -> EventRecord {
         let to = self.later(span);
         let change = self.change(span, to.at);
         let ledger = self.ledger_of(span, to.at, change);
         let before = self.drifted(span, to.at, change);
-        self.moved(span, to, DrivenEvent::Joint, change.angle, (before, before), ledger)
+        self.moved(span, to, Event::Joint, change.angle, (before, before), ledger)
     }
 
     fn later(&self, span: f64) -> Clock {
@@ -710,8 +717,18 @@ fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState)
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
 
+impl Motion for DrivenEngine {
+    fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
+        self.advance()
+    }
+
+    fn lies_for_ever(&self) -> bool {
+        matches!(self.stage, Stage::Contact(Contact { end: None, .. }) | Stage::Ended)
+    }
+}
+
 impl Iterator for DrivenEngine {
-    type Item = Result<DrivenRecord, Error>;
+    type Item = Result<EventRecord, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         self.advance().transpose()

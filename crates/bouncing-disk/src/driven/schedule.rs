@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::{ChatterPolicy, Drive};
 
 use super::engine::DrivenEngine;
-use super::{DrivenRecord, DrivenStart, DrivenSystem};
+use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, check, finite};
+use crate::motion::event::EventRecord;
 use crate::motion::phase_time::phase_at;
 use crate::motion::state::Mode;
 use crate::parameters::disk::Disk;
@@ -188,11 +189,11 @@ pub struct ScheduledRecord {
     /// Time since the start (s).
     pub time: f64,
     /// The event in the units of its segment ([`ScheduledEngine::scales_of`]).
-    pub record: DrivenRecord,
+    pub record: EventRecord,
 }
 
 /// The motion of a disk through a [`Schedule`], as a lazy sequence of events: where a segment ends there is a
-/// [`DrivenEvent::Joint`](super::DrivenEvent::Joint), and a kink there is the event after it.
+/// [`Event::Joint`](crate::Event::Joint), and a kink there is the event after it.
 #[derive(Debug, Clone)]
 pub struct ScheduledEngine {
     parts: Vec<Part>,
@@ -264,7 +265,7 @@ impl ScheduledEngine {
         Ok(Some(event))
     }
 
-    fn begin_next(&mut self, joint: &DrivenRecord) -> Result<(), Error> {
+    fn begin_next(&mut self, joint: &EventRecord) -> Result<(), Error> {
         let (old, new) = (&self.parts[self.segment], &self.parts[self.segment + 1]);
         self.began += old.duration * old.scales.time;
         let faster = old.scales.velocity / new.scales.velocity;

@@ -1,43 +1,24 @@
-//! Tosses by a hand that moves in any way, in SI units (Secs. III and IV).
+//! Tosses by a hand that moves in any way (Secs. III and IV).
 
-use std::f64::consts::TAU;
-
-use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_core::chaos::TangentGrowth;
+use bouncing_disk_core::orbits::PeriodicOrbit;
+use bouncing_disk_core::{ChatterPolicy, DrivenMap, ImpactState, Observer, Phase};
 
 use super::engine::DrivenEngine;
-use super::{DrivenEvent, DrivenStart, DrivenSystem};
-use crate::error::{Error, check, finite};
+use super::{DrivenStart, DrivenSystem};
+use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
-use crate::motion::si::SiEnergy;
+use crate::motion::event::Event;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DrivenPlatform;
-use crate::toss::MultiTossSettings;
+use crate::toss::collisions::Collisions;
+use crate::toss::multiple::{VerticalMap, settle};
+use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 
 /// Most events without a departure after which a disk counts as one that never leaves.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
-/// A single toss, up to the disk's departure from the hand.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DrivenToss {
-    /// Airborne rotary speed (rad/s).
-    pub airborne_speed: f64,
-    /// Vertical speed of the disk as it leaves (m/s).
-    pub launch_speed: f64,
-    /// Time from the start to the departure (s).
-    pub time: f64,
-    /// Phase of the departure (rad).
-    pub phase: f64,
-    /// Whether a kink has thrown the disk; else the platform fell away.
-    pub kicked: bool,
-    /// Rotary energy gained over the work of the hand, as for
-    /// [`TossPerformance`](crate::toss::TossPerformance::efficiency).
-    pub efficiency: f64,
-    /// The energy balance up to the departure (J/kg).
-    pub energy: SiEnergy,
-}
-
-/// The toss of a disk that lies on the hand at `phase` with this angular speed (rad/s).
+/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it.
 ///
 /// # Errors
 /// [`Error::NeverLeaves`] if it stays on the hand; those of [`DrivenSystem::new`].
@@ -45,121 +26,139 @@ pub fn single_toss(
     platform: &DrivenPlatform,
     disk: &Disk,
     phase: Phase,
-    angular_speed: f64,
-) -> Result<DrivenToss, Error> {
+    initial: InitialSpin,
+) -> Result<TossPerformance, Error> {
     let (system, scales) = (DrivenSystem::new(platform, disk)?, platform.scales(disk));
     let peak_acceleration = system.height().bounds().acceleration;
-    let spin = finite("angular_speed", angular_speed)? / scales.angular_speed;
-    let start = DrivenStart::Contact { phase, angular_speed: spin };
+    let peak = system.angle().bounds().speed * scales.angular_speed;
+    let angular_speed = match initial {
+        InitialSpin::AbsoluteRest => 0.0,
+        InitialSpin::RestRelativeToHand => system.angle().velocity(phase.angle()),
+    };
+    let rim_speed = disk.gyration_radius() * angular_speed * scales.angular_speed;
+    let start = DrivenStart::Contact { phase, angular_speed };
     let mut ledger = EnergyLedger::default();
-    let mut time = 0.0;
     for record in DrivenEngine::new(system, start, ChatterPolicy::Complete)?.take(MOST_CONTACT_EVENTS) {
         let record = record?;
         ledger += record.ledger;
-        time += record.span.radians();
-        let kicked = matches!(record.event, DrivenEvent::Kick(_)) && disk.restitution() > 0.0;
-        if kicked || matches!(record.event, DrivenEvent::Separation) {
-            let (state, energy) = (scales.state(&record.after), scales.energy(&ledger));
-            return Ok(DrivenToss {
-                airborne_speed: state.angular_speed,
-                launch_speed: state.axial_velocity,
-                time: time * scales.time,
-                phase: record.time.phase.angle(),
-                kicked,
-                efficiency: energy.efficiency(0.0),
-                energy,
-            });
+        let kicked = matches!(record.event, Event::Kick { .. }) && disk.restitution() > 0.0;
+        if kicked || record.event == Event::Separation {
+            let spin = 0.5 * rim_speed * rim_speed;
+            return Ok(TossPerformance::of(&record, &ledger, &scales, spin, peak));
         }
     }
     Err(Error::NeverLeaves { peak_acceleration })
 }
 
-/// An impact of many tosses.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct TossImpact {
-    /// Phase (rad).
-    pub phase: f64,
-    /// Time since the impact before (s).
-    pub flight: f64,
-    /// Relative axial velocity just before (m/s).
-    pub impact_velocity: f64,
-    /// Angular speed just after (rad/s).
-    pub angular_speed: f64,
-}
-
-/// The orbit of many tosses, as far as its impacts show it.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct DrivenTossOrbit {
-    /// The impacts examined; fewer where the disk comes to rest for ever.
-    pub impacts: Vec<TossImpact>,
-    /// After how many impacts phases, velocities and angular speeds repeat within the tolerance.
-    pub period: Option<usize>,
-    /// How often the disk came to rest on the hand among them.
-    pub attachments: u64,
-}
-
-/// The orbit of a disk after many tosses from rest on the hand at `phase` with this angular speed (rad/s).
+/// [`multi_toss`](crate::toss::multi_toss) on a platform that moves in any way; kicks count as impacts.
 ///
 /// # Errors
-/// [`Error::OutOfRange`] for the settings; those of the flights.
+/// As [`multi_toss`](crate::toss::multi_toss); those of [`DrivenEngine::new`] and [`DrivenMap::new`].
 pub fn multi_toss(
-    platform: &DrivenPlatform,
-    disk: &Disk,
-    (phase, angular_speed): (Phase, f64),
+    system: DrivenSystem,
+    start: DrivenStart,
     settings: &MultiTossSettings,
-) -> Result<DrivenTossOrbit, Error> {
-    let examined = settings.examined_impacts;
-    let legal = (2..=crate::toss::MAX_EXAMINED).contains(&examined);
-    check(legal, "examined_impacts", examined as f64, "[2, 10000000]")?;
-    let (system, scales) = (DrivenSystem::new(platform, disk)?, platform.scales(disk));
-    let spin = finite("angular_speed", angular_speed)? / scales.angular_speed;
-    let start = DrivenStart::Contact { phase, angular_speed: spin };
+    observer: &dyn Observer,
+) -> Result<TossOrbit, Error> {
+    let map = DrivenMap::new(system.height().clone(), system.restitution)?;
+    let twist_speed = system.angle().bounds().speed;
     let mut engine = DrivenEngine::new(system, start, settings.policy)?;
     engine.with_energy = false;
-    let mut orbit = DrivenTossOrbit { impacts: Vec::new(), period: None, attachments: 0 };
-    let (mut skipped, mut contact_events, mut flight) = (0, 0, 0.0);
-    while orbit.impacts.len() < examined && contact_events < MOST_CONTACT_EVENTS {
-        let Some(record) = engine.advance()? else { break };
-        flight += record.span.radians();
-        contact_events += 1;
-        let hit = match record.event {
-            DrivenEvent::Impact(hit) | DrivenEvent::Kick(hit) => hit,
-            DrivenEvent::Attachment { .. } => {
-                orbit.attachments += u64::from(skipped >= settings.transient_impacts);
-                continue;
-            }
-            _ => continue,
-        };
-        contact_events = 0;
-        if skipped < settings.transient_impacts {
-            skipped += 1;
-        } else {
-            orbit.impacts.push(TossImpact {
-                phase: record.time.phase.angle(),
-                flight: flight * scales.time,
-                impact_velocity: hit.axial_impact_velocity * scales.velocity,
-                angular_speed: record.after.angular_speed * scales.angular_speed,
-            });
-        }
-        flight = 0.0;
-    }
-    orbit.period = period_of(&orbit.impacts, settings);
-    Ok(orbit)
+    settle(Collisions::of(engine), &map, twist_speed, settings, observer)
 }
 
-/// The smallest number of impacts after which all of the last two rounds repeat.
-fn period_of(impacts: &[TossImpact], settings: &MultiTossSettings) -> Option<usize> {
-    let near = |one: f64, other: f64| (one - other).abs() <= settings.tolerance * (1.0 + one.abs());
-    let same = |one: &TossImpact, other: &TossImpact| {
-        let apart = (one.phase - other.phase).abs();
-        apart.min(TAU - apart) <= settings.tolerance
-            && near(one.impact_velocity, other.impact_velocity)
-            && near(one.angular_speed, other.angular_speed)
-    };
-    (1..=settings.longest_period.min(impacts.len() / 2)).find(|&period| {
-        let round = &impacts[impacts.len() - 2 * period..];
-        round[..period].iter().zip(&round[period..]).all(|(one, other)| same(one, other))
-    })
+impl VerticalMap for DrivenMap {
+    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit> {
+        self.refine(states).ok()
+    }
+
+    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64> {
+        self.step_with_derivative(state).ok().map(|(_, derivative)| tangent.grow(derivative))
+    }
+
+    fn needed_impacts(&self) -> f64 {
+        self.transient_impacts()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::Unobserved;
+
+    use super::*;
+    use crate::System;
+    use crate::toss::{OrbitClass, TOSS_START};
+
+    fn near(one: f64, other: f64) {
+        assert!((one - other).abs() < 1e-12 * other.abs().max(1.0), "{one} {other}");
+    }
+
+    #[test]
+    fn single_tosses_of_a_sine_are_those_of_the_sine() {
+        let system = System::pizza_toss().with_platform(|hand| hand.phase_lag = 0.4).expect("legal");
+        let start = Phase::new(TOSS_START).expect("finite");
+        for initial in [InitialSpin::AbsoluteRest, InitialSpin::RestRelativeToHand] {
+            let known = crate::toss::single_toss(&system, initial).expect("leaves");
+            let toss = single_toss(&(*system.platform()).into(), system.disk(), start, initial);
+            let toss = toss.expect("leaves");
+            near(toss.airborne_speed, known.airborne_speed);
+            near(toss.launch_speed, known.launch_speed);
+            near(toss.efficiency, known.efficiency);
+            near(toss.separation_phase, known.separation_phase);
+            near(toss.speed_ratio.expect("turns"), known.speed_ratio.expect("turns"));
+        }
+        let still = system.with_platform(|hand| hand.amplitude = 0.01).expect("legal");
+        let stays = single_toss(&(*still.platform()).into(), still.disk(), start, InitialSpin::AbsoluteRest);
+        assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
+    }
+
+    /// A periodic orbit, a chattering one and a disk at rest.
+    #[test]
+    fn many_tosses_of_a_sine_are_classified_as_those_of_the_sine() {
+        let settings = MultiTossSettings {
+            transient_impacts: 500,
+            examined_impacts: 64,
+            ..MultiTossSettings::default()
+        };
+        let (mut periodic, mut chattering) = (0, 0);
+        for k in 0..24_u32 {
+            let (restitution, relative_speed) = if k % 2 == 0 { (0.5, 3.0) } else { (0.05, 0.1) };
+            let system = System::pizza_toss()
+                .with_platform(|hand| hand.amplitude *= 0.1 + 0.02 * f64::from(k))
+                .and_then(|system| system.with_disk(|dough| dough.restitution = restitution));
+            let system = *system.expect("legal").dimensionless();
+            let phase = Phase::new(1.0).expect("finite");
+            let start = DrivenStart::Launch { phase, relative_speed, angular_speed: 0.3 };
+            let known = crate::toss::multi_toss(system, start, settings, &Unobserved).expect("no failure");
+            let driven = DrivenSystem::try_from(system).expect("legal");
+            let orbit = multi_toss(driven, start, &settings, &Unobserved).expect("no failure");
+            match (known.class, orbit.class) {
+                (
+                    OrbitClass::Periodic { period, platform_periods, vertical, rotary },
+                    OrbitClass::Periodic { period: n, platform_periods: k, vertical: own, rotary: third },
+                ) => {
+                    periodic += 1;
+                    assert_eq!((period, platform_periods), (n, k));
+                    near(own.spectral_radius(), vertical.spectral_radius());
+                    near(third, rotary);
+                }
+                (OrbitClass::Chattering(known), OrbitClass::Chattering(own)) => {
+                    chattering += 1;
+                    // Of the short flights of a chatter less are summed.
+                    assert_eq!(
+                        (known.platform_periods, known.long_flights),
+                        (own.platform_periods, own.long_flights)
+                    );
+                }
+                // A long or chaotic orbit, which rounding chooses.
+                (OrbitClass::AtRest, OrbitClass::AtRest)
+                | (OrbitClass::Undecided { .. }, OrbitClass::Undecided { .. }) => continue,
+                classes => panic!("{classes:?}"),
+            }
+            let speeds =
+                [known.mean_angular_speed, orbit.mean_angular_speed].map(|speed| speed.expect("moves"));
+            assert!((speeds[0] - speeds[1]).abs() < 1e-8, "{speeds:?}");
+        }
+        assert!(periodic > 2 && chattering > 2, "{periodic} {chattering}");
+    }
 }

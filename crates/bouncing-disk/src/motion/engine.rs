@@ -16,7 +16,7 @@ use crate::error::{Error, moderate};
 use crate::motion::chatter::{Chatter, ImpactEnergy, record_impact};
 use crate::motion::contact_motion::{Contact, ContactEvent, ContactStep, Placed};
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::{Event, EventRecord};
+use crate::motion::event::{Event, EventRecord, Motion};
 use crate::motion::friction::Friction;
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
@@ -548,6 +548,16 @@ pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
 fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
     ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);
+}
+
+impl<L: RestitutionLaw> Motion for Engine<L> {
+    fn advance(&mut self) -> Result<Option<EventRecord>, Error> {
+        self.advance()
+    }
+
+    fn lies_for_ever(&self) -> bool {
+        matches!(self.stage, Stage::Contact(Contact { separation: None, .. }) | Stage::Ended)
+    }
 }
 
 impl<L: RestitutionLaw> Iterator for Engine<L> {

@@ -1,6 +1,7 @@
 //! The events that end segments of motion.
 
 use crate::display::numbers;
+use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
 use crate::motion::segment::Segment;
@@ -36,7 +37,7 @@ pub enum Event {
         )]
         error_bound: f64,
     },
-    /// The platform falls away from the disk.
+    /// The platform falls away from the disk; on a [driven](crate::driven) one its velocity may drop, too.
     Separation,
     /// Friction no longer holds the disk.
     StickToSlip(SlipDirection),
@@ -44,6 +45,20 @@ pub enum Event {
     SlipToStick,
     /// The slip ends, friction does not hold the disk, and it slips the other way, in this direction.
     SlipReversal(SlipDirection),
+    /// At a kink the velocity of the platform rises under the disk and hits it, at zero distance, by the law of
+    /// impact. The numbers are those of [`Self::Impact`].
+    Kick {
+        /// Relative axial velocity just before, < 0.
+        axial_impact_velocity: f64,
+        /// Relative angular speed just before.
+        tangential_impact_velocity: f64,
+        /// Whether friction ended the slip within the impact.
+        capped: bool,
+    },
+    /// The angular speed of the platform jumps, and the disk slides on in this direction.
+    SlipJump(SlipDirection),
+    /// A segment of a [`Schedule`](crate::driven::Schedule) ends.
+    Joint,
 }
 
 /// An event, with the segment of motion that it ended.
@@ -51,7 +66,7 @@ pub enum Event {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct EventRecord {
-    /// When it happened.
+    /// When it happened; in a ramp counted from its start.
     pub time: PhaseTime,
     /// The event.
     pub event: Event,
@@ -73,6 +88,19 @@ pub struct EventRecord {
     pub span: PhaseSpan,
 }
 
+/// A motion as a sequence of events: of an [`Engine`](crate::Engine), or of a
+/// [`DrivenEngine`](crate::driven::DrivenEngine).
+pub trait Motion {
+    /// The next event, or `None` after the last one.
+    ///
+    /// # Errors
+    /// Those of the flights. An error ends the motion.
+    fn advance(&mut self) -> Result<Option<EventRecord>, Error>;
+
+    /// Whether the disk lies on the platform and never leaves it again, or the motion has ended.
+    fn lies_for_ever(&self) -> bool;
+}
+
 impl EventRecord {
     /// Disk and platform during the segment, `fraction` of it in [0, 1] after its start.
     #[must_use]
@@ -87,7 +115,8 @@ impl Display for Event {
         let n = numbers(f);
         write!(f, "{}", self.kind())?;
         match self {
-            Self::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+            Self::Impact { axial_impact_velocity, tangential_impact_velocity, capped }
+            | Self::Kick { axial_impact_velocity, tangential_impact_velocity, capped } => {
                 let ends = if *capped { ", slip ends" } else { "" };
                 write!(
                     f,
@@ -100,8 +129,10 @@ impl Display for Event {
             Self::Attachment { impacts, error_bound } => {
                 write!(f, " after {impacts} summed impacts, phase within {} rad", n(*error_bound))
             }
-            Self::StickToSlip(direction) | Self::SlipReversal(direction) => write!(f, ", {direction}"),
-            Self::Separation | Self::SlipToStick => Ok(()),
+            Self::StickToSlip(direction) | Self::SlipReversal(direction) | Self::SlipJump(direction) => {
+                write!(f, ", {direction}")
+            }
+            Self::Separation | Self::SlipToStick | Self::Joint => Ok(()),
         }
     }
 }

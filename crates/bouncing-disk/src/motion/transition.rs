@@ -38,17 +38,26 @@ pub enum EventKind {
     SlipToStick,
     /// [`Event::SlipReversal`].
     SlipReversal,
+    /// [`Event::Kick`].
+    Kick,
+    /// [`Event::SlipJump`].
+    SlipJump,
+    /// [`Event::Joint`].
+    Joint,
 }
 
 impl EventKind {
     /// All events.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Impact,
         Self::Attachment,
         Self::Separation,
         Self::StickToSlip,
         Self::SlipToStick,
         Self::SlipReversal,
+        Self::Kick,
+        Self::SlipJump,
+        Self::Joint,
     ];
 }
 
@@ -66,7 +75,7 @@ pub struct Transition {
 }
 
 impl Transition {
-    /// The transitions that the equations of motion allow; every other combination is a programming error.
+    /// The transitions that the equations of motion allow on the platform of Eq. (1); every other combination is a programming error.
     pub const LEGAL: [Self; 8] = [
         Self::new(ModeKind::Flight, EventKind::Impact, ModeKind::Flight),
         Self::new(ModeKind::Flight, EventKind::Attachment, ModeKind::Sticking),
@@ -82,7 +91,7 @@ impl Transition {
         Self { from, event, to }
     }
 
-    /// Whether the equations of motion allow it.
+    /// Whether the equations of motion allow it on the platform of Eq. (1).
     #[must_use]
     pub fn is_legal(&self) -> bool {
         Self::LEGAL.contains(self)
@@ -112,6 +121,9 @@ impl Event {
             Self::StickToSlip(_) => EventKind::StickToSlip,
             Self::SlipToStick => EventKind::SlipToStick,
             Self::SlipReversal(_) => EventKind::SlipReversal,
+            Self::Kick { .. } => EventKind::Kick,
+            Self::SlipJump(_) => EventKind::SlipJump,
+            Self::Joint => EventKind::Joint,
         }
     }
 }
@@ -143,6 +155,9 @@ impl Display for EventKind {
             Self::StickToSlip => "stick to slip",
             Self::SlipToStick => "slip to stick",
             Self::SlipReversal => "slip reversal",
+            Self::Kick => "kick",
+            Self::SlipJump => "slip jump",
+            Self::Joint => "joint",
         })
     }
 }

@@ -8,7 +8,7 @@ use bouncing_disk_core::{ChatterPolicy, ImpactState, Phase};
 
 use crate::error::{Error, moderate};
 use crate::motion::engine::Engine;
-use crate::motion::event::{Event, EventRecord};
+use crate::motion::event::{Event, EventRecord, Motion};
 use crate::motion::impact::{axial_impulse, friction_impact, rebound_velocity};
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
@@ -102,13 +102,12 @@ pub enum CollisionEvent {
     },
 }
 
-/// The lazy sequence of the collisions, attachments and separations of a motion.
+/// The lazy sequence of the collisions (kicks among them), attachments and separations of a motion.
 ///
 /// It ends where the disk stays on the platform for ever, and after an error.
 #[derive(Debug, Clone)]
-pub struct Collisions {
-    engine: Engine,
-    ended: bool,
+pub struct Collisions<M = Engine> {
+    motion: M,
 }
 
 impl Collisions {
@@ -121,10 +120,7 @@ impl Collisions {
         start: InitialCondition,
         policy: ChatterPolicy,
     ) -> Result<Self, Error> {
-        let system = system.into();
-        let lies = matches!(start, InitialCondition::Contact { .. })
-            && system.vibration().separation_phase().is_none();
-        Ok(Self { engine: Engine::new(system, start, policy)?, ended: lies })
+        Ok(Self::of(Engine::new(system, start, policy)?))
     }
 
     /// The collisions that follow the one in `state`; that one itself is not reported.
@@ -143,28 +139,33 @@ impl Collisions {
     /// The system.
     #[must_use]
     pub const fn system(&self) -> &DimensionlessSystem {
-        self.engine.system()
+        self.motion.system()
+    }
+}
+
+impl<M: Motion> Collisions<M> {
+    /// The collisions of this motion from here on.
+    #[must_use]
+    pub const fn of(motion: M) -> Self {
+        Self { motion }
     }
 
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
-    /// Those of [`Engine::advance`].
+    /// Those of [`Motion::advance`].
     pub fn advance(&mut self) -> Result<Option<CollisionEvent>, Error> {
-        while !self.ended {
-            let Some(record) = self.engine.advance()? else { break };
+        while !self.motion.lies_for_ever() {
+            let Some(record) = self.motion.advance()? else { break };
             if let Some(event) = collision_event(&record) {
-                let attached = matches!(event, CollisionEvent::Attachment { .. });
-                self.ended = attached && self.system().vibration().separation_phase().is_none();
                 return Ok(Some(event));
             }
         }
-        self.ended = true;
         Ok(None)
     }
 }
 
-impl Iterator for Collisions {
+impl<M: Motion> Iterator for Collisions<M> {
     type Item = Result<CollisionEvent, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
@@ -175,7 +176,8 @@ impl Iterator for Collisions {
 const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
     let time = record.time;
     match record.event {
-        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
+        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped }
+        | Event::Kick { axial_impact_velocity, tangential_impact_velocity, capped } => {
             Some(CollisionEvent::Collision(Collision {
                 time,
                 state: CollisionState {
@@ -196,6 +198,10 @@ const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
             angular_speed: record.after.angular_speed,
             angle: record.after.angle,
         }),
-        Event::StickToSlip(_) | Event::SlipToStick | Event::SlipReversal(_) => None,
+        Event::StickToSlip(_)
+        | Event::SlipToStick
+        | Event::SlipReversal(_)
+        | Event::SlipJump(_)
+        | Event::Joint => None,
     }
 }

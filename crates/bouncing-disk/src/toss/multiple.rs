@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::chaos::{LyapunovEstimate, TangentGrowth};
-use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, Stability};
+use bouncing_disk_core::orbits::{MAX_PERIOD, Multipliers, PeriodicOrbit, Stability};
 use bouncing_disk_core::run::{Watch, WorkCount};
 use bouncing_disk_core::{ChatterPolicy, ImpactMap, ImpactState, Observer};
 
 use crate::error::{Error, check, not_negative, room_for};
+use crate::motion::event::Motion;
 use crate::motion::initial_condition::InitialCondition;
 use crate::motion::phase_time::PhaseTime;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -130,9 +131,46 @@ pub fn multi_toss(
     settings: MultiTossSettings,
     observer: &dyn Observer,
 ) -> Result<TossOrbit, Error> {
-    settings.check()?;
     let system = system.into();
-    let mut collisions = Collisions::new(system, start, settings.policy)?;
+    let collisions = Collisions::new(system, start, settings.policy)?;
+    settle(collisions, system.map(), system.twist_speed(), &settings, observer)
+}
+
+/// The vertical impact map, as far as a classification needs it.
+pub(crate) trait VerticalMap {
+    /// The periodic orbit next to these impacts.
+    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit>;
+
+    /// The growth of a tangent vector in the step from `state`; `None` where there is no derivative.
+    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64>;
+
+    /// Impacts in which dissipation acts.
+    fn needed_impacts(&self) -> f64;
+}
+
+impl VerticalMap for ImpactMap {
+    fn refined(&self, states: &[ImpactState]) -> Option<PeriodicOrbit> {
+        self.refine(states).ok()
+    }
+
+    fn grow(&self, tangent: &mut TangentGrowth, state: ImpactState) -> Option<f64> {
+        self.step_with_derivative(state).ok().map(|(_, derivative)| tangent.grow(derivative))
+    }
+
+    fn needed_impacts(&self) -> f64 {
+        self.transient_impacts()
+    }
+}
+
+/// [`multi_toss`] on a platform with this impact map and largest angular speed.
+pub(crate) fn settle<M: Motion>(
+    mut collisions: Collisions<M>,
+    map: &impl VerticalMap,
+    twist_speed: f64,
+    settings: &MultiTossSettings,
+    observer: &dyn Observer,
+) -> Result<TossOrbit, Error> {
+    settings.check()?;
     let mut skipped = 0;
     let collided = room_for("examined impacts", settings.examined_impacts, MAX_EXAMINED)?;
     let mut window = Window { collisions: collided, ..Window::default() };
@@ -158,7 +196,7 @@ pub fn multi_toss(
             }
         }
     }
-    let orbit = window.classified(&system, &settings, &mut work)?;
+    let orbit = window.classified(map, twist_speed, settings, &mut work)?;
     watch.end();
     Ok(orbit)
 }
@@ -192,24 +230,21 @@ impl Window {
 
     fn classified(
         self,
-        system: &DimensionlessSystem,
+        map: &impl VerticalMap,
+        twist_speed: f64,
         settings: &MultiTossSettings,
         work: &mut WorkCount<'_>,
     ) -> Result<TossOrbit, Error> {
+        // How far angular speeds may differ that count as the same.
+        let near = settings.tolerance * (1.0 + twist_speed);
         if let [.., from, to] = self.leavings[..] {
-            return Ok(self.chattering(system, settings, from, to));
+            return Ok(self.chattering(near, from, to));
         }
-        let periodic = if self.attached { None } else { self.periodic(system, settings) };
-        periodic.map_or_else(|| self.without_period(system, settings, work), Ok)
+        let periodic = if self.attached { None } else { self.periodic(map, near, settings) };
+        periodic.map_or_else(|| self.without_period(map, settings, work), Ok)
     }
 
-    fn chattering(
-        self,
-        system: &DimensionlessSystem,
-        settings: &MultiTossSettings,
-        from: Leaving,
-        to: Leaving,
-    ) -> TossOrbit {
+    fn chattering(self, near: f64, from: Leaving, to: Leaving) -> TossOrbit {
         let cycle = &self.collisions[from.before..to.before];
         let mut last = from.time;
         let mut long_flights = 0;
@@ -225,12 +260,17 @@ impl Window {
                 long_flights,
             }),
             mean_angular_speed: mean_speed((from.time, from.angle), (to.time, to.angle)),
-            rotation_repeats: Some(change.abs() <= settings.tolerance * (1.0 + system.twist_speed())),
+            rotation_repeats: Some(change.abs() <= near),
             collisions: cycle.to_vec(),
         }
     }
 
-    fn periodic(&self, system: &DimensionlessSystem, settings: &MultiTossSettings) -> Option<TossOrbit> {
+    fn periodic(
+        &self,
+        map: &impl VerticalMap,
+        same_speed: f64,
+        settings: &MultiTossSettings,
+    ) -> Option<TossOrbit> {
         let last = self.collisions.len() - 1;
         let longest = settings.longest_period.min(self.collisions.len() / 2).min(MAX_PERIOD);
         let near = |a: &Collision, b: &Collision| {
@@ -247,13 +287,12 @@ impl Window {
         let round = &self.collisions[last + 1 - period..];
         let states: Vec<ImpactState> =
             round.iter().map(|collision| collision.state.vertical()).collect::<Result<_, _>>().ok()?;
-        let orbit = system.map().refine(&states).ok()?;
+        let orbit = map.refined(&states)?;
         if orbit.stability() != Stability::Stable {
             return None;
         }
         let before = &self.collisions[last - period];
         let end = &self.collisions[last];
-        let scale = settings.tolerance * (1.0 + system.twist_speed());
         Some(TossOrbit {
             class: OrbitClass::Periodic {
                 period,
@@ -263,23 +302,22 @@ impl Window {
             },
             collisions: round.to_vec(),
             mean_angular_speed: mean_speed((before.time, before.angle), (end.time, end.angle)),
-            rotation_repeats: Some((end.angular_speed - before.angular_speed).abs() <= scale),
+            rotation_repeats: Some((end.angular_speed - before.angular_speed).abs() <= same_speed),
         })
     }
 
     fn without_period(
         self,
-        system: &DimensionlessSystem,
+        map: &impl VerticalMap,
         settings: &MultiTossSettings,
         work: &mut WorkCount<'_>,
     ) -> Result<TossOrbit, Error> {
         let (first, last) = (&self.collisions[0], &self.collisions[self.collisions.len() - 1]);
         let mean = mean_speed((first.time, first.angle), (last.time, last.angle));
-        let map = system.map();
         let lyapunov_exponent = if self.attached { None } else { growth_rate(map, &self.collisions, work)? };
         let followed = settings.transient_impacts.saturating_add(self.collisions.len()) as f64;
         let class = match lyapunov_exponent {
-            Some(lyapunov_exponent) if lyapunov_exponent.grows() && followed >= map.transient_impacts() => {
+            Some(lyapunov_exponent) if lyapunov_exponent.grows() && followed >= map.needed_impacts() => {
                 OrbitClass::Chaotic { lyapunov_exponent }
             }
             _ => OrbitClass::Undecided { impacts: self.collisions.len(), lyapunov_exponent },
@@ -297,7 +335,7 @@ fn mean_speed(from: (PhaseTime, f64), to: (PhaseTime, f64)) -> Option<f64> {
 /// Mean logarithmic growth of a tangent vector per impact; `None` at a graze, where the derivative is
 /// unbounded.
 fn growth_rate(
-    map: &ImpactMap,
+    map: &impl VerticalMap,
     collisions: &[Collision],
     work: &mut WorkCount<'_>,
 ) -> Result<Option<LyapunovEstimate>, Error> {
@@ -305,9 +343,9 @@ fn growth_rate(
     let Some((_, followed)) = collisions.split_last() else { return Ok(None) };
     for collision in followed {
         work.spend(1)?;
-        let step = collision.state.vertical().ok().and_then(|state| map.step_with_derivative(state).ok());
-        let Some((_, derivative)) = step else { return Ok(None) };
-        growths.push(tangent.grow(derivative));
+        let state = collision.state.vertical().ok();
+        let Some(growth) = state.and_then(|state| map.grow(&mut tangent, state)) else { return Ok(None) };
+        growths.push(growth);
     }
     Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
 }

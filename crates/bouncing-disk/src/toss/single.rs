@@ -15,6 +15,7 @@ use crate::motion::initial_condition::InitialCondition;
 use crate::motion::si::SiEnergy;
 use crate::motion::state::Mode;
 use crate::motion::trajectory::Trajectory;
+use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
 /// Phase at which a toss starts: the lowest point of the hand.
@@ -74,7 +75,16 @@ pub fn single_toss(system: &System, initial: InitialSpin) -> Result<TossPerforma
         let record = record?;
         ledger += record.ledger;
         if record.event == Event::Separation {
-            return Ok(performance(system, initial, &record, &ledger));
+            let peak = system.platform().peak_angular_speed();
+            let spin = match initial {
+                InitialSpin::AbsoluteRest => 0.0,
+                InitialSpin::RestRelativeToHand => {
+                    let gyration = system.disk().gyration_radius();
+                    let rim_speed = gyration * peak * sin(system.platform().phase_lag());
+                    0.5 * rim_speed * rim_speed
+                }
+            };
+            return Ok(TossPerformance::of(&record, &ledger, &system.scales(), spin, peak));
         }
     }
     Err(never_leaves(system))
@@ -102,32 +112,27 @@ fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
     Engine::new(system, InitialCondition::Contact { phase, angular_speed }, ChatterPolicy::Complete)
 }
 
-fn performance(
-    system: &System,
-    initial: InitialSpin,
-    separation: &EventRecord,
-    ledger: &EnergyLedger,
-) -> TossPerformance {
-    let scales = system.scales();
-    let state = scales.state(&separation.after);
-    let energy = scales.energy(ledger);
-    let peak = system.platform().peak_angular_speed();
-    let spin = match initial {
-        InitialSpin::AbsoluteRest => 0.0,
-        InitialSpin::RestRelativeToHand => {
-            let rim_speed = system.disk().gyration_radius() * peak * sin(system.platform().phase_lag());
-            0.5 * rim_speed * rim_speed
+impl TossPerformance {
+    /// Of a disk that starts with the rotary energy `spin` (J/kg), on a hand with the angular speed `peak` (rad/s).
+    pub(crate) fn of(
+        separation: &EventRecord,
+        ledger: &EnergyLedger,
+        scales: &Scales,
+        spin: f64,
+        peak: f64,
+    ) -> Self {
+        let state = scales.state(&separation.after);
+        let energy = scales.energy(ledger);
+        Self {
+            airborne_speed: state.angular_speed,
+            efficiency: energy.efficiency(spin),
+            speed_ratio: (peak > 0.0).then(|| state.angular_speed / peak),
+            separation_phase: separation.time.phase.angle(),
+            sliding_at_separation: matches!(separation.before.mode, Mode::Sliding(_)),
+            launch_speed: state.axial_velocity,
+            rotary_energy_gain: energy.rotary_kinetic_change,
+            energy,
         }
-    };
-    TossPerformance {
-        airborne_speed: state.angular_speed,
-        efficiency: energy.efficiency(spin),
-        speed_ratio: (peak > 0.0).then(|| state.angular_speed / peak),
-        separation_phase: separation.time.phase.angle(),
-        sliding_at_separation: matches!(separation.before.mode, Mode::Sliding(_)),
-        launch_speed: state.axial_velocity,
-        rotary_energy_gain: energy.rotary_kinetic_change,
-        energy,
     }
 }
 

@@ -2,26 +2,11 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::motion::engine::Engine;
-use crate::motion::event::Event;
 use crate::parameters::driven_platform::Waveform;
 use crate::testing;
 
 /// What rounding leaves, relative to the sizes of what is compared.
 const ROUNDING: f64 = 1e-12;
-
-/// The event that the sine's engine calls this one.
-fn of_sine(event: &Event) -> DrivenEvent {
-    match *event {
-        Event::Impact { axial_impact_velocity, tangential_impact_velocity, capped } => {
-            DrivenEvent::Impact(Hit { axial_impact_velocity, tangential_impact_velocity, capped })
-        }
-        Event::Attachment { impacts, error_bound } => DrivenEvent::Attachment { impacts, error_bound },
-        Event::Separation => DrivenEvent::Separation,
-        Event::StickToSlip(direction) => DrivenEvent::StickToSlip(direction),
-        Event::SlipToStick => DrivenEvent::SlipToStick,
-        Event::SlipReversal(direction) => DrivenEvent::SlipReversal(direction),
-    }
-}
 
 /// Compares each event of the sine's engine with that of the Fourier sum from the same state before.
 fn compare(
@@ -53,7 +38,7 @@ fn compare(
         };
         let (mut span, mut ledger, mut impulse) = (found.span.radians(), found.ledger, found.angular_impulse);
         if let Event::Attachment { .. } = record.event {
-            while !matches!(found.event, DrivenEvent::Attachment { .. }) {
+            while !matches!(found.event, Event::Attachment { .. }) {
                 found = own.advance().expect("no failure").expect("an event");
                 span += found.span.radians();
                 ledger += found.ledger;
@@ -62,17 +47,17 @@ fn compare(
         }
         prop_assert!(ledger.relative_closure() < ROUNDING, "{:e} {found:?}", ledger.relative_closure());
         let kind = std::mem::discriminant(&found.event);
-        if grazes && kind != std::mem::discriminant(&of_sine(&record.event)) {
+        if grazes && kind != std::mem::discriminant(&record.event) {
             break;
         }
-        prop_assert!(kind == std::mem::discriminant(&of_sine(&record.event)), "{found:?}\n{record:?}");
+        prop_assert!(kind == std::mem::discriminant(&record.event), "{found:?}\n{record:?}");
         let index = match found.event {
-            DrivenEvent::Impact(_) => 0,
-            DrivenEvent::Attachment { .. } => 1,
-            DrivenEvent::Separation => 2,
-            DrivenEvent::StickToSlip(_) => 3,
-            DrivenEvent::SlipToStick => 4,
-            DrivenEvent::SlipReversal(_) => 5,
+            Event::Impact { .. } => 0,
+            Event::Attachment { .. } => 1,
+            Event::Separation => 2,
+            Event::StickToSlip(_) => 3,
+            Event::SlipToStick => 4,
+            Event::SlipReversal(_) => 5,
             _ => 6,
         };
         counts[index] += 1;
@@ -172,7 +157,7 @@ proptest! {
                 let (time, state) = twin.state_after(span);
                 twin = DrivenEngine::of_state(system.clone(), time, state, policy).expect("legal");
                 let next = twin.advance().expect("no failure").expect("an event");
-                let ends = |event| matches!(event, DrivenEvent::SlipToStick | DrivenEvent::SlipReversal(_));
+                let ends = |event| matches!(event, Event::SlipToStick | Event::SlipReversal(_));
                 let same = std::mem::discriminant(&next.event) == std::mem::discriminant(&record.event);
                 // A slip may end where the angular acceleration jumps: whether before or after, rounding
                 // decides.
@@ -180,7 +165,7 @@ proptest! {
                 let error = (span + next.span.radians() - record.span.radians()).abs();
                 // A slow impact is as uncertain as the height over its speed.
                 let speed = match record.event {
-                    DrivenEvent::Impact(hit) => hit.axial_impact_velocity.abs(),
+                    Event::Impact { axial_impact_velocity, .. } => axial_impact_velocity.abs(),
                     _ => 1.0,
                 };
                 let bound = 1e-11 + 1e-14 * ledger.axial_magnitude / speed;
@@ -262,25 +247,27 @@ fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let mut engine =
         DrivenEngine::new(system.clone(), start(0.0, b), ChatterPolicy::Complete).expect("legal");
     let parted = engine.advance().expect("no failure").expect("an event");
-    assert!(parted.event == DrivenEvent::Separation && near(parted.span.radians(), quarter), "{parted:?}");
+    assert!(parted.event == Event::Separation && near(parted.span.radians(), quarter), "{parted:?}");
     let landed = engine.advance().expect("no failure").expect("an event");
-    let DrivenEvent::Impact(hit) = landed.event else { panic!("{landed:?}") };
-    assert!(near(landed.span.radians(), 4.0 * u) && near(hit.axial_impact_velocity, -2.0 * u), "{landed:?}");
+    let Event::Impact { axial_impact_velocity, .. } = landed.event else { panic!("{landed:?}") };
+    assert!(near(landed.span.radians(), 4.0 * u) && near(axial_impact_velocity, -2.0 * u), "{landed:?}");
 
     let mut engine =
         DrivenEngine::new(system, start(2.0 * quarter, -b), ChatterPolicy::Complete).expect("legal");
     let kicked = engine.advance().expect("no failure").expect("an event");
-    let DrivenEvent::Kick(hit) = kicked.event else { panic!("{kicked:?}") };
-    assert!(near(hit.axial_impact_velocity, -2.0 * u) && near(hit.tangential_impact_velocity, -2.0 * b));
+    let Event::Kick { axial_impact_velocity, tangential_impact_velocity, capped } = kicked.event else {
+        panic!("{kicked:?}")
+    };
+    assert!(near(axial_impact_velocity, -2.0 * u) && near(tangential_impact_velocity, -2.0 * b));
     assert!(near(kicked.axial_impulse, 2.8 * u) && near(kicked.after.axial_velocity, 1.8 * u), "{kicked:?}");
     // Friction can give 0.5 x 2.8 u = 0.42 of the 0.4 that ends the slip.
-    assert!(hit.capped && near(kicked.after.angular_speed, b) && kicked.ledger.relative_closure() < ROUNDING);
+    assert!(capped && near(kicked.after.angular_speed, b) && kicked.ledger.relative_closure() < ROUNDING);
 
     let mut engine = DrivenEngine::new(still, start(0.0, b), ChatterPolicy::Complete).expect("legal");
     let slips = engine.advance().expect("no failure").expect("an event");
-    assert!(slips.event == DrivenEvent::StickToSlip(SlipDirection::Forward), "{slips:?}");
+    assert!(slips.event == Event::StickToSlip(SlipDirection::Forward), "{slips:?}");
     let sticks = engine.advance().expect("no failure").expect("an event");
-    assert!(sticks.event == DrivenEvent::SlipToStick && near(sticks.span.radians(), 4.0 * b), "{sticks:?}");
+    assert!(sticks.event == Event::SlipToStick && near(sticks.span.radians(), 4.0 * b), "{sticks:?}");
     assert!(near(sticks.ledger.friction_loss, 2.0 * b * b), "{sticks:?}");
 }
 

@@ -1,11 +1,7 @@
 use std::f64::consts::PI;
 
-use bouncing_disk_core::{Phase, Unobserved};
-
 use super::*;
-use crate::driven::{DrivenEvent, speed_curve, transient};
-use crate::motor::TransientSettings;
-use crate::toss::{InitialSpin, MultiTossSettings};
+use crate::motion::event::Event;
 use crate::{Platform, System};
 
 fn hand() -> Platform {
@@ -46,7 +42,7 @@ fn a_motion_goes_on_over_its_joints() {
         assert!(record.ledger.relative_closure() < 1e-12, "{event:?}");
         time += record.span.radians() * scales.time;
         assert!((event.time - time).abs() < 1e-12 * time.max(1.0));
-        if record.event == DrivenEvent::Joint {
+        if record.event == Event::Joint {
             joints.push(event.time);
             state = scales.state(&record.after);
             let next = motion.scales_of(event.segment + 1).expect("it exists").state(motion.engine().state());
@@ -76,7 +72,7 @@ fn joints_without_a_change_change_nothing() {
     let parts: Vec<_> = (0..12).map(|k| segment(0.3 + 0.1 * f64::from(k), 1.0)).collect();
     let mut cut = engine(&schedule(&parts, AfterSchedule::Repeat))
         .map(|event| event.expect("no failure"))
-        .filter(|event| event.record.event != DrivenEvent::Joint);
+        .filter(|event| event.record.event != Event::Joint);
     for event in engine(&whole).take(12) {
         let (one, other) = (event.expect("no failure"), cut.next().expect("goes on"));
         assert_eq!(std::mem::discriminant(&one.record.event), std::mem::discriminant(&other.record.event));
@@ -91,7 +87,7 @@ fn a_joint_under_a_disk_kicks_it_or_lets_it_go() {
         let parts = [segment(0.25, 0.2), ScheduleSegment { frequency: factor, ..segment(1.0, 0.2) }];
         engine(&schedule(&parts, AfterSchedule::Repeat))
             .map(|event| event.expect("no failure"))
-            .skip_while(|event| event.record.event != DrivenEvent::Joint)
+            .skip_while(|event| event.record.event != Event::Joint)
             .nth(1)
             .expect("an event")
             .record
@@ -100,11 +96,11 @@ fn a_joint_under_a_disk_kicks_it_or_lets_it_go() {
     let speed = 0.2 * System::pizza_toss().peak_acceleration();
     let kick = gentle(2.0);
     // In the units of the second segment the old speed is twice, the new one four times that.
-    let DrivenEvent::Kick(hit) = kick.event else { panic!("{kick:?}") };
-    assert!((hit.axial_impact_velocity + 2.0 * speed).abs() < 1e-12, "{kick:?}");
+    let Event::Kick { axial_impact_velocity, .. } = kick.event else { panic!("{kick:?}") };
+    assert!((axial_impact_velocity + 2.0 * speed).abs() < 1e-12, "{kick:?}");
     assert!((kick.after.axial_velocity - 5.0 * speed).abs() < 1e-12 && kick.span.radians() <= 0.0);
     let parted = gentle(0.5);
-    assert_eq!(parted.event, DrivenEvent::Separation);
+    assert_eq!(parted.event, Event::Separation);
     assert!((parted.after.axial_velocity - 0.5 * speed).abs() < 1e-12, "{parted:?}");
 }
 
@@ -116,7 +112,7 @@ fn a_platform_that_comes_to_rest_lets_the_disk_settle() {
     assert!(last.segment == 1 && last.record.after.mode == Mode::Sticking, "{last:?}");
     assert!(last.record.after.axial_velocity == 0.0 && last.record.after.angular_speed == 0.0, "{last:?}");
     assert!(
-        events.iter().any(|event| event.segment == 1 && matches!(event.record.event, DrivenEvent::Impact(_)))
+        events.iter().any(|event| event.segment == 1 && matches!(event.record.event, Event::Impact { .. }))
     );
     assert!(events.iter().all(|event| event.record.ledger.relative_closure() < 1e-12));
 }
@@ -158,54 +154,6 @@ fn bad_schedules_are_refused_by_name() {
     }
 }
 
-/// The tosses and the motor of a sine are those of the sine's own functions.
-#[test]
-fn tosses_and_motors_of_a_sine_are_those_of_the_sine() {
-    let start = Phase::new(crate::toss::TOSS_START).expect("finite");
-    let known = crate::toss::single_toss(&System::pizza_toss(), InitialSpin::AbsoluteRest).expect("leaves");
-    let toss = crate::driven::single_toss(&hand().into(), &dough(), start, 0.0).expect("leaves");
-    for (one, other) in [
-        (toss.airborne_speed, known.airborne_speed),
-        (toss.launch_speed, known.launch_speed),
-        (toss.efficiency, known.efficiency),
-        (toss.phase, known.separation_phase),
-    ] {
-        assert!((one - other).abs() < 1e-12 * other.abs().max(1.0), "{toss:?} {known:?}");
-    }
-    let still = System::pizza_toss().with_platform(|hand| hand.amplitude = 0.01).expect("legal");
-    let stays = crate::driven::single_toss(&(*still.platform()).into(), still.disk(), start, 0.0);
-    assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
-
-    let settings =
-        MultiTossSettings { transient_impacts: 500, examined_impacts: 64, ..MultiTossSettings::default() };
-    let gentle = System::pizza_toss().with_platform(|hand| hand.amplitude *= 0.4).expect("legal");
-    let own = crate::driven::multi_toss(&(*gentle.platform()).into(), gentle.disk(), (start, 0.0), &settings);
-    let own = own.expect("no failure");
-    let contact = crate::InitialCondition::Contact { phase: start, angular_speed: 0.0 };
-    let orbit = crate::toss::multi_toss(gentle, contact, settings, &Unobserved).expect("no failure");
-    let attaches = matches!(orbit.class, crate::toss::OrbitClass::Chattering(_));
-    assert_eq!(attaches, own.attachments > 0, "{orbit:?} {own:?}");
-
-    let motor = crate::testing::motor(1e-7, 0.0);
-    let settings = TransientSettings {
-        duration: 0.02,
-        intervals: 4,
-        relaunch_perturbation: 0.0,
-        ..TransientSettings::default()
-    };
-    let phase = Phase::new(0.3).expect("finite");
-    let stator = (*motor.platform()).into();
-    let curve = transient(&stator, motor.disk(), phase, &settings, &Unobserved).expect("no failure");
-    let sine = crate::motor::transient(&motor, phase, &settings, &Unobserved).expect("no failure");
-    // Chaotic orbits, so the means agree, not the impacts.
-    let rise = |curve: &crate::motor::SpeedCurve| curve.mean_over_last(0.5).expect("legal");
-    assert!((rise(&curve) / rise(&sine) - 1.0).abs() < 0.2, "{curve:?} {sine:?}");
-    let loads = [0.0, 0.5 * motor.disk().friction_acceleration()];
-    let speeds =
-        speed_curve(&stator, motor.disk(), &loads, (3, 0.25), &settings, &Unobserved).expect("no failure");
-    assert!(speeds[0].speed > speeds[1].speed, "{speeds:?}");
-}
-
 /// A ramp from little to full amplitude lifts the disk off within the ramp, and its energy closes.
 #[test]
 fn a_ramp_lifts_the_disk_off() {
@@ -214,9 +162,9 @@ fn a_ramp_lifts_the_disk_off() {
         .map(|event| event.expect("no failure"))
         .take_while(|event| event.segment == 0)
         .collect();
-    for kind in [DrivenEvent::Separation, DrivenEvent::Joint] {
+    for kind in [Event::Separation, Event::Joint] {
         assert!(events.iter().any(|event| event.record.event == kind), "{events:?}");
     }
-    assert!(events.iter().any(|event| matches!(event.record.event, DrivenEvent::Impact(_))));
+    assert!(events.iter().any(|event| matches!(event.record.event, Event::Impact { .. })));
     assert!(events.iter().all(|event| event.record.ledger.relative_closure() < 1e-12));
 }

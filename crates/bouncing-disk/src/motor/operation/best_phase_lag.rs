@@ -31,7 +31,7 @@ pub struct BestPhaseLag {
 
 /// The best phase lag of a motor under the load that it has.
 pub(crate) fn best_phase_lag(
-    motor: &LoadedMotor,
+    motor: &LoadedMotor<'_>,
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<BestPhaseLag, Error> {

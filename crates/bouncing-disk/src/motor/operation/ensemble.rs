@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::run::Watch;
 
+use crate::driven::DrivenSystem;
 use crate::error::{Error, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::operation::member::{Member, far_above};
@@ -12,6 +13,7 @@ use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortf
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{left_out, shortfall};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
+use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -46,15 +48,18 @@ const STORED_SHARE: f64 = 0.05;
 
 /// A motor under a load, to be carried on a shared vertical motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct LoadedMotor {
+pub(crate) struct LoadedMotor<'a> {
+    /// On a stator that moves in another way, the sine with the same largest speeds.
     pub(crate) system: System,
+    /// How the stator moves, if not by Eq. (1): its phase lag is that of the system.
+    pub(crate) stator: Option<&'a DrivenPlatform>,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
     pub(crate) load_torque: f64,
 }
 
-impl LoadedMotor {
+impl LoadedMotor<'_> {
     /// The same motor under another load torque (N m).
     pub(crate) fn with_load(&self, load_torque: f64) -> Result<Self, Error> {
         let disk = self.system.disk().parameters().with_load_torque(load_torque, self.mass)?;
@@ -122,7 +127,7 @@ pub(crate) struct Operations {
 /// The steady operation of motors that share one vertical motion. The errors are relative to the largest
 /// speed of those without load; if all have one, the first motor is also computed without its load.
 pub(crate) fn operate(
-    motors: &[LoadedMotor],
+    motors: &[LoadedMotor<'_>],
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
@@ -134,7 +139,7 @@ pub(crate) fn operate(
 /// known; the settings may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
     length: Option<f64>,
-    motors: &[LoadedMotor],
+    motors: &[LoadedMotor<'_>],
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
@@ -145,7 +150,8 @@ pub(crate) fn operate_for(
     for motor in motors {
         positive("mass", motor.mass)?;
     }
-    let mut carried: Vec<LoadedMotor> = motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
+    let mut carried: Vec<LoadedMotor<'_>> =
+        motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
     let asked = carried.len();
     if carried.iter().all(|motor| motor.load() != 0.0) {
         let unloaded = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
@@ -188,8 +194,8 @@ pub(crate) fn operate_for(
 type MotorResult = (Operation, Vec<f64>, Vec<f64>);
 
 /// An ensemble under way.
-struct Run {
-    motors: Vec<LoadedMotor>,
+struct Run<'a> {
+    motors: Vec<LoadedMotor<'a>>,
     /// How many of them the caller requested: each of these is carried twice, from far below and from far
     /// above all steady speeds.
     asked: usize,
@@ -204,16 +210,20 @@ struct Run {
     wanted: f64,
 }
 
-impl Run {
+impl<'a> Run<'a> {
     fn new(
         length: f64,
-        motors: Vec<LoadedMotor>,
+        motors: Vec<LoadedMotor<'a>>,
         asked: usize,
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
+        let driven = motors
+            .iter()
+            .filter_map(|motor| Some(DrivenSystem::of_stator(motor.stator?, &motor.system)))
+            .collect::<Result<Vec<_>, Error>>()?;
         let members = (0..settings.members)
-            .map(|index| Ok((Member::new(&systems, asked, index, settings)?, Vec::new())))
+            .map(|index| Ok((Member::new(&systems, &driven, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
@@ -458,7 +468,7 @@ struct Units {
 }
 
 impl Units {
-    fn of(motor: &LoadedMotor) -> Self {
+    fn of(motor: &LoadedMotor<'_>) -> Self {
         let Scales { time, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
         Self {
             time,
@@ -484,7 +494,7 @@ impl Sum {
 
     /// The energy that came in; where less came in than the disks of all members have at their start, that:
     /// there are only roundings then.
-    fn energy_scale(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
+    fn energy_scale(&self, units: &Units, motor: &LoadedMotor<'_>, members: usize) -> f64 {
         let system = motor.system.dimensionless();
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         // A load that drives the motor puts energy in, too, and so does a rotor that slows down.
@@ -497,7 +507,7 @@ impl Sum {
     }
 
     /// The residual of the energy balance, relative to the supplied energy.
-    fn energy_residual(&self, units: &Units, motor: &LoadedMotor, members: usize) -> f64 {
+    fn energy_residual(&self, units: &Units, motor: &LoadedMotor<'_>, members: usize) -> f64 {
         let axial = self.axial.normal_work + self.axial.perturbation_work;
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
         let rotor = &self.rotor;

@@ -8,6 +8,7 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
+use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
 use crate::motion::energy::EnergyLedger;
@@ -20,6 +21,7 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
+use crate::motor::operation::driven_member::Driven;
 use crate::motor::operation::energy_rows::{CarryAll, Energies};
 use crate::motor::operation::no_lift_off::Lying;
 use crate::motor::operation::settings::OperatingSettings;
@@ -41,14 +43,17 @@ pub(crate) enum Member {
     Bouncing(Box<Bouncing>),
     /// It never does: each rotor moves by itself.
     Lying(Lying),
+    /// The stator moves in another way than by Eq. (1).
+    Driven(Driven),
 }
 
 impl Member {
     /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
     /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
-    /// above; the others start at rest.
+    /// above; the others start at rest. On a stator that moves in another way `driven` has its systems.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
+        driven: &[DrivenSystem],
         bracketed: usize,
         index: usize,
         settings: &OperatingSettings,
@@ -56,21 +61,28 @@ impl Member {
         let phase = starting_phase(settings.seed, index, settings.members)?;
         let seed = SplitMix64::seed_of_stream(settings.seed, index as u64);
         let policy = ChatterPolicy::Complete;
-        let above = systems[..bracketed].iter().map(|system| (system, far_above(system)));
-        let starts: Vec<(DimensionlessSystem, f64)> = systems
-            .iter()
-            .enumerate()
-            .map(|(own, system)| (system, if own < bracketed { -far_above(system) } else { 0.0 }))
-            .chain(above)
-            .map(|(system, speed)| (*system, speed))
-            .collect();
-        let mut rows = RotorRows::of(starts.iter().map(|start| start.0));
+        let perturbation = (settings.relaunch_perturbation, seed);
+        let from_below = |own| (own, if own < bracketed { -far_above(&systems[own]) } else { 0.0 });
+        let from_above = |own| (own, far_above(&systems[own]));
+        let starts: Vec<(usize, f64)> =
+            (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
+        let lying =
+            || starts.iter().map(|&(motor, _)| (systems[motor], driven.get(motor).cloned())).collect();
+        if !driven.is_empty() {
+            let starts = starts.iter().map(|&(motor, speed)| (&driven[motor], speed));
+            let member = Driven::new(starts.clone(), phase, perturbation)?;
+            return Ok(match member.lies_for_ever() {
+                false => Self::Driven(member),
+                true => Self::Lying(Lying::new(lying(), phase)),
+            });
+        }
+        let mut rows = RotorRows::of(starts.iter().map(|&(motor, _)| systems[motor]));
         let mut engines = Vec::with_capacity(starts.len());
-        for (own, &(system, angular_speed)) in starts.iter().enumerate() {
-            engines.push(Engine::new(system, InitialCondition::Contact { phase, angular_speed }, policy)?);
+        for (own, &(motor, angular_speed)) in starts.iter().enumerate() {
+            let start = InitialCondition::Contact { phase, angular_speed };
+            engines.push(Engine::new(systems[motor], start, policy)?);
             rows[own / WIDTH].speed[own % WIDTH] = angular_speed;
         }
-        let perturbation = (settings.relaunch_perturbation, seed);
         Ok(match VerticalMotion::from_rest(&systems[0], phase, policy, perturbation)? {
             Some(vertical) => Self::Bouncing(Box::new(Bouncing {
                 vertical,
@@ -83,7 +95,7 @@ impl Member {
                 begun: false,
                 energy: 0.0,
             })),
-            None => Self::Lying(Lying::new(engines, phase)),
+            None => Self::Lying(Lying::new(lying(), phase)),
         })
     }
 
@@ -98,6 +110,7 @@ impl Member {
         match self {
             Self::Bouncing(member) => member.next_window(duration, impacts, work),
             Self::Lying(member) => member.next_window(duration, *impacts.end(), work),
+            Self::Driven(member) => member.next_window(duration, impacts, work),
         }
     }
 }

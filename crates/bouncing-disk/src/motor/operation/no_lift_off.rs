@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 
+use crate::driven::{DrivenEngine, DrivenSystem};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::engine::Engine;
@@ -26,18 +27,21 @@ const HALVINGS: u32 = 60;
 /// with the rounding of the speed at both ends.
 const PERIODS: u64 = 16;
 
+/// A rotor, and its system on a stator that moves in another way than by Eq. (1).
+pub(crate) type LyingRotor = (DimensionlessSystem, Option<DrivenSystem>);
+
 /// Rotors that lie on the platform for ever.
 #[derive(Debug)]
 pub(crate) struct Lying {
-    engines: Vec<Engine>,
+    rotors: Vec<LyingRotor>,
     phase: Phase,
     /// [`PERIODS`] that all rotors repeat; computed when first needed.
     round: Option<Window>,
 }
 
 impl Lying {
-    pub(crate) const fn new(engines: Vec<Engine>, phase: Phase) -> Self {
-        Self { engines, phase, round: None }
+    pub(crate) const fn new(rotors: Vec<LyingRotor>, phase: Phase) -> Self {
+        Self { rotors, phase, round: None }
     }
 
     /// A window of whole periods of the steady motion, at least of `duration` rad but for the most of them.
@@ -79,10 +83,9 @@ impl Lying {
 
     fn steady_round(&self, work: &mut WorkCount<'_>) -> Result<Window, Error> {
         let mut window = Window::default();
-        for (index, engine) in self.engines.iter().enumerate() {
-            let system = engine.system();
-            let speed = steady_speed(system, self.phase, work)?;
-            let (ledger, rotor, _) = motion(system, self.phase, speed, PERIODS, work)?;
+        for (index, rotor) in self.rotors.iter().enumerate() {
+            let speed = steady_speed(rotor, self.phase, work)?;
+            let (ledger, rotor, _) = motion(rotor, self.phase, speed, PERIODS, work)?;
             window.rotors.push(rotor);
             if index == 0 {
                 window.axial.normal_work = ledger.normal_work;
@@ -95,8 +98,9 @@ impl Lying {
 
 /// The angular speed at a phase to which a rotor from rest tends. The gain of a period falls with the speed
 /// at its beginning, so its sign changes once.
-fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
-    let mut gain = |speed: f64| Ok::<_, Error>(motion(system, phase, speed, 1, work)?.2 - speed);
+fn steady_speed(rotor: &LyingRotor, phase: Phase, work: &mut WorkCount<'_>) -> Result<f64, Error> {
+    let (system, _) = rotor;
+    let mut gain = |speed: f64| Ok::<_, Error>(motion(rotor, phase, speed, 1, work)?.2 - speed);
     let first = gain(0.0)?;
     // Beyond it a rotor slides one way for a whole period, and comes back.
     let most = TAU * (system.friction() + system.load().abs()) * (1.0 + system.peak_acceleration());
@@ -115,25 +119,38 @@ fn steady_speed(system: &DimensionlessSystem, phase: Phase, work: &mut WorkCount
 /// Some periods of a rotor from a phase and an angular speed: energies, the rotor's part, the speed at the
 /// end.
 fn motion(
-    system: &DimensionlessSystem,
+    (system, driven): &LyingRotor,
     phase: Phase,
     angular_speed: f64,
     periods: u64,
     work: &mut WorkCount<'_>,
 ) -> Result<(EnergyLedger, RotorWindow, f64), Error> {
+    let end = PhaseTime::in_first_period(phase).after(PhaseSpan { periods, remainder: 0.0 });
     let start = InitialCondition::Contact { phase, angular_speed };
-    let mut engine = Engine::new(*system, start, ChatterPolicy::Complete)?;
-    let before = *engine.state();
-    engine.pause_at(PhaseTime::in_first_period(phase).after(PhaseSpan { periods, remainder: 0.0 }));
     let mut ledger = EnergyLedger::default();
-    while let Some(record) = engine.advance()? {
-        work.spend(FLIGHTS_OF_EVENT)?;
-        ledger += record.ledger;
-        if record.event == Event::Separation {
-            break;
+    let (before, after) = if let Some(driven) = driven {
+        let mut engine = DrivenEngine::new(driven.clone(), start, ChatterPolicy::Complete)?;
+        let before = *engine.state();
+        let left = |engine: &DrivenEngine| end.since(&engine.time()).radians();
+        while let Some(record) = engine.advance_within(left(&engine))? {
+            work.spend(FLIGHTS_OF_EVENT)?;
+            ledger += record.ledger;
         }
-    }
-    let after = *engine.state();
+        ledger += engine.ledger_after(left(&engine));
+        (before, engine.state_after(left(&engine)).1)
+    } else {
+        let mut engine = Engine::new(*system, start, ChatterPolicy::Complete)?;
+        let before = *engine.state();
+        engine.pause_at(end);
+        while let Some(record) = engine.advance()? {
+            work.spend(FLIGHTS_OF_EVENT)?;
+            ledger += record.ledger;
+            if record.event == Event::Separation {
+                break;
+            }
+        }
+        (before, *engine.state())
+    };
     let rotor = RotorWindow {
         angle: after.angle - before.angle,
         friction_work: ledger.friction_work,

@@ -12,10 +12,25 @@ use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 
-impl LoadedMotor {
-    pub(crate) fn of(motor: &Motor) -> Self {
-        Self { system: *motor.system(), mass: motor.mass(), load_torque: motor.load_torque() }
+impl LoadedMotor<'static> {
+    pub(crate) const fn of(motor: &Motor) -> Self {
+        Self { system: *motor.system(), stator: None, mass: motor.mass(), load_torque: motor.load_torque() }
     }
+}
+
+/// The operations of a motor under each of these load torques.
+pub(crate) fn curve_of(
+    motor: LoadedMotor<'_>,
+    load_torques: &[f64],
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<Vec<Operation>, Error> {
+    check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
+    let motors = load_torques
+        .iter()
+        .map(|&torque| motor.with_load(finite("load_torque", torque)?))
+        .collect::<Result<Vec<_>, Error>>()?;
+    Ok(operate(&motors, settings, observer)?.operations)
 }
 
 impl Motor {
@@ -71,13 +86,7 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<Operation>, Error> {
-        check(!load_torques.is_empty(), "number of loads", 0.0, "[1, 1000000]")?;
-        let own = LoadedMotor::of(self);
-        let motors = load_torques
-            .iter()
-            .map(|&torque| own.with_load(finite("load_torque", torque)?))
-            .collect::<Result<Vec<_>, Error>>()?;
-        Ok(operate(&motors, settings, observer)?.operations)
+        curve_of(LoadedMotor::of(self), load_torques, settings, observer)
     }
 
     /// The mean speed without load (rad/s).
@@ -148,7 +157,7 @@ pub fn operations(
     let groups = motors.chunk_by(|one, other| is_shared(one.system(), other.system()));
     for group in groups.flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
-        let loaded: Vec<LoadedMotor> = group.iter().map(LoadedMotor::of).collect();
+        let loaded: Vec<_> = group.iter().map(LoadedMotor::of).collect();
         all.extend(
             operate(&loaded, settings, &|_: Progress| observer.observe(Progress { done, total }))?.operations,
         );

@@ -281,8 +281,8 @@ impl Motor {
         settings: &OperatingSettings,
         tolerance: &InputTolerance,
         observer: &dyn Observer,
-        first: &[LoadedMotor],
-        loaded: &dyn Fn(&Self) -> Result<Vec<LoadedMotor>, Error>,
+        first: &[LoadedMotor<'static>],
+        loaded: &dyn Fn(&Self) -> Result<Vec<LoadedMotor<'static>>, Error>,
         mut each: impl FnMut(&Self, &Operations),
     ) -> Result<usize, Error> {
         tolerance.check()?;

@@ -48,7 +48,7 @@ pub struct StallLoad {
 
 /// The stall load of a motor, whatever the load of its data sheet.
 pub(crate) fn stall_load(
-    motor: &LoadedMotor,
+    motor: &LoadedMotor<'_>,
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<StallLoad, Error> {

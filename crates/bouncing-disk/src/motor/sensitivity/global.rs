@@ -102,7 +102,7 @@ impl Motor {
                 .partition(|&index| is_shared(motors[index].system(), motors[first].system()));
             left = rest;
             if quantity == SensitivityQuantity::SteadySpeed {
-                let loaded: Vec<LoadedMotor> =
+                let loaded: Vec<LoadedMotor<'_>> =
                     group.iter().map(|&index| LoadedMotor::of(&motors[index])).collect();
                 let operations = operate(&loaded, operating, observer)?.operations;
                 for ((&index, operation), motor) in group.iter().zip(operations).zip(&loaded) {

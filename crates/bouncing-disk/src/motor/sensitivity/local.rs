@@ -273,7 +273,7 @@ fn member_values(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<[Vec<Vec<f64>>; 2], Error> {
-    let speeds = |loaded: &[LoadedMotor]| {
+    let speeds = |loaded: &[LoadedMotor<'_>]| {
         let results = operate(loaded, settings, observer)?;
         match results.speeds.iter().position(Vec::is_empty) {
             Some(index) => Err(Error::Overpowered { load: loaded[index].load() }),

@@ -16,12 +16,12 @@ use crate::{Engine, InitialCondition, Motor};
 const MASS: f64 = 0.02;
 
 /// This motor under a share of the largest mean torque of friction.
-fn loaded(system: &System, share: f64) -> LoadedMotor {
-    let unloaded = LoadedMotor { system: *system, mass: MASS, load_torque: 0.0 };
+fn loaded(system: &System, share: f64) -> LoadedMotor<'static> {
+    let unloaded = LoadedMotor { system: *system, stator: None, mass: MASS, load_torque: 0.0 };
     unloaded.with_load(share * unloaded.largest_torque()).expect("legal")
 }
 
-fn operated(motors: &[LoadedMotor], settings: &OperatingSettings) -> Vec<Operation> {
+fn operated(motors: &[LoadedMotor<'_>], settings: &OperatingSettings) -> Vec<Operation> {
     operate(motors, settings, &Unobserved).expect("no failure").operations
 }
 
@@ -43,7 +43,7 @@ fn energy_is_balanced() {
     for system in
         [of(1e-8, usual), tried_motor(), of(6e-11, usual), of(1e-12, usual), of(1e-8, 0.0), of(1e-8, 0.9)]
     {
-        let mut motors: Vec<LoadedMotor> =
+        let mut motors: Vec<LoadedMotor<'_>> =
             [0.0, 0.3, 0.95, -0.4].iter().map(|&share| loaded(&system, share)).collect();
         let still = system.with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
         motors.push(loaded(&still, 0.1));
@@ -78,7 +78,7 @@ fn half_a_circle_of_lag_turns_the_motor_round() {
         for share in [0.0, 0.35] {
             let (one, other) = (loaded(&base, share), loaded(&base, -share));
             let lags = [0.0, 0.7, 2.0];
-            let motors: Vec<LoadedMotor> = lags
+            let motors: Vec<LoadedMotor<'_>> = lags
                 .iter()
                 .flat_map(|&lag| [one.with_phase_lag(lag), other.with_phase_lag(lag + PI)])
                 .collect::<Result<_, _>>()
@@ -100,7 +100,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     let exact = |load: f64| {
         let scale = base.scales().angular_acceleration;
         let system = base.with_disk(|rotor| rotor.load_acceleration = load * scale).expect("legal");
-        LoadedMotor { system, mass: MASS, load_torque: f64::NAN }
+        LoadedMotor { system, stator: None, mass: MASS, load_torque: f64::NAN }
     };
     let friction = base.dimensionless().friction();
     for load in [friction, 1.5 * friction, -friction, -2.0 * friction, 1e6] {
@@ -133,7 +133,7 @@ fn a_load_above_the_largest_torque_of_friction_runs_away() {
     }
     // What nothing holds, nothing drives: it stands still to the bit. The least load runs away with it.
     let slippery = base.with_disk(|rotor| rotor.friction = 0.0).expect("legal");
-    let still = LoadedMotor { system: slippery, mass: MASS, load_torque: 0.0 };
+    let still = LoadedMotor { system: slippery, stator: None, mass: MASS, load_torque: 0.0 };
     let point = *operated(&[still], &settings)[0].steady().expect("steady");
     assert_eq!(point.speed, Estimate { value: 0.0, standard_error: 0.0 });
     let pushed = still.with_load(1e-12).expect("legal");
@@ -216,7 +216,7 @@ fn a_spent_budget_is_said() {
 
 #[test]
 fn operations_are_the_same_for_any_number_of_threads() {
-    let motors: Vec<LoadedMotor> = (0..9).map(|k| loaded(&tried_motor(), 0.1 * f64::from(k))).collect();
+    let motors: Vec<LoadedMotor<'_>> = (0..9).map(|k| loaded(&tried_motor(), 0.1 * f64::from(k))).collect();
     let settings = OperatingSettings { members: 5, ..OperatingSettings::default() };
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("pool");
@@ -321,7 +321,7 @@ mod searches {
             // mean square.
             let [low, high] = stall.bracket;
             let loads = [low, stall.torque.value, high];
-            let motors: Vec<LoadedMotor> =
+            let motors: Vec<LoadedMotor<'_>> =
                 loads.iter().map(|&load| motor.with_load(load).expect("legal")).collect();
             let same = operated(&motors, &settings);
             let speed = |index: usize| same[index].steady().expect("steady").speed.value;
@@ -362,7 +362,7 @@ mod searches {
         let still = tried_motor().with_platform(|stator| stator.twist_amplitude = 0.0).expect("legal");
         let slippery = tried_motor().with_disk(|rotor| rotor.friction = 0.0).expect("legal");
         for system in [still, slippery] {
-            let motor = LoadedMotor { system, mass: MASS, load_torque: 0.0 };
+            let motor = LoadedMotor { system, stator: None, mass: MASS, load_torque: 0.0 };
             let error = stall_load(&motor, &settings, &Unobserved).expect_err("it does not turn");
             assert!(matches!(error, Error::DoesNotTurn { .. }), "{error}");
             let error = best_phase_lag(&motor, &settings, &Unobserved).expect_err("it does not turn");
@@ -380,7 +380,7 @@ mod searches {
         let motor = loaded(&tried_motor(), 0.2);
         let best = best_phase_lag(&motor, &settings, &Unobserved).expect("it turns");
         let lags: Vec<f64> = (0..90).map(|k| TAU * f64::from(k) / 90.0).collect();
-        let motors: Vec<LoadedMotor> =
+        let motors: Vec<LoadedMotor<'_>> =
             lags.iter().map(|&lag| motor.with_phase_lag(lag).expect("legal")).collect();
         for operation in operated(&motors, &settings) {
             let speed = operation.steady().expect("steady").speed;

@@ -1,0 +1,235 @@
+//! A motor whose stator moves in any way: run-up, operating points, stall.
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{Observer, Phase};
+
+use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::error::Error;
+use crate::motion::event::Event;
+use crate::motor::data_sheet::Motor;
+use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
+use crate::motor::operation::ensemble::LoadedMotor;
+use crate::motor::operation::of_motor::curve_of;
+use crate::motor::operation::point::Operation;
+use crate::motor::operation::settings::OperatingSettings;
+use crate::motor::operation::stall_load::{StallLoad, stall_load};
+use crate::motor::rotor::transient::{Bins, FLIGHTS_OF_EVENT, SpeedCurve, TransientSettings, curve};
+use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::system::System;
+
+/// A [`Motor`] whose stator moves by a waveform in place of each sine of Eq. (1).
+///
+/// ```
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::core::{Phase, Unobserved};
+/// use bouncing_disk::motor::{DrivenMotor, TransientSettings};
+/// use bouncing_disk::parameters::Waveform;
+///
+/// // A stator whose height has a tenth of the second harmonic, as through a lossy resonance.
+/// let height = Waveform::Fourier(vec![(1.0, 0.0), (0.1, 0.3)]);
+/// let motor = DrivenMotor::new(Motor::paper_70_khz(), height, Waveform::Sine)?;
+/// let settings = TransientSettings { duration: 0.01, intervals: 10, ..TransientSettings::default() };
+/// let run_up = motor.transient(Phase::new(0.0)?, &settings, &Unobserved)?;
+/// assert!(run_up.impacts > 100);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrivenMotor {
+    motor: Motor,
+    stator: DrivenPlatform,
+    /// The sine with the same largest speeds.
+    bound: System,
+}
+
+impl DrivenMotor {
+    /// The motor with these waveforms, in multiples of its amplitudes.
+    ///
+    /// # Errors
+    /// Those of [`DrivenPlatform::new`] and [`DrivenSystem::new`].
+    pub fn new(motor: Motor, height: Waveform, angle: Waveform) -> Result<Self, Error> {
+        let system = motor.system();
+        let stator = DrivenPlatform::new(*system.platform(), height, angle)?;
+        let (driven, scales) = (DrivenSystem::new(&stator, system.disk())?, system.scales());
+        let bound = system.with_platform(|platform| {
+            platform.amplitude = driven.height().bounds().speed * scales.length;
+            platform.twist_amplitude = driven.angle().bounds().speed * scales.angle;
+        })?;
+        Ok(Self { motor, stator, bound })
+    }
+
+    /// The data sheet.
+    #[must_use]
+    pub const fn motor(&self) -> &Motor {
+        &self.motor
+    }
+
+    /// The stator.
+    #[must_use]
+    pub const fn stator(&self) -> &DrivenPlatform {
+        &self.stator
+    }
+
+    fn loaded(&self) -> LoadedMotor<'_> {
+        LoadedMotor { system: self.bound, stator: Some(&self.stator), ..LoadedMotor::of(&self.motor) }
+    }
+
+    /// As [`Motor::torque_speed_curve`]; a curve costs as much as its points.
+    ///
+    /// # Errors
+    /// As [`Motor::torque_speed_curve`].
+    pub fn torque_speed_curve(
+        &self,
+        load_torques: &[f64],
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<Vec<Operation>, Error> {
+        curve_of(self.loaded(), load_torques, settings, observer)
+    }
+
+    /// As [`Motor::stall_load`].
+    ///
+    /// # Errors
+    /// As [`Motor::stall_load`].
+    pub fn stall_load(
+        &self,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<StallLoad, Error> {
+        stall_load(&self.loaded(), settings, observer)
+    }
+
+    /// As [`Motor::best_phase_lag`]: the lag of the whole waveform of the angle.
+    ///
+    /// # Errors
+    /// As [`Motor::best_phase_lag`].
+    pub fn best_phase_lag(
+        &self,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<BestPhaseLag, Error> {
+        best_phase_lag(&self.loaded(), settings, observer)
+    }
+
+    /// The speed transient of a rotor that lies at rest on the stator at `phase`, as
+    /// [`transient`](crate::motor::transient()) for a sine.
+    ///
+    /// The items of `observer` are the intervals of the curve.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal settings; those of [`DrivenSystem::new`] and of the flights.
+    pub fn transient(
+        &self,
+        phase: Phase,
+        settings: &TransientSettings,
+        observer: &dyn Observer,
+    ) -> Result<SpeedCurve, Error> {
+        let rotor = self.motor.system().disk();
+        let unit = self.stator.scales(rotor);
+        settings.check_for(&unit)?;
+        let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
+        let mut work = watch.work();
+        let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
+        let mut engine = DrivenEngine::new(DrivenSystem::new(&self.stator, rotor)?, start, settings.policy)?;
+        engine.with_energy = false;
+        let mut bins = Bins::new(settings.duration, settings.intervals)?;
+        let mut generator = SplitMix64::new(settings.seed);
+        let (mut impacts, mut separations, began) = (0, 0, engine.time());
+        while bins.present.reached < settings.duration {
+            work.spend(FLIGHTS_OF_EVENT)?;
+            let (angle, now) = (engine.state().angle, engine.time().since(&began).radians());
+            let left = settings.duration / unit.time - now;
+            let Some(record) = engine.advance_within(left)? else {
+                // Nothing happens any more: the rest of each interval.
+                let mut turned = 0.0;
+                for index in bins.present.index..settings.intervals {
+                    let last = index + 1 == settings.intervals;
+                    let to = if last { settings.duration } else { (index + 1) as f64 * bins.width };
+                    let (_, then) = engine.state_after(to / unit.time - now);
+                    bins.add(to, then.angle - angle - turned);
+                    turned = then.angle - angle;
+                }
+                break;
+            };
+            match record.event {
+                Event::Impact { .. } | Event::Kick { .. } => impacts += 1,
+                Event::Separation => {
+                    separations += 1;
+                    if settings.relaunch_perturbation > 0.0 {
+                        engine.perturb_launch(settings.relaunch_perturbation * generator.unit());
+                    }
+                }
+                _ => {}
+            }
+            let passed = record.time.since(&began).radians();
+            bins.add(passed * unit.time, record.after.angle - angle);
+            watch.set_done(bins.present.index as u64);
+        }
+        watch.end();
+        curve(bins, &unit, (impacts, separations))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::Unobserved;
+
+    use super::*;
+    use crate::motor::Estimate;
+
+    fn settings() -> OperatingSettings {
+        OperatingSettings { relative_error: 0.04, members: 4, ..OperatingSettings::default() }
+    }
+
+    /// Of one motor on both engines: chaotic orbits, so the means agree, not the impacts.
+    #[test]
+    fn a_sine_as_a_waveform_turns_the_motor_as_the_sine_does() {
+        let motor = Motor::paper_70_khz();
+        let driven = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).expect("legal");
+        let loads = [0.0, 0.4 * motor.largest_torque(), 1.5 * motor.largest_torque()];
+        let curve = driven.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
+        let known = motor.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
+        for (own, known) in curve.iter().zip(&known).take(2) {
+            let (own, known) = (own.steady().expect("known"), known.steady().expect("known"));
+            assert!(own.energy_residual < 1e-9, "{own:?}");
+            let near = |one: Estimate, other: Estimate| {
+                let error = one.standard_error + other.standard_error;
+                assert!((one.value - other.value).abs() < 3.0 * error, "{one:?} {other:?}");
+            };
+            near(own.speed, known.speed);
+            near(own.input_power, known.input_power);
+            near(own.friction_loss, known.friction_loss);
+            near(own.restitution_loss, known.restitution_loss);
+        }
+        assert_eq!(curve[2], known[2], "a runaway");
+        let strong = motor.with(|sheet| sheet.amplitude *= 10.0).expect("legal");
+        let driven = DrivenMotor::new(strong, Waveform::Sine, Waveform::Sine).expect("legal");
+        let settings = TransientSettings {
+            duration: 0.02,
+            intervals: 4,
+            relaunch_perturbation: 0.0,
+            ..TransientSettings::default()
+        };
+        let phase = Phase::new(0.3).expect("finite");
+        let own = driven.transient(phase, &settings, &Unobserved).expect("no failure");
+        let sine = crate::motor::transient(strong.system(), phase, &settings, &Unobserved);
+        let sine = sine.expect("no failure");
+        let rise = |curve: &SpeedCurve| curve.mean_over_last(0.5).expect("legal");
+        assert!((rise(&own) / rise(&sine) - 1.0).abs() < 0.2, "{own:?} {sine:?}");
+    }
+
+    /// On a stator too slow to throw it the rotor creeps under a load, as on the sine.
+    #[test]
+    fn a_rotor_that_never_leaves_the_stator_has_its_steady_speed() {
+        let calm = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 4e-11).expect("legal");
+        let driven = DrivenMotor::new(calm, Waveform::Sine, Waveform::Sine).expect("legal");
+        let loads = [0.0, 0.3 * calm.largest_torque()];
+        let curve = driven.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
+        let known = calm.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
+        for (own, known) in curve.iter().zip(&known) {
+            let (own, known) = (own.steady().expect("known").speed, known.steady().expect("known").speed);
+            let error = own.standard_error + known.standard_error;
+            assert!((own.value - known.value).abs() < 3.0 * error, "{own:?} {known:?}");
+        }
+    }
+}

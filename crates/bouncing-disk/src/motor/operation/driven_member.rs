@@ -1,0 +1,193 @@
+//! Rotors on one vertical motion of a stator that moves in any way, each with an engine of its own: the first
+//! one decides when a window ends.
+
+use std::f64::consts::TAU;
+use std::ops::RangeInclusive;
+
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::WorkCount;
+use bouncing_disk_core::{ChatterPolicy, Phase};
+
+use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::error::Error;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::{Event, Motion};
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+
+/// All rotors of a member.
+#[derive(Debug)]
+pub(crate) struct Driven {
+    rotors: Vec<Rotor>,
+    /// The end of the last window.
+    reached: PhaseTime,
+}
+
+/// A rotor, and what it has done since its start.
+#[derive(Debug)]
+struct Rotor {
+    engine: DrivenEngine,
+    generator: SplitMix64,
+    perturbation: f64,
+    ledger: EnergyLedger,
+    /// Energy given by the perturbations.
+    given: f64,
+    impacts: u64,
+    /// At the end of the last window.
+    before: Totals,
+}
+
+/// What a rotor has done up to a time.
+#[derive(Debug, Clone, Copy, Default)]
+struct Totals {
+    ledger: EnergyLedger,
+    given: f64,
+    impacts: u64,
+    axial_energy: f64,
+    angle: f64,
+    angular_speed: f64,
+}
+
+impl Driven {
+    /// Rotors that lie on the stator at `phase` with these angular speeds, perturbed by numbers of one `seed`.
+    pub(crate) fn new<'a>(
+        starts: impl Iterator<Item = (&'a DrivenSystem, f64)>,
+        phase: Phase,
+        (perturbation, seed): (f64, u64),
+    ) -> Result<Self, Error> {
+        let reached = PhaseTime::in_first_period(phase);
+        let rotors = starts.map(|(system, angular_speed)| {
+            let start = DrivenStart::Contact { phase, angular_speed };
+            let mut rotor = Rotor {
+                engine: DrivenEngine::new(system.clone(), start, ChatterPolicy::Complete)?,
+                generator: SplitMix64::new(seed),
+                perturbation,
+                ledger: EnergyLedger::default(),
+                given: 0.0,
+                impacts: 0,
+                before: Totals::default(),
+            };
+            rotor.before = rotor.totals(&reached);
+            Ok(rotor)
+        });
+        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached })
+    }
+
+    /// Whether the stator never throws the rotors up.
+    pub(crate) fn lies_for_ever(&self) -> bool {
+        self.rotors.iter().all(|rotor| rotor.engine.lies_for_ever())
+    }
+
+    /// The next window, as for a sine; rotors that come to rest for ever have periods in place of impacts.
+    pub(crate) fn next_window(
+        &mut self,
+        duration: f64,
+        impacts: RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
+        let from = self.reached;
+        let (mut window, mut lies) = (Window::default(), false);
+        for (index, rotor) in self.rotors.iter_mut().enumerate() {
+            if index == 0 {
+                (self.reached, lies) = rotor.lead(&from, duration, &impacts, work)?;
+            } else {
+                rotor.follow(&self.reached, work)?;
+            }
+            let (before, now) = (rotor.before, rotor.totals(&self.reached));
+            let change = |of: fn(&Totals) -> f64| of(&now) - of(&before);
+            if index == 0 {
+                let duration = self.reached.since(&from).radians();
+                window.axial = AxialWindow {
+                    duration,
+                    normal_work: change(|totals| totals.ledger.normal_work),
+                    perturbation_work: change(|totals| totals.given),
+                    restitution_loss: change(|totals| totals.ledger.restitution_loss),
+                    energy_change: change(|totals| totals.axial_energy),
+                    impacts: if lies { (duration / TAU + 0.5) as u64 } else { now.impacts - before.impacts },
+                };
+            }
+            window.rotors.push(RotorWindow {
+                angle: change(|totals| totals.angle),
+                friction_work: change(|totals| totals.ledger.friction_work),
+                friction_loss: change(|totals| totals.ledger.friction_loss),
+                load_work: change(|totals| totals.ledger.load_work),
+                kinetic_change: 0.5
+                    * change(|totals| totals.angular_speed)
+                    * (now.angular_speed + before.angular_speed),
+            });
+            rotor.before = now;
+        }
+        Ok(window)
+    }
+}
+
+impl Rotor {
+    /// Goes on until a flight begins and the window is long enough; when that is, and whether the disk lies on
+    /// the stator for ever.
+    fn lead(
+        &mut self,
+        from: &PhaseTime,
+        duration: f64,
+        impacts: &RangeInclusive<u64>,
+        work: &mut WorkCount<'_>,
+    ) -> Result<(PhaseTime, bool), Error> {
+        let end = from.after(PhaseSpan::from_radians(duration));
+        let before = self.impacts;
+        loop {
+            let (now, done) = (self.engine.time(), self.impacts - before);
+            let lasts = now.order(&end).is_ge() && done >= *impacts.start();
+            if (lasts || done >= *impacts.end()) && self.engine.launches() {
+                return Ok((now, false));
+            }
+            if self.engine.lies_for_ever() {
+                let periods = ((duration / TAU) as u64).saturating_add(1).min(*impacts.end());
+                let end = from.after(PhaseSpan { periods, remainder: 0.0 });
+                self.follow(&end, work)?;
+                return Ok((end, true));
+            }
+            self.advance(f64::INFINITY, work)?;
+        }
+    }
+
+    /// Goes on to this time.
+    fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
+        while self.advance(to.since(&self.engine.time()).radians(), work)? {}
+        Ok(())
+    }
+
+    /// The next event within `limit`, if there is one.
+    fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<bool, Error> {
+        work.spend(FLIGHTS_OF_EVENT)?;
+        let Some(record) = self.engine.advance_within(limit)? else { return Ok(false) };
+        self.ledger += record.ledger;
+        match record.event {
+            Event::Impact { .. } | Event::Kick { .. } => self.impacts += 1,
+            Event::Separation => {
+                let speed = self.perturbation * self.generator.unit();
+                let before = self.engine.state().axial_velocity;
+                self.engine.perturb_launch(speed);
+                let after = self.engine.state().axial_velocity;
+                self.given += 0.5 * (after - before) * (after + before);
+            }
+            _ => {}
+        }
+        Ok(true)
+    }
+
+    /// At a time before the next event.
+    fn totals(&self, at: &PhaseTime) -> Totals {
+        let span = at.since(&self.engine.time()).radians();
+        let (_, state) = self.engine.state_after(span);
+        let mut ledger = self.ledger;
+        ledger += self.engine.ledger_after(span);
+        Totals {
+            ledger,
+            given: self.given,
+            impacts: self.impacts,
+            axial_energy: 0.5 * state.axial_velocity * state.axial_velocity + state.height,
+            angle: state.angle,
+            angular_speed: state.angular_speed,
+        }
+    }
+}
