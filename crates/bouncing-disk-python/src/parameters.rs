@@ -370,12 +370,13 @@ impl<'py> Arguments<'py> {
     /// A drive; the sine if it is not given.
     pub(crate) fn drive(&self, name: &str) -> PyResult<DriveParameters> {
         let Some(given) = self.given(name)? else { return Ok(DriveParameters::default()) };
-        let wrong = |_| PyTypeError::new_err(format!("argument '{name}' must be a Drive"));
-        let text: String = given.call_method0("to_json").and_then(|text| text.extract()).map_err(wrong)?;
+        let json = given.getattr("to_json");
+        let json = json.map_err(|_| PyTypeError::new_err(format!("argument '{name}' must be a Drive")))?;
+        let text: String = json.call0()?.extract()?;
         let drive: DriveParameters = serde_json::from_str(&text).map_err(|error| {
             errors::of_text(self.py(), format!("the drive cannot be read: {error}"), None)
         })?;
-        drive.check().map_err(|error| self.refused(error))?;
+        drive.check().map_err(|error| errors::of(self.py(), error))?;
         Ok(drive)
     }
 

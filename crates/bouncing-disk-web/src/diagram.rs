@@ -1,7 +1,8 @@
 //! Columns of orbit diagrams.
 
+use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
-use bouncing_disk::core::{ChatterPolicy, ImpactState, Orbit, Unobserved};
+use bouncing_disk::core::{ChatterPolicy, Error as CoreError, ImpactState, Observer, Unobserved};
 use bouncing_disk::parameters::DimensionlessSystem;
 use bouncing_disk::toss::{CollisionEvent, CollisionState, Collisions};
 use bouncing_disk::{InitialCondition, System};
@@ -48,11 +49,18 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     if patience > MOST_LEFT_OUT {
         return Err(Refusal::out_of_range("patience", patience as f64, "at most 10^6"));
     }
+    let (drive, policy) = (&request.drive, ChatterPolicy::Complete);
+    let maps = || forcings.iter().map(|forcing| map(*forcing, system.disk().restitution()));
     let columns = if request.rotation {
+        drive.sine()?;
         let columns = forcings.iter().map(|forcing| rotating(&system, *forcing, start, request));
         columns.collect::<Result<Vec<_>, _>>()?
+    } else if drive.sine().is_ok() {
+        let orbits = maps().map(|map| Ok(map?.orbit(start, policy)));
+        vertical(orbits.collect::<Result<_, Refusal>>()?, orbit_diagram, request)?
     } else {
-        vertical(&forcings, system.disk().restitution(), start, request)?
+        let orbits = maps().map(|map| Ok(drive.map(&map?)?.orbit(start, policy)));
+        vertical(orbits.collect::<Result<_, Refusal>>()?, driven_diagram, request)?
     };
     let mut numbers = Vec::with_capacity(4 * request.recorded * columns.len());
     for (forcing, column) in forcings.iter().zip(&columns) {
@@ -69,18 +77,13 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
 }
 
 /// Columns of the vertical motion; those that have not settled are followed again, for longer.
-fn vertical(
-    forcings: &[f64],
-    restitution: f64,
-    start: ImpactState,
+fn vertical<Orbit: Clone>(
+    orbits: Vec<Orbit>,
+    diagram: fn(&[Orbit], usize, usize, &dyn Observer) -> Result<Vec<Vec<ImpactState>>, CoreError>,
     request: &DiagramRequest,
 ) -> Result<Vec<Column>, Refusal> {
-    let orbits = forcings
-        .iter()
-        .map(|forcing| Ok::<_, Refusal>(map(*forcing, restitution)?.orbit(start, ChatterPolicy::Complete)));
-    let orbits = orbits.collect::<Result<Vec<_>, _>>()?;
     let followed = |orbits: &[Orbit], left_out: usize| {
-        let columns = orbit_diagram(orbits, left_out, request.recorded, &Unobserved)?;
+        let columns = diagram(orbits, left_out, request.recorded, &Unobserved)?;
         let columns = columns.into_iter().map(|states| {
             let speeds: Vec<f64> = states.iter().map(ImpactState::normalised_speed).collect();
             let impacts = states.into_iter().map(|state| (state, f64::NAN)).collect();

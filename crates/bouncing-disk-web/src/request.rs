@@ -4,6 +4,7 @@
 
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::motor::MotorParameters;
+use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
@@ -133,6 +134,9 @@ pub(crate) struct DiagramRequest {
     /// Whether the rotation is computed, too: it costs some times the vertical motion.
     #[serde(default)]
     pub(crate) rotation: bool,
+    /// The shape of the platform's height; the rotation is that of the sine.
+    #[serde(default)]
+    pub(crate) drive: Waveform,
 }
 
 /// The rows `[from, to)` of a grid of starts.

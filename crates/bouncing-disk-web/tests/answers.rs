@@ -250,6 +250,12 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     let vertical =
         |reply: &Reply| reply.numbers.chunks(4).flat_map(|row| bits(&row[..3])).collect::<Vec<_>>();
     assert_eq!(vertical(&without), vertical(&rotating));
+    // Another motion of the platform has other impacts, and no rotation.
+    let driven = |drive: Value, rotation| with(diagram([0, 40], rotation), json!({ "drive": drive }));
+    let (_, triangle) = answered(&driven(json!("triangle"), false));
+    let same = answered(&driven(json!("sine"), false)).1 == without;
+    assert!(same && triangle.numbers.len() > 3000 && vertical(&triangle) != vertical(&without));
+    assert!(refused(&driven(json!("triangle"), true)).to_string().contains("the sine of Eq. (1)"));
     for columns in [[3, 2], [0, 41]] {
         assert_eq!(refused(&diagram(columns, false))["quantity"], "columns");
     }

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json as json_module
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -137,7 +137,7 @@ class Drive:
 
     >>> import bouncing_disk as bd
     >>> bd.Drive.sawtooth(0.3)
-    Drive(height={'sawtooth': 0.3}, angle='sine', start_phase=0.0, segments=(), then='repeat')
+    Drive(height={'sawtooth': 0.3}, angle='sine', start_phase=0.0, segments=[], then='repeat')
     >>> bd.Drive.from_json(bd.Drive.parabolas().to_json()) == bd.Drive(height="parabolas")
     True
     """
@@ -145,7 +145,7 @@ class Drive:
     height: Any = "sine"
     angle: Any = "sine"
     start_phase: float = 0.0
-    segments: Any = ()
+    segments: list[dict[str, float]] = field(default_factory=list)
     then: str = "repeat"
 
     def __post_init__(self) -> None:

@@ -6,6 +6,9 @@ export type ViewName = "toss" | "diagram" | "basins" | "motor";
 
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
+/** How the platform moves in the orbit diagram. */
+export type Drive = "sine" | "triangle" | "sawtooth" | "parabolas";
+
 /**
  * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
  * as JavaScript prints them, which gives the same bits back.
@@ -20,7 +23,7 @@ export interface State {
   /** How the motion of the first view begins where the disk was thrown; another start takes its place. */
   readonly thrown: Readonly<FlightStart> | null;
   /** The window of the orbit diagram: the forcing, and the quantity with the range of its axis (null: all of it). */
-  readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean }>;
+  readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean; drive: Drive }>;
   /** The window of the basins: phases in periods and normalised speeds. */
   readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
   /** Loads of the curve as shares of the largest mean torque of friction, and the run-up's length in rise times. */

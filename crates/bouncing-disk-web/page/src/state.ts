@@ -1,10 +1,11 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import type { Change, Quantity, State, ViewName } from "./contract";
+import type { Change, Drive, Quantity, State, ViewName } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
+export const DRIVES: readonly Drive[] = ["sine", "triangle", "sawtooth", "parabolas"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
 
 /** Loads of a curve, and rise times of a run-up, beyond which a page would compute for minutes. */
@@ -33,7 +34,7 @@ export const DEFAULT_STATE: State = {
   mass: 0.4,
   start: { impact_phase: 0.4, normalised_speed: 1.4, angular_speed: 0 },
   thrown: null,
-  diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true },
+  diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true, drive: "sine" },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
 };
@@ -176,6 +177,7 @@ const KEYS: Readonly<Record<string, Key>> = {
   diagram_quantity: keyOf("diagram", "quantity", oneOf(QUANTITIES)),
   diagram_range: keyOf("diagram", "range", orNone("all", range(-Infinity))),
   diagram_branches: keyOf("diagram", "branches", SWITCH),
+  diagram_drive: keyOf("diagram", "drive", oneOf(DRIVES)),
   basins_phase: keyOf("basins", "phase_periods", range(-Infinity)),
   basins_speed: keyOf("basins", "normalised_speed", range(0)),
   motor_loads: keyOf("motor", "loads", range(-Infinity)),

@@ -67,6 +67,14 @@ impl Waveform {
         }
     }
 
+    /// That the shape is that of Eq. (1).
+    ///
+    /// # Errors
+    /// [`Error::DriveNotSine`].
+    pub fn sine(&self) -> Result<(), Error> {
+        if *self == Self::Sine { Ok(()) } else { Err(Error::DriveNotSine) }
+    }
+
     /// The impact map of a height of this shape, with the amplitude and the restitution of the `sine`'s.
     ///
     /// # Errors

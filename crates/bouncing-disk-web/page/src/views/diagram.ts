@@ -1,6 +1,6 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import type { Context, Offer, Quantity, State, View, ViewKind } from "../contract";
+import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
@@ -8,7 +8,7 @@ import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
-import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
+import { amplitudeOf, axialForcing, DEFAULT_STATE, DRIVES } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, describeBifurcations, paintBranches, type Branches } from "./diagram/branches";
 import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
@@ -23,6 +23,7 @@ class DiagramView implements View {
   private readonly picture: WindowPicture;
   private readonly verdict: Verdict;
   private readonly quantity: HTMLSelectElement;
+  private readonly drive: HTMLSelectElement;
   private readonly branchesBox: HTMLInputElement;
   private readonly alternative = element("p", { class: "alternative" });
   private readonly note = element("p", { class: "remark", hidden: true });
@@ -54,13 +55,16 @@ class DiagramView implements View {
       move: (window, settled) => this.move(window, settled),
       reset: () => context.change({ diagram: { axial_forcing: DEFAULT_STATE.diagram.axial_forcing, range: null } }),
       point: (at) => {
-        if (at !== null) this.verdict.point(at[0], context.state());
+        if (at !== null && this.diagram.drive === "sine") this.verdict.point(at[0], context.state());
       },
       pick: ([forcing]) => void this.choose(forcing),
     });
     const options = Object.entries(DESCRIBED).map(([value, { name }]) => element("option", { value }, name));
     const choose = () => context.change({ diagram: { quantity: this.quantity.value as Quantity, range: null } });
     this.quantity = element("select", { "aria-label": "Quantity over the forcing", onchange: choose }, ...options);
+    const drives = DRIVES.map((value) => element("option", { value }, value));
+    const move = () => context.change({ diagram: { drive: this.drive.value as Drive } });
+    this.drive = element("select", { "aria-label": "Motion of the platform", onchange: move }, ...drives);
     const show = () => context.change({ diagram: { branches: this.branchesBox.checked } });
     this.branchesBox = element("input", { type: "checkbox", onchange: show });
     const legend = element("p", { class: "legend" });
@@ -70,6 +74,7 @@ class DiagramView implements View {
       "A click gives the shared system that forcing.";
     const choices = [
       ["Quantity ", this.quantity],
+      ["Platform ", this.drive],
       [this.branchesBox, " Branches"],
     ] as const;
     const picture = div("main-part", this.picture.layers.root, this.note);
@@ -80,11 +85,12 @@ class DiagramView implements View {
   }
 
   show(state: State): void {
-    const { quantity, branches } = state.diagram;
+    const { quantity, branches, drive } = state.diagram;
     const rotation = quantity === "angular_speed";
     this.quantity.value = quantity;
+    this.drive.value = drive;
     this.branchesBox.checked = branches;
-    this.branchesBox.disabled = rotation;
+    this.branchesBox.disabled = rotation || drive !== "sine";
     this.note.hidden = !rotation;
     if (rotation) setText(this.note, noteOf(state));
     this.picture.redraw();
@@ -169,7 +175,8 @@ class DiagramView implements View {
       start: impactOf(state),
       axial_forcing: diagram.axial_forcing,
       count: clamp(laid.columns, 2, MOST_COLUMNS),
-      rotation: diagram.quantity === "angular_speed",
+      rotation: diagram.quantity === "angular_speed" && diagram.drive === "sine",
+      drive: diagram.drive,
     };
     try {
       const name = keyOf(wanted);
@@ -258,7 +265,8 @@ class DiagramView implements View {
 }
 
 /** What there is to say below a diagram of angular speeds. */
-function noteOf({ system }: State): string {
+function noteOf({ system, diagram }: State): string {
+  if (diagram.drive !== "sine") return "Angular speeds are those of the sine: there is nothing to draw.";
   const idle = system.friction === 0 ? "Without friction" : system.twist_amplitude === 0 ? "Without a twist" : null;
   if (idle !== null) return `${idle} the platform hands no spin on to the disk: there is nothing to draw.`;
   return "Branches are those of the vertical motion, and have no angular speed.";

@@ -14,8 +14,9 @@ export interface Branches {
   readonly numbers: Float64Array;
 }
 
-/** Where branches are drawn: they have no angular speed. */
-export const areDrawn = ({ diagram }: State): boolean => diagram.branches && diagram.quantity !== "angular_speed";
+/** Where branches are drawn: those of the sine, which have no angular speed. */
+export const areDrawn = ({ diagram }: State): boolean =>
+  diagram.branches && diagram.quantity !== "angular_speed" && diagram.drive === "sine";
 
 export function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
   const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;

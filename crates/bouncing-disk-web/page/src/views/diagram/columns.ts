@@ -1,6 +1,6 @@
 /** What is drawn over the forcing, and the columns of a window: where they take long, every eighth first, then all. */
 
-import type { Context, Quantity } from "../../contract";
+import type { Context, Drive, Quantity } from "../../contract";
 import type { DiagramJson, ImpactStart, Range, Request, SystemParameters } from "../../protocol";
 
 export interface Described {
@@ -62,7 +62,11 @@ export interface Wanted {
   readonly axial_forcing: Range;
   readonly count: number;
   readonly rotation: boolean;
+  readonly drive: Drive;
 }
+
+/** A shape as the library has it: the sawtooth rises for a quarter of the period. */
+const shapeOf = (drive: Drive) => (drive === "sawtooth" ? { sawtooth: 0.25 } : drive);
 
 export const TRANSIENT = 300;
 export const RECORDED = 200;
@@ -93,6 +97,7 @@ export async function computeColumns(
     call: "diagram",
     ...wanted,
     count: coarse ? coarseCount : wanted.count,
+    drive: shapeOf(wanted.drive),
     columns: [from, to],
     transient: TRANSIENT,
     recorded: RECORDED,

@@ -76,6 +76,7 @@ const slotOf = (sample: number): string => `diagram-words-${sample}`;
 /** What some orbits of a diagram do for good: for those who do not see it. */
 export function verdictsOf(context: Context, state: State): Promise<VerdictJson[]> {
   const { restitution } = state.system;
+  if (state.diagram.drive !== "sine") return Promise.resolve([]);
   const asked = samplesOf(state).map((axial_forcing, sample) =>
     verdictOf(context, slotOf(sample), { axial_forcing, restitution }, impactOf(state)),
   );
@@ -92,7 +93,7 @@ export function describeDiagram(
   count: number,
   told: DiagramJson,
 ): string {
-  const { axial_forcing, quantity } = state.diagram;
+  const { axial_forcing, quantity, drive } = state.diagram;
   const [low, high] = axial_forcing;
   const samples = samplesOf(state);
   const does = verdicts.map(
@@ -101,8 +102,9 @@ export function describeDiagram(
   return (
     `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
     `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
-    `of restitution of ${brief(state.system.restitution)}. What the vertical motion does for good: ` +
-    `${does.join(", ")}.${unsettled(count, told, areDrawn(state))}`
+    `of restitution of ${brief(state.system.restitution)}. ` +
+    `${drive === "sine" ? `What the vertical motion does for good: ${does.join(", ")}` : `The platform moves as ${drive}`}.` +
+    `${unsettled(count, told, areDrawn(state))}`
   );
 }
 

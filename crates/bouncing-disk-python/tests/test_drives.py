@@ -1,0 +1,53 @@
+"""Platforms that are no sine."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import bouncing_disk as bd
+
+BOUNCING = bd.ImpactMap(axial_forcing=0.36, restitution=0.5)
+
+
+def diagram(drive: bd.Drive | None, **start: float) -> bd.OrbitDiagram:
+    return bd.orbit_diagram(
+        axial_forcing=[0.36, 0.4], restitution=0.5, impact_phase=0.1, normalised_speed=1.3, recorded=8, drive=drive
+    )
+
+
+def test_a_sine_by_another_name_is_the_sine() -> None:
+    sine, sum_of_one = diagram(None), diagram(bd.Drive.fourier([(1.0, 0.0)]))
+    assert np.allclose(sine.impact_phase, sum_of_one.impact_phase, rtol=0.0, atol=1e-9)
+    assert diagram(bd.Drive()) == sine
+
+
+def test_orbits_and_basins_of_parabolas_by_their_pieces() -> None:
+    pieces = bd.Drive.pieces([(0.5, (0.0, 8.0, -16.0, 0.0)), (0.5, (0.0, -8.0, 16.0, 0.0))])
+    for drive in [bd.Drive.parabolas(), pieces]:
+        found = bd.periodic_orbits(
+            BOUNCING, max_impacts=1, max_platform_periods=1, phases=20, speeds=20, drive=drive
+        )
+        known = [(orbit, 1e-3) for orbit in found if orbit.is_stable]
+        basins = bd.basins(BOUNCING, phases=20, speeds=10, known_orbits=known, drive=drive)
+        assert len(found) == 2 and len(known) == 1 and 0.0 < basins.share(bd.FIRST_ORBIT) < 1.0
+
+
+@pytest.mark.parametrize(
+    ("make", "told"),
+    [
+        (lambda: bd.Drive("triangel"), "triangle"),
+        (lambda: bd.Drive.fourier([(1.0, float("nan"))]), "nan"),
+        (lambda: bd.Drive.pieces([]), "sum of the durations"),
+        (lambda: bd.Drive.pieces([(1.0, (0.0, 1.0, 0.0, 0.0))]), "jumps by -1"),
+        (lambda: bd.Drive.sampled([0.0, 1.0]), "samples = 2"),
+        (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
+        (lambda: diagram(bd.Drive(segments=[{"periods": 1.0}])), "schedule"),
+        (lambda: bd.basins(BOUNCING, known_orbits=[], drive=bd.Drive(then="rest")), "schedule"),
+    ],
+)
+def test_bad_drives_are_refused_by_name(make: Callable[[], object], told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        make()
