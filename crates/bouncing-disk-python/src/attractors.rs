@@ -30,35 +30,22 @@ holders! {
 const SAMPLES: u32 = 64;
 
 fn shown_attractor<'py>(py: Python<'py>, all: &AttractorsModel, number: usize, own: &Attractor) -> Made<'py> {
-    let (mut orbit, mut leads_to) = (None, None);
+    let mut leads_to = None;
     let (mut radius, mut exponent, mut error) = (f64::NAN, f64::NAN, f64::NAN);
-    let kind = match &own.kind {
-        AttractorKind::Rest(after) => {
-            if let AfterRest::LeadsTo(other) = after {
-                leads_to = Some(*other);
-            }
-            "rest"
-        }
-        AttractorKind::Periodic(known) => {
-            (orbit, radius) = (Some(known.orbit().clone()), known.radius());
-            "periodic"
-        }
-        AttractorKind::Marginal(own) => {
-            orbit = Some(own.clone());
-            "marginal"
-        }
+    match &own.kind {
+        AttractorKind::Rest(AfterRest::LeadsTo(other)) => leads_to = Some(*other),
+        AttractorKind::Periodic(known) => radius = known.radius(),
         AttractorKind::Chaotic { exponent: growth, standard_error, .. } => {
             (exponent, error) = (*growth, *standard_error);
-            "chaotic"
         }
-        _ => "unclassified",
-    };
+        _ => {}
+    }
     make!(
         py,
         "Attractor",
-        kind,
+        own.kind.name(),
         all.label(number),
-        orbit.map(|orbit| shown_orbit(py, orbit)).transpose()?,
+        own.kind.orbit().map(|orbit| shown_orbit(py, orbit.clone())).transpose()?,
         radius,
         exponent,
         error,

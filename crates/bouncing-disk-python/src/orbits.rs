@@ -107,15 +107,13 @@ const PARAMETERS: [(&str, ContinuationParameter); 2] =
     [("axial_forcing", ContinuationParameter::Forcing), ("restitution", ContinuationParameter::Restitution)];
 
 /// A kind by its name, and the impact that it is about.
-fn kind(kind: BifurcationKind) -> (&'static str, Option<usize>) {
-    match kind {
-        BifurcationKind::Doubling => ("doubling", None),
-        BifurcationKind::Fold => ("fold", None),
-        BifurcationKind::Graze { flight } => ("graze", Some(flight)),
-        BifurcationKind::VanishingImpact { impact } => ("vanishing-impact", Some(impact)),
-        BifurcationKind::Birth => ("birth", None),
-        _ => ("unknown", None),
-    }
+fn kind(kind: BifurcationKind) -> (String, Option<usize>) {
+    let impact = match kind {
+        BifurcationKind::Graze { flight } => Some(flight),
+        BifurcationKind::VanishingImpact { impact } => Some(impact),
+        _ => None,
+    };
+    (kind.name().replace(' ', "-"), impact)
 }
 
 fn shown_branch(py: Python<'_>, branch: BranchModel) -> Made<'_> {

@@ -74,13 +74,7 @@ pub(crate) fn signed(count: u64) -> i64 {
 
 /// Both multipliers as complex numbers.
 pub(crate) fn complex(multipliers: bouncing_disk::core::orbits::Multipliers) -> [Complex64; 2] {
-    use bouncing_disk::core::orbits::Multipliers;
-    match multipliers {
-        Multipliers::Real(large, small) => [Complex64::new(large, 0.0), Complex64::new(small, 0.0)],
-        Multipliers::Complex { real, imaginary } => {
-            [Complex64::new(real, imaginary), Complex64::new(real, -imaginary)]
-        }
-    }
+    multipliers.pairs().map(|[real, imaginary]| Complex64::new(real, imaginary))
 }
 
 /// An empty vector with room for so many numbers; their lack is an error.

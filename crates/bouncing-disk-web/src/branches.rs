@@ -185,23 +185,12 @@ impl Found {
         self.bifurcations.extend(here.iter().filter_map(|found| {
             let state = found.point.orbit.states.first()?;
             Some(json!({
-                "kind": kind(&found.kind),
+                "kind": found.kind.name(),
                 "axial_forcing": found.point.parameter,
                 "impact_phase": state.phase().angle(),
                 "normalised_speed": state.normalised_speed(),
             }))
         }));
         Ok(())
-    }
-}
-
-const fn kind(kind: &BifurcationKind) -> &'static str {
-    match kind {
-        BifurcationKind::Doubling => "doubling",
-        BifurcationKind::Fold => "fold",
-        BifurcationKind::Graze { .. } => "graze",
-        BifurcationKind::VanishingImpact { .. } => "vanishing impact",
-        BifurcationKind::Birth => "birth",
-        _ => "unknown",
     }
 }

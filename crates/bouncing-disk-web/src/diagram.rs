@@ -76,10 +76,13 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
     Reply::new(&json, numbers, Vec::new())
 }
 
+/// The impacts of orbits, of which so many are left out and so many recorded.
+type Recorded<Orbit> = fn(&[Orbit], usize, usize, &dyn Observer) -> Result<Vec<Vec<ImpactState>>, CoreError>;
+
 /// Columns of the vertical motion; those that have not settled are followed again, for longer.
 fn vertical<Orbit: Clone>(
     orbits: Vec<Orbit>,
-    diagram: fn(&[Orbit], usize, usize, &dyn Observer) -> Result<Vec<Vec<ImpactState>>, CoreError>,
+    diagram: Recorded<Orbit>,
     request: &DiagramRequest,
 ) -> Result<Vec<Column>, Refusal> {
     let followed = |orbits: &[Orbit], left_out: usize| {

@@ -3,10 +3,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk::System;
-use bouncing_disk::core::{
-    attractors::{UndecidedReason, Verdict, VerdictSettings},
-    orbits::Multipliers,
-};
+use bouncing_disk::core::attractors::{UndecidedReason, Verdict, VerdictSettings};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
@@ -38,7 +35,7 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
     let kind = match &verdict {
         Verdict::Periodic { impacts, platform_periods, multipliers: found, .. } => {
             round = Some((*impacts, *platform_periods));
-            multipliers = Some(pairs(*found));
+            multipliers = Some(found.pairs());
             // JSON has no infinity, so the exponent of a superstable orbit is omitted.
             exponent = Some(found.lyapunov_exponent(*impacts)).filter(|exponent| exponent.is_finite());
             "periodic"
@@ -74,11 +71,4 @@ pub(crate) fn verdict(axial_forcing: f64, restitution: f64, start: ImpactStart) 
         "rounding_dependent": rounding_dependent,
         "text": verdict.to_string(),
     }))
-}
-
-fn pairs(multipliers: Multipliers) -> [[f64; 2]; 2] {
-    match multipliers {
-        Multipliers::Real(first, second) => [[first, 0.0], [second, 0.0]],
-        Multipliers::Complex { real, imaginary } => [[real, imaginary], [real, -imaginary]],
-    }
 }

@@ -56,26 +56,14 @@ impl SharedAttractors {
 }
 
 fn described(label: Option<u8>, attractor: &Attractor) -> Value {
-    let (mut impact, mut leads_to) = (None, None);
-    let kind = match &attractor.kind {
-        AttractorKind::Rest(after) => {
-            leads_to = after.leads_to();
-            "rest"
-        }
-        AttractorKind::Periodic(known) => {
-            impact = known.orbit().states.first().map(ImpactStart::from);
-            "periodic"
-        }
-        AttractorKind::Marginal(orbit) => {
-            impact = orbit.states.first().map(ImpactStart::from);
-            "marginal"
-        }
-        AttractorKind::Chaotic { .. } => "chaotic",
-        _ => "unclassified",
+    let leads_to = match &attractor.kind {
+        AttractorKind::Rest(after) => after.leads_to(),
+        _ => None,
     };
+    let impact = attractor.kind.orbit().and_then(|orbit| orbit.states.first()).map(ImpactStart::from);
     json!({
         "label": label,
-        "kind": kind,
+        "kind": attractor.kind.name(),
         "text": attractor.kind.to_string(),
         "share": attractor.starts.value(),
         "interval": attractor.starts.interval(),

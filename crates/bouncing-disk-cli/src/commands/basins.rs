@@ -2,8 +2,8 @@
 
 use bouncing_disk::core::DrivenMap;
 use bouncing_disk::core::attractors::{
-    ATTACHED, AfterRest, Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings,
-    FIRST_ORBIT, Grid, KnownOrbit, Label, UNDECIDED,
+    ATTACHED, AfterRest, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, FIRST_ORBIT, Grid,
+    KnownOrbit, Label, UNDECIDED,
 };
 use bouncing_disk::core::orbits::{OrbitSearch, PeriodicOrbit, Stability};
 use bouncing_disk::parameters::Waveform;
@@ -287,16 +287,13 @@ fn of_orbit(orbit: &PeriodicOrbit) -> String {
 }
 
 /// The impacts of the periodic attractors: label, phase (periods), normalised speed.
-fn impacts<'a>(known: &'a Known) -> Vec<(Label, f64, f64)> {
+fn impacts(known: &Known) -> Vec<(Label, f64, f64)> {
     let periodic: Vec<_> = match known {
         Known::Sine(attractors) => {
             let numbered = attractors.all().iter().enumerate();
-            let of_kind = |(number, attractor): (usize, &'a Attractor)| match &attractor.kind {
-                AttractorKind::Periodic(known) => Some((attractors.label(number)?, known.orbit())),
-                AttractorKind::Marginal(orbit) => Some((attractors.label(number)?, orbit)),
-                _ => None,
-            };
-            numbered.filter_map(of_kind).collect()
+            let labelled =
+                numbered.filter_map(|(number, own)| Some((attractors.label(number)?, own.kind.orbit()?)));
+            labelled.collect()
         }
         Known::Driven(_, orbits) => (FIRST_ORBIT..).zip(orbits.iter().map(KnownOrbit::orbit)).collect(),
     };

@@ -136,6 +136,28 @@ read_checked!(enum AttractorKind as UncheckedKind {
 });
 
 impl AttractorKind {
+    /// Its name: `rest`, `periodic`, `marginal`, `chaotic` or `unclassified`.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Rest(_) => "rest",
+            Self::Periodic(_) => "periodic",
+            Self::Marginal(_) => "marginal",
+            Self::Chaotic { .. } => "chaotic",
+            Self::Unclassified { .. } => "unclassified",
+        }
+    }
+
+    /// The orbit of a periodic or marginal one.
+    #[must_use]
+    pub const fn orbit(&self) -> Option<&PeriodicOrbit> {
+        match self {
+            Self::Periodic(known) => Some(known.orbit()),
+            Self::Marginal(orbit) => Some(orbit),
+            _ => None,
+        }
+    }
+
     /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         if let Self::Chaotic { exponent, standard_error, .. } = self {

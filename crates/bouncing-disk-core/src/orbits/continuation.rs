@@ -183,6 +183,20 @@ pub enum BifurcationKind {
     Birth,
 }
 
+impl BifurcationKind {
+    /// Its name: `vanishing impact`.
+    #[must_use]
+    pub const fn name(&self) -> &'static str {
+        match self {
+            Self::Doubling => "doubling",
+            Self::Fold => "fold",
+            Self::Graze { .. } => "graze",
+            Self::VanishingImpact { .. } => "vanishing impact",
+            Self::Birth => "birth",
+        }
+    }
+}
+
 /// A special point of a branch.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

@@ -50,6 +50,15 @@ read_checked!(enum Multipliers as UncheckedMultipliers {
 });
 
 impl Multipliers {
+    /// Real and imaginary part of each.
+    #[must_use]
+    pub const fn pairs(&self) -> [[f64; 2]; 2] {
+        match *self {
+            Self::Real(first, second) => [[first, 0.0], [second, 0.0]],
+            Self::Complex { real, imaginary } => [[real, imaginary], [real, -imaginary]],
+        }
+    }
+
     /// Checks a value that was deserialised.
     fn check(&self) -> Result<(), Error> {
         match *self {

@@ -7,7 +7,8 @@ export type ViewName = "toss" | "diagram" | "basins" | "motor";
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
 /** How the platform moves in the orbit diagram. */
-export type Drive = "sine" | "triangle" | "sawtooth" | "parabolas";
+export const DRIVES = ["sine", "triangle", "sawtooth", "parabolas"] as const;
+export type Drive = (typeof DRIVES)[number];
 
 /**
  * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand

@@ -1,11 +1,10 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import type { Change, Drive, Quantity, State, ViewName } from "./contract";
+import { DRIVES, type Change, type Quantity, type State, type ViewName } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
-export const DRIVES: readonly Drive[] = ["sine", "triangle", "sawtooth", "parabolas"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
 
 /** Loads of a curve, and rise times of a run-up, beyond which a page would compute for minutes. */

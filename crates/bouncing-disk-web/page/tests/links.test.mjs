@@ -26,6 +26,7 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
     diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
     diagram_range: round % 2 ? "all" : `${-random()},${1 + random()}`, diagram_branches: round % 2 ? "on" : "off",
+    diagram_drive: ["sine", "triangle", "sawtooth", "parabolas"][round % 4],
     basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
     motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
     motor_rise_times: String(1 + 5 * random()),

@@ -1,6 +1,6 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
+import { DRIVES, type Context, type Drive, type Offer, type Quantity, type State, type View, type ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
@@ -8,7 +8,7 @@ import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
-import { amplitudeOf, axialForcing, DEFAULT_STATE, DRIVES } from "../state";
+import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
 import { areDrawn, BRANCHES, branchesOf, describeBifurcations, paintBranches, type Branches } from "./diagram/branches";
 import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
