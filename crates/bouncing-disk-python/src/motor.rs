@@ -1,9 +1,10 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
 use bouncing_disk::motor::{
-    ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
-    OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
-    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, TrapVerdict,
+    DrivenMotor, ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime,
+    MotorSweep, OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings,
+    SensitivityMethod, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices,
+    SweepAxis, TrapVerdict,
 };
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -124,7 +125,13 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 #[pyfunction]
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
-    let operations = a.run(|observer| motor.torque_speed_curve(&loads, &settings, observer))?;
+    let drive = a.drive("drive")?;
+    let operations = a.run(|observer| {
+        if drive.is_sine() {
+            return motor.torque_speed_curve(&loads, &settings, observer);
+        }
+        DrivenMotor::of_drive(motor, &drive)?.torque_speed_curve(&loads, &settings, observer)
+    })?;
     made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
 }
 

@@ -359,6 +359,20 @@ pub(crate) fn paper_cut() -> ChatterCut {
     ChatterCut(PAPER_CUT)
 }
 
+/// A drive; the sine if it is `None`.
+pub(crate) fn drive(given: &Bound<'_, PyAny>, name: &str) -> PyResult<DriveParameters> {
+    if given.is_none() {
+        return Ok(DriveParameters::default());
+    }
+    let json = given.getattr("to_json");
+    let json = json.map_err(|_| PyTypeError::new_err(format!("argument '{name}' must be a Drive")))?;
+    let (text, py): (String, _) = (json.call0()?.extract()?, given.py());
+    let drive: DriveParameters = serde_json::from_str(&text)
+        .map_err(|error| errors::of_text(py, format!("the drive cannot be read: {error}"), None))?;
+    drive.check().map_err(|error| errors::of(py, error))?;
+    Ok(drive)
+}
+
 /// Checks a drive.
 #[pyfunction]
 pub(crate) fn check_drive(a: Arguments<'_>) -> PyResult<()> {
@@ -369,15 +383,7 @@ pub(crate) fn check_drive(a: Arguments<'_>) -> PyResult<()> {
 impl<'py> Arguments<'py> {
     /// A drive; the sine if it is not given.
     pub(crate) fn drive(&self, name: &str) -> PyResult<DriveParameters> {
-        let Some(given) = self.given(name)? else { return Ok(DriveParameters::default()) };
-        let json = given.getattr("to_json");
-        let json = json.map_err(|_| PyTypeError::new_err(format!("argument '{name}' must be a Drive")))?;
-        let text: String = json.call0()?.extract()?;
-        let drive: DriveParameters = serde_json::from_str(&text).map_err(|error| {
-            errors::of_text(self.py(), format!("the drive cannot be read: {error}"), None)
-        })?;
-        drive.check().map_err(|error| errors::of(self.py(), error))?;
-        Ok(drive)
+        drive(&self.get(name)?, name)
     }
 
     /// The shape of the height of the argument `drive`, which alone decides the vertical motion; `None` for the sine.

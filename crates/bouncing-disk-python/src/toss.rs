@@ -1,13 +1,14 @@
 //! Tosses and trajectories: the motion of the engine, in SI units.
 
 use bouncing_disk::core::{Error as CoreError, Phase, run::Watch};
+use bouncing_disk::driven;
 use bouncing_disk::motion::{
     DiskState, EventKind, Mode, PhaseSpan, PlatformState, SiEnergy, SiState, SlipDirection, Snapshot,
 };
-use bouncing_disk::parameters::Scales;
+use bouncing_disk::parameters::{DrivenPlatform, Scales};
 use bouncing_disk::toss::{
-    InitialSpin, RotaryOutcome, TossPerformance, rotary_response as response, single_toss as toss,
-    toss_trajectory as toss_motion,
+    InitialSpin, RotaryOutcome, TOSS_START, TossPerformance, rotary_response as response,
+    single_toss as toss, toss_trajectory as toss_motion,
 };
 use bouncing_disk::{
     Engine, Error, Event, EventRecord, InitialCondition, System as SystemModel, Trajectory as Motion,
@@ -18,7 +19,7 @@ use crate::arguments::{Arguments, Made, choice, held};
 use crate::orbits::PeriodicOrbit;
 use crate::parameters::{System, python_system};
 use crate::results::{array, column, holders, holding, make, room_for};
-use crate::{errors, long_call};
+use crate::{errors, long_call, parameters};
 
 holders! {
     /// The contents of a `Trajectory`: the system, and the motion.
@@ -71,10 +72,21 @@ fn shown_toss<'py>(py: Python<'py>, toss: &TossPerformance) -> Made<'py> {
 ///
 /// Callers request thousands a second, so it takes no dictionary.
 #[pyfunction]
-pub(crate) fn single_toss<'py>(system: &Bound<'py, PyAny>, initial_spin: &Bound<'py, PyAny>) -> Made<'py> {
+pub(crate) fn single_toss<'py>(
+    system: &Bound<'py, PyAny>,
+    initial_spin: &Bound<'py, PyAny>,
+    drive: &Bound<'py, PyAny>,
+) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
     let initial = choice(initial_spin, "initial_spin", &SPINS)?;
-    let done = long_call::caught(|| toss(&system, initial))?;
+    let drive = parameters::drive(drive, "drive")?;
+    let done = long_call::caught(|| {
+        if drive.is_sine() {
+            return toss(&system, initial);
+        }
+        let hand = DrivenPlatform::of_drive(*system.platform(), &drive)?;
+        driven::single_toss(&hand, system.disk(), Phase::new(TOSS_START)?, initial)
+    })?;
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)
 }
 

@@ -35,6 +35,19 @@ def test_orbits_and_basins_of_parabolas_by_their_pieces() -> None:
         assert len(found) == 2 and len(known) == 1 and 0.0 < basins.share(bd.FIRST_ORBIT) < 1.0
 
 
+def test_tosses_and_motors_of_a_sum_of_one_sine_are_those_of_the_sine() -> None:
+    drive = bd.Drive.fourier([(1.0, 0.0)], [(1.0, 0.0)])
+    toss, motor = bd.System.pizza_toss(), bd.Motor.paper_70_khz()
+    known, found = bd.single_toss(toss), bd.single_toss(toss, drive=drive)
+    assert found.airborne_speed == pytest.approx(known.airborne_speed, rel=1e-12)
+    curves = [bd.torque_speed_curve(motor, load_torques=[0.0], relative_error=0.1, drive=own) for own in (None, drive)]
+    # Chaotic orbits: the means agree, not the impacts.
+    apart = abs(curves[0].speed[0] - curves[1].speed[0])
+    assert apart < 5.0 * (curves[0].speed_error[0] + curves[1].speed_error[0])
+    runs = bd.ensemble(motor.system, members=3, duration=0.02, intervals=4, drive=drive)
+    assert runs.speeds.shape == (4, 3) and bool((runs.speeds[-1] > 0.0).all())
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::motion::{PhaseSpan, Snapshot};
+use bouncing_disk::parameters::DriveParameters;
 use bouncing_disk::toss::{
     InitialSpin, MultiTossSettings, OrbitClass, TOSS_START, TossOrbit, TossPerformance, multi_toss,
     single_toss, toss_trajectory,
@@ -11,6 +12,8 @@ use bouncing_disk::toss::{
 use bouncing_disk::{Engine, InitialCondition, System};
 use bouncing_disk_plot::Figure;
 use serde::Serialize;
+
+mod driven;
 
 use super::prelude::*;
 use crate::output::WriteTable;
@@ -35,7 +38,8 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The first toss from rest is that of Sec. III of the paper; with --many the disk is followed through all tosses that come \
+The first toss from rest is that of Sec. III of the paper. Of a file with a [drive] that is a schedule the impacts are printed, \
+up to the first landing. With --many the disk is followed through all tosses that come \
 after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
 than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
@@ -71,8 +75,22 @@ pub(crate) struct TossArgs {
 }
 
 pub(super) fn run(args: &TossArgs, context: Context) -> Result<()> {
-    let Some(system) = args.system.begin(&args.output, true, context)? else { return Ok(()) };
+    let given = args.system.begin_driven(&args.output, true, context)?;
+    let Some((system, drive)) = given else { return Ok(()) };
+    if !drive.is_sine() {
+        return driven::run(&system, &drive, args, context);
+    }
     if args.many { many(&system, args, context) } else { single(&system, args, context) }
+}
+
+impl TossArgs {
+    fn settings(&self) -> MultiTossSettings {
+        MultiTossSettings {
+            transient_impacts: self.transient,
+            examined_impacts: self.examined,
+            ..MultiTossSettings::default()
+        }
+    }
 }
 
 fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
@@ -81,7 +99,7 @@ fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
     let text = quantities(system, &toss).to_text();
-    deliver(system, args, context, &samples, text, ("performance", stored(&toss)?))
+    deliver((system, None), args, context, &samples, text, ("performance", stored(&toss)?))
 }
 
 /// The numbers of a toss, in the order in which the paper speaks of them.
@@ -103,11 +121,7 @@ pub(super) fn quantities(system: &System, toss: &TossPerformance) -> Quantities 
 }
 
 fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
-    let settings = MultiTossSettings {
-        transient_impacts: args.transient,
-        examined_impacts: args.examined,
-        ..MultiTossSettings::default()
-    };
+    let settings = args.settings();
     let start = start(system, args.spin)?;
     // Before the long part, so that an illegal number of periods is refused at once.
     let mut engine = Engine::new(system, start, ChatterPolicy::Complete)?;
@@ -116,7 +130,7 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
     let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
     let text = described(system, &orbit).to_text();
-    deliver(system, args, context, &samples(system, motion), text, ("orbit", stored(&orbit)?))
+    deliver((system, None), args, context, &samples(system, motion), text, ("orbit", stored(&orbit)?))
 }
 
 /// At rest on the platform at its lowest point, as a single toss starts.
@@ -201,7 +215,7 @@ pub(super) fn samples(system: &System, motion: impl IntoIterator<Item = Snapshot
 }
 
 fn deliver(
-    system: &System,
+    (system, drive): (&System, Option<&DriveParameters>),
     args: &TossArgs,
     context: Context,
     samples: &[Sample],
@@ -209,7 +223,7 @@ fn deliver(
     found: (&'static str, json::Data<'_>),
 ) -> Result<()> {
     let many = |value: u64| args.many.then_some(value);
-    let job = json!({
+    let mut job = json!({
         "system": system,
         "spin": args.spin,
         "many": args.many,
@@ -218,6 +232,9 @@ fn deliver(
         "examined_impacts": many(args.examined as u64),
         "periods": many(args.periods),
     });
+    if let Some(drive) = drive {
+        job["drive"] = json!(drive);
+    }
     let period = args.many.then(|| TAU / system.platform().angular_frequency());
     let report = Report {
         provenance: provenance("bouncing-disk toss", &job)?,

@@ -9,10 +9,15 @@ use bouncing_disk::core::attractors::{
 use bouncing_disk::core::orbits::{OrbitSearch, Stability, doubling_cascade};
 use bouncing_disk::core::sweep::orbit_diagram;
 use bouncing_disk::core::{ChatterPolicy, ImpactMap, ImpactState, Phase, Unobserved, Vibration};
+use bouncing_disk::driven::{self, DrivenStart, DrivenSystem};
 use bouncing_disk::estimate::TransientEnsemble;
-use bouncing_disk::motor::{MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientSettings};
-use bouncing_disk::parameters::Waveform;
-use bouncing_disk::toss::{InitialSpin, TossConstraints, best_toss, single_toss};
+use bouncing_disk::motor::{
+    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,
+};
+use bouncing_disk::parameters::{DrivenPlatform, Waveform};
+use bouncing_disk::toss::{
+    InitialSpin, MultiTossSettings, TOSS_START, TossConstraints, best_toss, single_toss,
+};
 use bouncing_disk::{Motor, System};
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -98,6 +103,51 @@ fn diagrams_orbits_and_basins_of_parabolas() {
         folder.done(&format!("{basins} --chunk {part}/2 --out {part}.json"));
     }
     assert_eq!(written("merge 1.json 2.json")[labels], whole[labels]);
+}
+
+#[test]
+fn tosses_and_motors_that_are_no_sine() {
+    let folder = Folder::new();
+    let written = |line: &str| -> Value {
+        folder.done(&format!("{line} --out a.json --force"));
+        serde_json::from_slice(&folder.read("a.json")).unwrap()
+    };
+    let drive = "[drive]\nheight = 'triangle'\nangle = { fourier = [[1, 0], [0.2, 0.5]] }\n";
+    let angle = Waveform::Fourier(vec![(1.0, 0.0), (0.2, 0.5)]);
+    folder.write("toss.toml", &(folder.done("toss --template") + drive));
+    let toss = System::pizza_toss();
+    let hand = DrivenPlatform::new(*toss.platform(), Waveform::Triangle, angle.clone()).unwrap();
+    let phase = Phase::new(TOSS_START).unwrap();
+    let own = driven::single_toss(&hand, toss.disk(), phase, InitialSpin::AbsoluteRest).unwrap();
+    assert_eq!(written("toss toss.toml")["performance"], stored(&own));
+    let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
+    let settings = MultiTossSettings { transient_impacts: 50, examined_impacts: 64, ..Default::default() };
+    let system = DrivenSystem::new(&hand, toss.disk()).unwrap();
+    let orbit = driven::multi_toss(system, start, &settings, &Unobserved).unwrap();
+    assert_eq!(written("toss toss.toml --many --transient 50 --examined 64")["orbit"], stored(&orbit));
+    // A schedule of one segment is the motion itself.
+    let schedule = format!("{drive}start_phase = {TOSS_START}\nsegments = [{{}}]\n");
+    folder.write("schedule.toml", &(folder.done("toss --template") + &schedule));
+    let (found, many) =
+        (written("toss schedule.toml --many --periods 9"), written("toss toss.toml --many --periods 9"));
+    assert_eq!(found["motion"], many["motion"]);
+    assert!(found["impacts"].as_array().unwrap().len() > 1, "{found}");
+
+    folder.write("motor.toml", &(folder.done("motor report --template") + drive));
+    let motor = DrivenMotor::new(Motor::paper_70_khz(), Waveform::Triangle, angle).unwrap();
+    let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
+    let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    let found = written("motor curve motor.toml --loads 0:1e-5:2 --relative-error 0.3 --members 4");
+    assert_eq!(found["operations"], stored(&curve));
+    let line = "motor transient motor.toml --members 5 --duration 0.02 --intervals 4";
+    let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
+    let members = TransientMember::of_ensemble(motor.motor().system(), &settings, 5).unwrap();
+    let curves = motor.transients(&members, &Unobserved).unwrap();
+    assert_eq!(written(line)["curves"], stored(&curves));
+    for part in ["1", "2"] {
+        folder.done(&format!("{line} --chunk {part}/2 --out {part}.json"));
+    }
+    assert_eq!(written("merge 1.json 2.json")["curves"], stored(&curves));
 }
 
 #[test]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
-from bouncing_disk._system import ChatterCut, System
+from bouncing_disk._system import ChatterCut, Drive, System
 
 __all__ = [
     "IntervalEstimate",
@@ -67,6 +67,7 @@ def ensemble(
     intervals: Int = 600,
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
+    drive: Drive | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> TransientEnsemble:
@@ -78,6 +79,7 @@ def ensemble(
         intervals: intervals of equal length over which speeds are averaged, in [3, 1000000].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
         seed: seed of the perturbations.
+        drive: how the stator moves; ``None`` for the sine.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd

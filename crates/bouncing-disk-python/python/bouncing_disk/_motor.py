@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
-from bouncing_disk._system import System
+from bouncing_disk._system import Drive, System
 
 __all__ = [
     "BestPhaseLag",
@@ -288,6 +288,7 @@ def torque_speed_curve(
     most_impacts: Int = 20_000_000,
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
+    drive: Drive | None = None,
     progress: Progress = None,
 ) -> TorqueSpeedCurve:
     """Speed, power and efficiency of a motor against its load.
@@ -300,6 +301,7 @@ def torque_speed_curve(
         most_impacts: most impacts of all members together, in [1, 1e15].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
+        drive: how the stator moves; ``None`` for the sine.
     """
     return native.torque_speed_curve(locals())
 

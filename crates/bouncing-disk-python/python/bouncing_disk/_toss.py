@@ -9,7 +9,7 @@ from typing import ClassVar, Literal, NamedTuple
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
 from bouncing_disk._orbits import PeriodicOrbit
-from bouncing_disk._system import ChatterCut, System
+from bouncing_disk._system import ChatterCut, Drive, System
 
 __all__ = [
     "Energy",
@@ -71,19 +71,23 @@ class TossPerformance(NamedTuple):
 
 
 def single_toss(
-    system: System, *, initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest"
+    system: System,
+    *,
+    initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
+    drive: Drive | None = None,
 ) -> TossPerformance:
     """The toss of a disk from its platform, up to the separation.
 
     Args:
         initial_spin: whether the disk does not turn at first, or turns with the platform.
+        drive: how the platform moves; ``None`` for the sine.
 
     >>> import bouncing_disk as bd
     >>> toss = bd.single_toss(bd.System.pizza_toss())
     >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
     14
     """
-    return native.single_toss(system, initial_spin)
+    return native.single_toss(system, initial_spin, drive)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

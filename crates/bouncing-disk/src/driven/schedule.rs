@@ -9,7 +9,8 @@ use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, check, finite};
 use crate::motion::event::EventRecord;
 use crate::motion::phase_time::phase_at;
-use crate::motion::state::Mode;
+use crate::motion::si::SiState;
+use crate::motion::state::{DiskState, Mode};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{
     AfterSchedule, DriveParameters, DrivenPlatform, ScheduleSegment, Waveform,
@@ -203,6 +204,8 @@ pub struct ScheduledEngine {
     /// Time since the segment began (rad), and when it began (s).
     elapsed: f64,
     began: f64,
+    /// Angle of the platform that the segment counts as zero (rad).
+    turned: f64,
 }
 
 impl ScheduledEngine {
@@ -224,7 +227,7 @@ impl ScheduledEngine {
             angular_speed: angular_speed / first.scales.angular_speed,
         };
         let engine = DrivenEngine::new(first.system.clone(), start, policy)?;
-        Ok(Self { parts, segment: 0, engine, policy, elapsed: 0.0, began: 0.0 })
+        Ok(Self { parts, segment: 0, engine, policy, elapsed: 0.0, began: 0.0, turned: 0.0 })
     }
 
     /// The units of a segment's records.
@@ -243,6 +246,25 @@ impl ScheduledEngine {
     #[must_use]
     pub fn time(&self) -> f64 {
         self.began + self.elapsed * self.parts[self.segment].scales.time
+    }
+
+    /// Disk and platform `after` seconds after the last event, if no event comes before.
+    #[must_use]
+    pub fn states_after(&self, after: f64) -> (SiState, SiState) {
+        let Part { system, scales, .. } = &self.parts[self.segment];
+        let (time, disk) = self.engine.state_after(after / scales.time);
+        let in_ramp = if system.is_ramp() { time.periods as f64 * TAU } else { 0.0 };
+        let at = in_ramp + time.phase.angle();
+        let (height, angle) = (system.height.at(at), system.angle.at(at));
+        let mut platform = scales.state(&DiskState {
+            mode: Mode::Sticking,
+            height: height.height,
+            axial_velocity: height.velocity,
+            angle: angle.height,
+            angular_speed: angle.velocity,
+        });
+        platform.angle += self.turned;
+        (scales.state(&disk), platform)
     }
 
     /// The next event, or `None` after the last one.
@@ -268,6 +290,8 @@ impl ScheduledEngine {
     fn begin_next(&mut self, joint: &EventRecord) -> Result<(), Error> {
         let (old, new) = (&self.parts[self.segment], &self.parts[self.segment + 1]);
         self.began += old.duration * old.scales.time;
+        self.turned += old.system.angle.at(old.start + old.duration).height * old.scales.angle
+            - new.system.angle.at(new.start).height * new.scales.angle;
         let faster = old.scales.velocity / new.scales.velocity;
         let mut state = joint.after;
         let gap = state.height - old.system.height.at(old.start + old.duration).height;

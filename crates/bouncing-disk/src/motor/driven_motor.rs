@@ -1,12 +1,15 @@
 //! A motor whose stator moves in any way: run-up, operating points, stall.
 
+use std::ops::ControlFlow;
+
 use bouncing_disk_core::numerics::random::SplitMix64;
-use bouncing_disk_core::run::Watch;
-use bouncing_disk_core::{Observer, Phase};
+use bouncing_disk_core::run::{Watch, in_parallel};
+use bouncing_disk_core::{Observer, Phase, Progress};
 
 use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
 use crate::motion::event::Event;
+use crate::motor::batch::members::TransientMember;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::ensemble::LoadedMotor;
@@ -15,7 +18,7 @@ use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::rotor::transient::{Bins, FLIGHTS_OF_EVENT, SpeedCurve, TransientSettings, curve};
-use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
+use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 use crate::parameters::system::System;
 
 /// A [`Motor`] whose stator moves by a waveform in place of each sine of Eq. (1).
@@ -56,6 +59,15 @@ impl DrivenMotor {
             platform.twist_amplitude = driven.angle().bounds().speed * scales.angle;
         })?;
         Ok(Self { motor, stator, bound })
+    }
+
+    /// The motor with the drive of a file.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] where the motion is a schedule.
+    pub fn of_drive(motor: Motor, drive: &DriveParameters) -> Result<Self, Error> {
+        let stator = DrivenPlatform::of_drive(*motor.system().platform(), drive)?;
+        Self::new(motor, stator.height().clone(), stator.angle().clone())
     }
 
     /// The data sheet.
@@ -109,6 +121,30 @@ impl DrivenMotor {
         observer: &dyn Observer,
     ) -> Result<BestPhaseLag, Error> {
         best_phase_lag(&self.loaded(), settings, observer)
+    }
+
+    /// The transients of these members by their phases and settings, computed in parallel.
+    ///
+    /// The items of `observer` are the members.
+    ///
+    /// # Errors
+    /// The first one of [`Self::transient`].
+    pub fn transients(
+        &self,
+        members: &[TransientMember],
+        observer: &dyn Observer,
+    ) -> Result<Vec<SpeedCurve>, Error> {
+        let watch = Watch::begin(observer, 0, members.len() as u64)?;
+        let curves = in_parallel(members.len(), |index| {
+            let TransientMember { phase, settings, .. } = &members[index];
+            let stops = |_: Progress| watch.ask().map_or(ControlFlow::Break(()), ControlFlow::Continue);
+            let curve = self.transient(*phase, settings, &stops);
+            watch.finish(1);
+            curve
+        });
+        let curves = curves.into_iter().collect();
+        watch.end();
+        curves
     }
 
     /// The speed transient of a rotor that lies at rest on the stator at `phase`, as

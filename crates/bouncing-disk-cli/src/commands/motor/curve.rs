@@ -1,6 +1,6 @@
 //! `bouncing-disk motor curve`: speed, power and efficiency over the load.
 
-use bouncing_disk::motor::{InputSpread, MotorField, Operation, SweepQuantity};
+use bouncing_disk::motor::{DrivenMotor, InputSpread, MotorField, Operation, SweepQuantity};
 
 use bouncing_disk_plot::Figure;
 
@@ -14,7 +14,8 @@ All loads ride on one vertical motion: a curve costs little more than a point, u
 inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
 a decade: 95 of 100 further ones lie between its ends. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
-speed changes its sign, on a straight line between two loads; `motor stall` computes it. See docs/designing-a-motor.md.
+speed changes its sign, on a straight line between two loads; `motor stall` computes it. On a [drive] other than the sine each load \
+has a motion of its own, and there is no spread. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve
@@ -34,7 +35,8 @@ pub(crate) struct CurveArgs {
 }
 
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.begin(&args.output, true, context)? else { return Ok(()) };
+    let given = args.motor.begin_driven(&args.output, true, context)?;
+    let Some((motor, drive)) = given else { return Ok(()) };
     warn(&motor, context);
     let load_torques = match args.loads {
         Some(loads) => loads,
@@ -42,8 +44,14 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     };
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
-    let found = motor.torque_speed_curve(&loads, &settings, &context.watch("motor curve"))?;
-    let tolerance = args.spread.tolerance();
+    let watch = context.watch("motor curve");
+    let found = if drive.is_sine() {
+        motor.torque_speed_curve(&loads, &settings, &watch)?
+    } else {
+        DrivenMotor::of_drive(motor, &drive)?.torque_speed_curve(&loads, &settings, &watch)?
+    };
+    // The spread, as the regime, is the sine's.
+    let tolerance = args.spread.tolerance().filter(|_| drive.is_sine());
     let spreads = match &tolerance {
         Some(tolerance) => {
             let watch = context.watch("motor curve: spread");
@@ -52,11 +60,15 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
         None => vec![None; loads.len()],
     };
     let rows: Vec<Row> = found.iter().copied().zip(spreads.iter().copied()).collect();
-    let job =
+    let mut job =
         json!({ "motor": motor, "load_torques": load_torques, "settings": settings, "tolerance": tolerance });
+    if !drive.is_sine() {
+        job["drive"] = json!(drive);
+    }
+    let note = if drive.is_sine() { lock_note(&motor)? } else { String::new() };
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: shown().to_text(&rows) + &lock_note(&motor)?,
+        text: shown().to_text(&rows) + &note,
         table: columns().csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &rows))),

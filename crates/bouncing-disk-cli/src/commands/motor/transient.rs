@@ -2,7 +2,8 @@
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitSettings, LEAST_MEMBERS, TransientEnsemble, TransientFit};
-use bouncing_disk::motor::{SpeedCurve, TransientMember, TransientSettings, transients};
+use bouncing_disk::motor::{DrivenMotor, SpeedCurve, TransientMember, TransientSettings, transients};
+use bouncing_disk::parameters::DriveParameters;
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::Figure;
 use serde::{Deserialize, Serialize};
@@ -46,7 +47,8 @@ pub(crate) struct TransientArgs {
 }
 
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
+    let given = args.motor.driven_unless_template(&args.output, context)?;
+    let Some((motor, drive)) = given else { return Ok(()) };
     warn(&motor, context);
     let job = TransientJob {
         motor,
@@ -58,6 +60,7 @@ pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
             seed: args.seed,
             ..TransientSettings::default()
         },
+        drive,
     };
     grid::run(job, &args.motor.inputs(), &args.grid, &args.output, context)
 }
@@ -68,6 +71,8 @@ pub(crate) struct TransientJob {
     motor: Motor,
     members: usize,
     settings: TransientSettings,
+    #[serde(default, skip_serializing_if = "DriveParameters::is_sine")]
+    drive: DriveParameters,
 }
 
 impl GridJob for TransientJob {
@@ -86,6 +91,9 @@ impl GridJob for TransientJob {
     }
 
     fn compute(&self, all: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
+        if !self.drive.is_sine() {
+            return Ok(DrivenMotor::of_drive(self.motor, &self.drive)?.transients(&all[rows], observer)?);
+        }
         let curves = transients(&all[rows], observer)?;
         Ok(curves.into_iter().collect::<Result<_, _>>()?)
     }

@@ -1,0 +1,134 @@
+//! Tosses by a hand that is no sine.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::{ChatterPolicy, Phase};
+use bouncing_disk::driven::{
+    DrivenStart, DrivenSystem, Schedule, ScheduleSegment, ScheduledEngine, ScheduledRecord, multi_toss,
+    single_toss,
+};
+use bouncing_disk::parameters::{DriveParameters, DrivenPlatform};
+use bouncing_disk::toss::{InitialSpin, TOSS_START};
+use bouncing_disk::{Event, System};
+use serde::Serialize;
+
+use super::{Sample, TossArgs, deliver, described, instants, quantities};
+use crate::commands::prelude::*;
+
+/// Most events in which a disk is expected to come down.
+const MOST_EVENTS: usize = 10_000;
+
+pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, context: Context) -> Result<()> {
+    let motion = motion(system, drive, args.spin)?;
+    let own = (system, Some(drive));
+    let period = TAU / system.platform().angular_frequency();
+    let platform = DrivenPlatform::of_drive(*system.platform(), drive);
+    let toss = match &platform {
+        Ok(platform) if !args.many => {
+            Some(single_toss(platform, system.disk(), Phase::new(TOSS_START)?, args.spin)?)
+        }
+        _ => None,
+    };
+    let end = if args.many { args.periods as f64 * period } else { landing(motion.clone())? };
+    let instants = instants(args.samples, (end / period) as u64) as usize;
+    let (impacts, samples) = sampled(motion, end, instants)?;
+    if let Some(toss) = toss {
+        let text = quantities(system, &toss).to_text();
+        return deliver(own, args, context, &samples, text, ("performance", stored(&toss)?));
+    }
+    let Ok(platform) = platform else {
+        let columns = Columns::<Impact>::new()
+            .column("time", "s", |row| row.time_s)
+            .column("segment", "1", |row| row.segment)
+            .column("impact_velocity", "m/s", |row| row.impact_velocity_m_s)
+            .column("angular_speed", "rad/s", |row| row.angular_speed_rad_s);
+        let text = columns.to_text(&impacts);
+        return deliver(own, args, context, &samples, text, ("impacts", stored(&impacts)?));
+    };
+    let of_disk = DrivenSystem::new(&platform, system.disk())?;
+    let phase = Phase::new(TOSS_START)?;
+    let angular_speed = match args.spin {
+        InitialSpin::AbsoluteRest => 0.0,
+        _ => of_disk.angle().velocity(phase.angle()),
+    };
+    let start = DrivenStart::Contact { phase, angular_speed };
+    let orbit = multi_toss(of_disk, start, &args.settings(), &context.watch("toss"))?;
+    let text = described(system, &orbit).to_text();
+    deliver(own, args, context, &samples, text, ("orbit", stored(&orbit)?))
+}
+
+/// The motion from rest on the platform: of a periodic drive from the lowest point of the sine.
+fn motion(system: &System, drive: &DriveParameters, spin: InitialSpin) -> Result<ScheduledEngine> {
+    let mut drive = drive.clone();
+    if !drive.is_schedule() {
+        (drive.start_phase, drive.segments) = (TOSS_START, vec![ScheduleSegment::default()]);
+    }
+    let schedule = Schedule::of_drive(*system.platform(), &drive)?;
+    let at_rest = |speed| ScheduledEngine::at_rest(&schedule, system.disk(), speed, ChatterPolicy::Complete);
+    let motion = at_rest(0.0)?;
+    let (engine, unit) = (motion.engine(), motion.scales_of(0).map_or(0.0, |scales| scales.angular_speed));
+    Ok(match spin {
+        InitialSpin::AbsoluteRest => motion,
+        _ => at_rest(engine.system().angle().velocity(engine.time().phase.angle()) * unit)?,
+    })
+}
+
+/// When the disk comes down for the first time (s).
+fn landing(motion: ScheduledEngine) -> Result<f64> {
+    for event in motion.take(MOST_EVENTS) {
+        let event = event?;
+        if matches!(event.record.event, Event::Impact { .. }) {
+            return Ok(event.time);
+        }
+    }
+    Err(Failure::Failed(format!(
+        "the disk does not leave its platform and come down in {MOST_EVENTS} events"
+    )))
+}
+
+/// An impact in SI units.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Impact {
+    time_s: f64,
+    segment: usize,
+    impact_velocity_m_s: f64,
+    angular_speed_rad_s: f64,
+}
+
+/// The impacts up to a time (s), and the motion at so many instants of equal distances.
+fn sampled(mut now: ScheduledEngine, end: f64, count: usize) -> Result<(Vec<Impact>, Vec<Sample>)> {
+    let (mut impacts, mut samples) = (Vec::new(), Vec::with_capacity(count));
+    let mut next = now.clone();
+    let mut coming = next.advance()?;
+    for instant in 0..count {
+        let time = end * instant as f64 / (count - 1) as f64;
+        while let Some(ScheduledRecord { segment, time: time_s, record }) =
+            coming.filter(|own| own.time <= time)
+        {
+            if let Event::Impact { axial_impact_velocity, .. } | Event::Kick { axial_impact_velocity, .. } =
+                record.event
+                && let Some(scales) = now.scales_of(segment)
+            {
+                impacts.push(Impact {
+                    time_s,
+                    segment,
+                    impact_velocity_m_s: axial_impact_velocity * scales.velocity,
+                    angular_speed_rad_s: record.after.angular_speed * scales.angular_speed,
+                });
+            }
+            now.clone_from(&next);
+            coming = next.advance()?;
+        }
+        let (disk, platform) = now.states_after(time - now.time());
+        samples.push(Sample {
+            time_s: time,
+            disk_height_m: disk.height,
+            platform_height_m: platform.height,
+            disk_angle_rad: disk.angle,
+            platform_angle_rad: platform.angle,
+            disk_angular_speed_rad_s: disk.angular_speed,
+            platform_angular_speed_rad_s: platform.angular_speed,
+        });
+    }
+    Ok((impacts, samples))
+}
