@@ -25,7 +25,8 @@ def everything() -> dict[str, Any]:
             returned = call(*positional, **keywords)
             found += returned if isinstance(returned, list) else [returned]
     kinds = {type(one).__name__: one for one in found if type(one).__module__.startswith("bouncing_disk")}
-    return kinds | {"Attractor": kinds["Attractors"].all[1], "Bifurcation": kinds["Branch"].bifurcations[0]}
+    parts = {"Attractor": kinds["Attractors"].all[1], "Bifurcation": kinds["Branch"].bifurcations[0]}
+    return kinds | parts | {"Drive": bd.Drive.triangle()}
 
 
 EVERYTHING = everything()

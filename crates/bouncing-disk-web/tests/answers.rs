@@ -253,7 +253,7 @@ fn columns_do_not_depend_on_which_are_asked_for_together() {
     // Another motion of the platform has other impacts, and no rotation.
     let driven = |drive: Value, rotation| with(diagram([0, 40], rotation), json!({ "drive": drive }));
     let (_, triangle) = answered(&driven(json!("triangle"), false));
-    let same = answered(&driven(json!("sine"), false)).1 == without;
+    let same = answered(&driven(json!("sine"), false)).1.digest == without.digest;
     assert!(same && triangle.numbers.len() > 3000 && vertical(&triangle) != vertical(&without));
     assert!(refused(&driven(json!("triangle"), true)).to_string().contains("the sine of Eq. (1)"));
     for columns in [[3, 2], [0, 41]] {
