@@ -24,7 +24,9 @@ export interface State {
   /** How the motion of the first view begins where the disk was thrown; another start takes its place. */
   readonly thrown: Readonly<FlightStart> | null;
   /** The window of the orbit diagram: the forcing, and the quantity with the range of its axis (null: all of it). */
-  readonly diagram: Readonly<{ axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean; drive: Drive }>;
+  readonly diagram: Readonly<
+    { axial_forcing: Range; quantity: Quantity; range: Range | null; branches: boolean; drive: Drive }
+  >; // prettier-ignore
   /** The window of the basins: phases in periods and normalised speeds. */
   readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
   /** Loads of the curve as shares of the largest mean torque of friction, and the run-up's length in rise times. */

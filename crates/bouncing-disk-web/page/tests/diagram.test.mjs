@@ -41,7 +41,7 @@ test("what is said of a window is what its orbits do for good, and its bifurcati
 test("another motion of the platform is drawn and said, without the branches and orbits of the sine", async () => {
   await within("diagram_drive=triangle", async (page) => {
     await isCalm(page);
-    assert.match(await words(page), /The platform moves as triangle\.$|The platform moves as triangle\. .*still on their way\./);
+    assert.match(await words(page), /The platform moves as triangle\.($| .*still on their way\.)/);
     assert.ok(await page.isDisabled("#view-diagram input[type=checkbox]"));
     await page.selectOption("#view-diagram [aria-label='Motion of the platform']", "sine");
     await page.waitForFunction(() => /for good/.test(document.querySelector("#view-diagram .alternative").textContent));

@@ -1,6 +1,7 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import { DRIVES, type Context, type Drive, type Offer, type Quantity, type State, type View, type ViewKind } from "../contract";
+import { DRIVES } from "../contract";
+import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
 import type { Pen } from "../drawing/pen";

@@ -99,12 +99,12 @@ export function describeDiagram(
   const does = verdicts.map(
     (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
   );
+  const forGood = `What the vertical motion does for good: ${does.join(", ")}`;
+  const end = drive === "sine" ? forGood : `The platform moves as ${drive}`;
   return (
     `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
     `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
-    `of restitution of ${brief(state.system.restitution)}. ` +
-    `${drive === "sine" ? `What the vertical motion does for good: ${does.join(", ")}` : `The platform moves as ${drive}`}.` +
-    `${unsettled(count, told, areDrawn(state))}`
+    `of restitution of ${brief(state.system.restitution)}. ${end}.${unsettled(count, told, areDrawn(state))}`
   );
 }
 
