@@ -203,7 +203,7 @@ fn parse<T: DeserializeOwned>(text: &str, format: Format) -> Result<T, String> {
     }
 }
 
-/// The words of a reader; those on an unknown key or shape, which has the known ones after it, name the nearest.
+/// The words of a reader; those on an unknown key or shape, which list the known ones, name the nearest.
 fn in_words(reason: &str) -> String {
     match reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant ")) {
         Some(keys) => {

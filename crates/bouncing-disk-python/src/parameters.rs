@@ -386,7 +386,7 @@ impl<'py> Arguments<'py> {
         drive(&self.get(name)?, name)
     }
 
-    /// The shape of the height of the argument `drive`, which alone decides the vertical motion; `None` for the sine.
+    /// The shape of the height of `drive`, which decides the vertical motion; `None` for the sine.
     pub(crate) fn shape(&self) -> PyResult<Option<Waveform>> {
         let drive = self.drive("drive")?;
         if drive.is_schedule() {

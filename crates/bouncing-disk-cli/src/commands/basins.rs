@@ -94,7 +94,7 @@ pub(crate) struct BasinsJob {
 /// How near an impact must come to an orbit of a drive that is no sine (rad).
 const RADIUS: f64 = 1e-3;
 
-/// Impacts and platform periods of the orbits that are looked for on such a drive, and starts along each axis.
+/// Most impacts and platform periods of an orbit on such a drive, and starts along each axis.
 const LONGEST: usize = 8;
 const ORBIT_STARTS: u32 = 32;
 
