@@ -502,44 +502,6 @@ fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
     assert!(worst < 1e-12, "{worst:e}");
 }
 
-/// Least times of rounds by turns, of the same launches: for the record in docs/numerics/drives.md.
-#[test]
-#[ignore = "prints times"]
-fn drive_costs() {
-    let mut random = SplitMix::new(99);
-    let p = 1.8;
-    let launches: Vec<_> = (0..20_000)
-        .map(|_| Launch::new(Phase::new(random.angle()).unwrap(), 6.0 * random.unit()).unwrap())
-        .collect();
-    let vibration = Vibration::new(p).unwrap();
-    let samples: Vec<_> = (0..16_384).map(|k| p * libm::sin(f64::from(k) / 16_384.0 * TAU)).collect();
-    let drives = [
-        ("one harmonic", Drive::fourier(&[(p, 0.0)]).unwrap()),
-        ("three harmonics", Drive::fourier(&[(p, 0.0), (0.2, 1.0), (0.1, 2.0)]).unwrap()),
-        ("triangle", Drive::triangle(p).unwrap()),
-        ("parabolas", Drive::parabolas(p).unwrap()),
-        ("cubics", Drive::cubics(p).unwrap()),
-        ("16,384 samples", Drive::sampled(&samples).unwrap()),
-    ];
-    let mut least = [f64::INFINITY; 7];
-    let mut sum = 0.0;
-    for _ in 0..20 {
-        let mut time = |index: usize, impact: &dyn Fn(Launch) -> f64| {
-            let start = std::time::Instant::now();
-            sum += launches.iter().map(|&launch| impact(launch)).sum::<f64>();
-            least[index] = least[index].min(start.elapsed().as_secs_f64() / launches.len() as f64);
-        };
-        time(0, &|launch| vibration.first_impact(launch).unwrap().velocity);
-        for (index, (_, drive)) in (1..).zip(&drives) {
-            time(index, &|launch| drive.first_impact(launch).unwrap().impact.velocity);
-        }
-    }
-    println!("the sine: {:.1} ns ({sum})", least[0] * 1e9);
-    for ((name, _), time) in drives.iter().zip(&least[1..]) {
-        println!("{name}: {:.1} ns, {:.2} times the sine", time * 1e9, time / least[0]);
-    }
-}
-
 /// A flight that is interrupted at a random time goes on to the same impact, also as a disk in the air.
 #[test]
 fn an_interrupted_flight_lands_at_the_same_place() {
