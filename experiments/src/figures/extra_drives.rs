@@ -417,8 +417,13 @@ mod tests {
                 rises(&spline.first) && rises(&cubic.first),
             ),
         ];
-        for (found, holds) in rows {
-            let row = format!("| {found} | {} |", if holds { "reproduced" } else { "not reproduced" });
+        for (index, (found, holds)) in rows.into_iter().enumerate() {
+            let verdict = match (holds, index) {
+                (false, _) => "not reproduced",
+                (true, 4) => "by our curve; theirs is not accessible",
+                (true, _) => "reproduced",
+            };
+            let row = format!("| {found} | {verdict} |");
             assert!(PAGE.contains(&row), "{row}");
         }
     }

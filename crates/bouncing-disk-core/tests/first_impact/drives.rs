@@ -482,12 +482,19 @@ fn drive_campaign() {
 fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
     let mut random = SplitMix::new(51);
     let mut worst = 0.0_f64;
-    for _ in 0..200_000 {
+    let seams = [0.0, f64::MIN_POSITIVE, TAU.next_down(), 0.25 * TAU, 0.5 * TAU, 0.75 * TAU];
+    for k in 0..1_000_000 {
         let peak = libm::exp10(3.0 * random.unit() - 1.0);
         let vibration = Vibration::new(peak).unwrap();
         let drive = Drive::fourier(&[(peak, 0.0)]).unwrap();
-        let phase = Phase::new(random.angle()).unwrap();
-        let speed = (1.0 + peak) * 3.0 * random.unit() * libm::exp10(-6.0 * random.unit());
+        let separation = vibration.separation_phase().map_or(0.0, |phase| phase.angle());
+        let phase = match k % 4 {
+            0 => *seams.get(random.below(7)).unwrap_or(&separation),
+            _ => random.angle(),
+        };
+        let phase = Phase::new(phase).unwrap();
+        let decades = if k % 16 == 1 { 250.0 } else { 6.0 };
+        let speed = (1.0 + peak) * 3.0 * random.unit() * libm::exp10(-decades * random.unit());
         let launch = Launch::new(phase, speed).unwrap();
         let sine = vibration.first_impact(launch).unwrap();
         let sum = drive.first_impact(launch).unwrap();
@@ -495,7 +502,8 @@ fn a_sine_as_a_fourier_sum_lands_where_the_sine_does() {
         let legal = 1e-12 * sine.duration() + 4.0 * sum.error;
         assert!(apart <= legal, "{peak} {phase:?} {speed:e}: {sine:?} {sum:?}");
         assert_eq!(sum.impact.turns, sine.turns);
-        if sine.velocity < -1e-3 {
+        // A slow impact is as uncertain as the heights over its speed.
+        if sine.velocity < -1e-3 * (1.0 + peak) {
             worst = worst.max(apart / sine.duration());
         }
     }

@@ -15,6 +15,9 @@ use crate::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle}
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
+/// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole.
+const BRIEF: f64 = 2.0;
+
 /// The first impact on a [`Drive`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -145,10 +148,7 @@ impl Drive {
         let radicand = speed * speed - 2.0 * depth;
         let fall = if radicand > 0.0 { radicand.sqrt() } else { 0.0 };
         // When the disk rises above all heights of the platform, and when it is back.
-        let (up, down) = if start.gap == 0.0 && depth <= 0.0 && speed < 1.0 {
-            // The platform stands still: a brief flight is followed from its start.
-            (f64::INFINITY, f64::INFINITY)
-        } else if depth <= 0.0 {
+        let (mut up, down) = if depth <= 0.0 {
             (0.0, if speed >= 0.0 { speed + fall } else { -2.0 * depth / (fall - speed) })
         } else if speed > 0.0 && radicand > 0.0 {
             (2.0 * depth / (speed + fall), speed + fall)
@@ -161,6 +161,10 @@ impl Drive {
                 duration: down,
                 limit: MAX_FLIGHT_DURATION,
             });
+        }
+        if start.gap == 0.0 && down < BRIEF {
+            // From the start on it keeps its relative accuracy.
+            up = f64::INFINITY;
         }
         let mut found = Found::default();
         if up > 0.0 {
