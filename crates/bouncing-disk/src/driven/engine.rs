@@ -198,8 +198,13 @@ impl DrivenEngine {
             let parted = gap > rounding
                 || velocity.abs()
                     > 4.0 * f64::EPSILON * (state.axial_velocity.abs() + platform.axial_velocity.abs());
-            let (gap, velocity) = if parted { (gap.max(0.0), velocity) } else { (0.0, 0.0) };
-            self.take_off(gap, velocity);
+            if parted {
+                self.take_off(gap.max(0.0), velocity);
+            } else if self.system.height.impact_after_separation_within(self.now.at, f64::INFINITY).is_ok() {
+                self.stage = Stage::Separated;
+            } else {
+                self.put_down(None);
+            }
         } else {
             self.put_down(Some(state.mode));
         }
@@ -331,12 +336,15 @@ impl DrivenEngine {
         result
     }
 
-    /// Gives a flight that starts now another relative speed >= 0 (g/omega); does nothing at any other time.
+    /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
-        if matches!(self.stage, Stage::Separated) {
-            self.state.axial_velocity += speed;
-            self.stage = Stage::Flight { gap: 0.0, velocity: speed };
-        }
+        let velocity = match self.stage {
+            Stage::Separated => speed,
+            Stage::Flight { gap: 0.0, velocity } if velocity >= 0.0 => velocity + speed,
+            _ => return,
+        };
+        self.state.axial_velocity += speed;
+        self.stage = Stage::Flight { gap: 0.0, velocity };
     }
 
     fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<EventRecord>, Error> {

@@ -1,7 +1,7 @@
 //! Multiple tosses (Sec. IV): the orbit on which a motion settles, and its classification.
 
 use crate::display::numbers;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::chaos::{LyapunovEstimate, TangentGrowth};
@@ -252,11 +252,13 @@ impl Window {
             long_flights += usize::from(collision.time.since(&last).radians() > LONG_FLIGHT);
             last = collision.time;
         }
+        // Both separations are at one phase, but for its rounding.
+        let round = to.time.since(&from.time);
         let change = to.angular_speed - from.angular_speed;
         TossOrbit {
             class: OrbitClass::Chattering(ChatteringCycle {
                 impacts: cycle.len(),
-                platform_periods: to.time.since(&from.time).periods,
+                platform_periods: round.periods + u64::from(round.remainder > PI),
                 long_flights,
             }),
             mean_angular_speed: mean_speed((from.time, from.angle), (to.time, to.angle)),

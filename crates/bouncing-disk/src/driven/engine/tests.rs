@@ -150,6 +150,11 @@ proptest! {
             ] {
                 prop_assert!((entry - change).abs() <= ROUNDING * (1.0 + size), "{entry} {change} {record:?}");
             }
+            if record.event == Event::Separation {
+                let twin = DrivenEngine::of_state(system.clone(), record.time, record.after, policy);
+                let next = twin.expect("legal").advance().expect("no failure").expect("an event");
+                prop_assert!(matches!(next.event, Event::Impact { .. }), "{next:?} after {record:?}");
+            }
             let span = share * record.span.radians();
             let rest = twin.ledger_after(span);
             prop_assert!(rest.relative_closure() < ROUNDING, "{:e} {span} {before:?}", rest.relative_closure());
