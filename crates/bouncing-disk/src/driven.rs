@@ -34,7 +34,6 @@ use crate::error::Error;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
-use crate::parameters::platform::PlatformParameters;
 use crate::parameters::system::System;
 
 mod chatter;
@@ -81,13 +80,17 @@ impl DrivenSystem {
         })
     }
 
-    /// The system of a motor's disk on its stator, with the motor's phase lag.
-    pub(crate) fn of_stator(stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
-        let platform = stator.platform().parameters();
-        let lag = motor.platform().phase_lag();
-        let platform = PlatformParameters { phase_lag: lag, ..platform }.build()?;
-        let stator = DrivenPlatform::new(platform, stator.height().clone(), stator.angle().clone())?;
-        Self::new(&stator, motor.disk())
+    /// This system of a stator with the load, friction and phase lag of another motor on it.
+    pub(crate) fn for_motor(&self, stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
+        let own = motor.dimensionless();
+        let (lag, known) = (motor.platform().phase_lag(), stator.platform().phase_lag());
+        let angle = if lag.to_bits() == known.to_bits() {
+            self.angle.clone()
+        } else {
+            let amplitude = stator.platform().twist_amplitude() / motor.scales().angle;
+            stator.angle().track("angle", amplitude, lag)?
+        };
+        Ok(Self { angle, friction: own.friction(), load: own.load(), ..self.clone() })
     }
 
     /// The drive of the height.

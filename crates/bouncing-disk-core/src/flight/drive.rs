@@ -225,6 +225,19 @@ impl Drive {
     /// the first velocity times the span: both accurate relative to themselves in a short span.
     #[must_use]
     pub fn change(&self, time: f64, span: f64) -> (f64, f64) {
+        if span >= TAU && self.next_joint(time).is_some() {
+            // Each period changes both by as much again.
+            let periods = libm::floor(span / TAU);
+            let (velocity, height) = self.change_within(time, TAU);
+            let (more, lift) = self.change_within(time, span - periods * TAU);
+            let before = periods * velocity;
+            let ramp = TAU * velocity * 0.5 * periods * (periods - 1.0);
+            return (before + more, periods * height + ramp + (span - periods * TAU) * before + lift);
+        }
+        self.change_within(time, span)
+    }
+
+    fn change_within(&self, time: f64, span: f64) -> (f64, f64) {
         let (mut here, mut left, mut velocity, mut height) = (time, span, 0.0, 0.0);
         while left > 0.0 {
             let joint = self.next_joint(here);

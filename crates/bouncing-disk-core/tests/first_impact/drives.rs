@@ -645,3 +645,28 @@ fn changes_are_those_of_the_motion_and_keep_their_digits() {
         }
     }
 }
+
+/// Steep sawtooths: the times of their joints are rounded.
+#[test]
+fn sawtooths_of_any_rise_join_and_may_be_shifted() {
+    let mut random = SplitMix::new(98);
+    for rise in [1e-9, 1e-7, 1e-6, 5e-5, 1e-4, 0.3, 0.999_99, 1.0 - 1e-6] {
+        let amplitude = 1e-3;
+        let drive = Drive::sawtooth(amplitude, rise).unwrap();
+        for _ in 0..200 {
+            let shifted = drive.earlier(random.angle()).unwrap();
+            assert!(shifted.max_height() <= amplitude * (1.0 + 1e-4));
+        }
+    }
+}
+
+/// Over whole periods the changes repeat, but for the ramp of a velocity that kinks take back.
+#[test]
+fn changes_over_many_periods_are_those_of_one() {
+    let drive = Drive::pieces(&[(2.0, [0.0, 1.0, -0.5, 0.0]), (TAU - 2.0, [0.0; 4])]).unwrap();
+    let (velocity, height) = drive.change(0.5, TAU);
+    let (twice, higher) = drive.change(0.5, 2.0 * TAU);
+    assert!((twice - 2.0 * velocity).abs() < 1e-13 && velocity != 0.0);
+    assert!((higher - (2.0 * height + TAU * velocity)).abs() < 1e-12);
+    assert!(drive.change(0.5, 1e15).0.is_finite());
+}

@@ -123,7 +123,8 @@ impl DrivenSystem {
             return Ok(None);
         }
         // Each period takes the loss away: the first one in which the slip ends, by bisection.
-        let (mut lasts, mut ends) = (0.0, ceiling((speed / loss).min(1.0e18)).max(1.0));
+        let most = MAX_FLIGHT_DURATION / TAU + 2.0;
+        let (mut lasts, mut ends) = (0.0, ceiling((speed / loss).min(most)).max(1.0));
         while ends - lasts > 1.0 {
             let middle = lasts + ceiling(0.5 * (ends - lasts));
             let left = speed - middle * loss;
@@ -153,10 +154,10 @@ impl DrivenSystem {
         speed: f64,
         limit: f64,
     ) -> Result<Option<f64>, Error> {
-        let mut known = Some(speed);
+        let mut last = (at, 0.0, speed);
         self.first_fall(at, limit, |here, passed| {
-            // Carried from joint to joint by the closed form.
-            let value = known.take().unwrap_or_else(|| self.slip_after(direction, at, speed, passed));
+            let value = self.carried(direction, last, passed);
+            last = (here, passed, value);
             let ([rate, change], [doubt, _]) = self.growth(direction, here);
             if value <= 0.0 && (rate <= doubt && change <= 0.0 || rate < -doubt) {
                 return None;
@@ -180,8 +181,13 @@ impl DrivenSystem {
             + self.angle.derivative(order, here) * direction.sign()
     }
 
-    /// Slip speed after a slide of this `span`.
-    fn slip_after(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> f64 {
+    /// The slip speed when a time has passed, from the `last` place, the time passed there, and the speed.
+    fn carried(&self, direction: SlipDirection, last: (f64, f64, f64), passed: f64) -> f64 {
+        let (at, then, speed) = last;
+        let span = passed - then;
+        if span <= 0.0 {
+            return speed;
+        }
         let d = direction.sign();
         let (lifted, turned) = (self.height.change(at, span).0, self.angle.change(at, span).0);
         speed - ((self.friction + d * self.load) * span + self.friction * lifted + d * turned)
@@ -257,13 +263,15 @@ impl DrivenSystem {
     fn slide_work_within(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
         let number = self.height.highest_harmonic().max(self.angle.highest_harmonic());
         let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
+        let mut last = (at, 0.0, speed);
         while passed < span {
             let joint = self.next_joint(here);
             let left = span - passed;
             let stretch = joint.map_or(left, |joint| joint.after.min(left));
             // A rule of eight points is exact to rounding over one radian of the highest harmonic.
             let panels = whole(stretch * number) + 1.0;
-            let value = if passed > 0.0 { self.slip_after(direction, at, speed, passed) } else { speed };
+            let value = self.carried(direction, last, passed);
+            last = (here, passed, value);
             let (slip, force, carrier) = (
                 self.slip_from(direction, here, value, 0.0),
                 self.height.derivative(2, here) + 1.0,

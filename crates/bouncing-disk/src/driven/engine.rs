@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::ChatterPolicy;
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
-use bouncing_disk_core::flight::{ChatterDuration, TimeAhead};
+use bouncing_disk_core::flight::{ChatterDuration, MAX_FLIGHT_DURATION, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
 use super::{DrivenStart, DrivenSystem};
@@ -99,7 +99,7 @@ impl DrivenEngine {
         let mut engine = Self::begin(system, now, policy);
         engine.state.angular_speed = moderate("angular_speed", speed)?;
         match gap {
-            None => engine.put_down(None),
+            None => engine.put_down(None)?,
             Some(gap) => {
                 // The core checks the numbers of its flights.
                 engine.system.height().first_impact_within(now.at, gap, relative_velocity, 0.0)?;
@@ -198,27 +198,30 @@ impl DrivenEngine {
             let parted = gap > rounding
                 || velocity.abs()
                     > 4.0 * f64::EPSILON * (state.axial_velocity.abs() + platform.axial_velocity.abs());
+            let end = self.system.height.contact_end(self.now.at, f64::INFINITY)?;
+            let separates =
+                |end: TimeAhead| end.after <= JOINT * (1.0 + end.time) && end.velocity_jump == 0.0;
             if parted {
                 self.take_off(gap.max(0.0), velocity);
-            } else if self.system.height.impact_after_separation_within(self.now.at, f64::INFINITY).is_ok() {
+            } else if end.is_some_and(separates) {
                 self.stage = Stage::Separated;
             } else {
-                self.put_down(None);
+                self.put_down(None)?;
             }
         } else {
-            self.put_down(Some(state.mode));
+            self.put_down(Some(state.mode))?;
         }
         Ok(())
     }
 
     /// A disk that is put on the platform; one that moves with it within rounding keeps the `mode` it has
     /// had.
-    fn put_down(&mut self, mode: Option<Mode>) {
+    fn put_down(&mut self, mode: Option<Mode>) -> Result<(), Error> {
         let at = self.now.at;
         let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
         if !self.system.height.holds(at) {
             self.take_off(0.0, 0.0);
-            return;
+            return Ok(());
         }
         let speed = self.state.angular_speed;
         let pull = self.system.load.abs()
@@ -229,13 +232,14 @@ impl DrivenEngine {
         if moves_along {
             self.state.angular_speed = beta.velocity;
         }
-        self.land();
+        self.land()?;
         if let (true, Some(Mode::Sliding(direction)), Stage::Contact(contact)) =
             (moves_along, mode, &mut self.stage)
         {
             contact.slip = Some(direction);
             self.state.mode = Mode::Sliding(direction);
         }
+        Ok(())
     }
 
     fn take_off(&mut self, gap: f64, velocity: f64) {
@@ -246,14 +250,14 @@ impl DrivenEngine {
     }
 
     /// A disk that has come to rest on the platform, at its angular speed.
-    fn land(&mut self) {
+    fn land(&mut self) -> Result<(), Error> {
         let at = self.now.at;
         let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(at).velocity)
             .or_else(|| self.system.onset(at, None));
         self.state.mode = mode_of(slip);
-        // A contact without end, and one whose end cannot be found, is searched again at its event.
-        let end = self.system.height.contact_end(at, f64::INFINITY).unwrap_or(None);
+        let end = self.system.height.contact_end(at, f64::INFINITY)?;
         self.stage = Stage::Contact(Contact { slip, end });
+        Ok(())
     }
 
     /// The system.
@@ -285,9 +289,11 @@ impl DrivenEngine {
     }
 
     /// When, and the disk, `span` radians after the last event, if no event comes before. A chatter that is
-    /// being summed counts as rest.
+    /// being summed counts as rest. A negative span and NaN count as zero, a longer one than
+    /// [`MAX_FLIGHT_DURATION`] as that.
     #[must_use]
     pub fn state_after(&self, span: f64) -> (PhaseTime, DiskState) {
+        let span = legal_span(span);
         let to = self.later(span);
         let change = self.change(span, to.at);
         let mut state = self.drifted(span, to.at, change);
@@ -295,9 +301,10 @@ impl DrivenEngine {
         (self.record_time(to), state)
     }
 
-    /// The energy balance from the last event to `span` radians later, if no event comes before.
+    /// The energy balance from the last event to `span` radians later, as for [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, span: f64) -> EnergyLedger {
+        let span = legal_span(span);
         let at = self.later(span).at;
         self.ledger_of(span, at, self.change(span, at))
     }
@@ -322,11 +329,11 @@ impl DrivenEngine {
                     .map_err(Error::from)
             }
             Stage::Chatter { speed, chatter } if chatter.duration <= limit => {
-                Ok(Some(self.complete(speed, chatter)))
+                self.complete(speed, chatter).map(Some)
             }
             // What cannot be completed in time is followed impact by impact.
             Stage::Chatter { speed, .. } => self.fly(0.0, speed, limit),
-            Stage::Cut { speed, error } => Ok(Some(self.cut(speed, error))),
+            Stage::Cut { speed, error } => self.cut(speed, error).map(Some),
             Stage::Contact(contact) => self.touch(contact, limit),
             Stage::Ended => Ok(None),
         };
@@ -353,7 +360,7 @@ impl DrivenEngine {
         }
         if gap <= 0.0 && velocity == 0.0 && self.system.height.holds(self.now.at) {
             // At a joint a disk may fly at zero distance: it lies on the platform.
-            self.put_down(None);
+            self.put_down(None)?;
             return self.advance_within(limit);
         }
         let found = self.system.height.first_impact_within(self.now.at, gap, velocity, limit)?;
@@ -436,7 +443,7 @@ impl DrivenEngine {
     }
 
     /// The rest of a chatter.
-    fn complete(&mut self, launch: f64, chatter: ChatterDuration) -> EventRecord {
+    fn complete(&mut self, launch: f64, chatter: ChatterDuration) -> Result<EventRecord, Error> {
         let ChatterDuration { duration, error } = chatter;
         let to = self.later(duration);
         let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
@@ -456,14 +463,15 @@ impl DrivenEngine {
         ledger.record_rounding(self.system.height.bounds().speed, s.velocity);
         let event = Event::Attachment { impacts: rest.impacts, error_bound: error };
         let mut record = self.moved(duration, to, event, rest.angle, (before, after), ledger);
-        self.land();
+        self.land()?;
         record.after.mode = self.state.mode;
         record.segment.chatter_speed = Some(launch);
-        EventRecord { axial_impulse: rest.axial_impulse, angular_impulse: rest.angular_impulse, ..record }
+        let (axial_impulse, angular_impulse) = (rest.axial_impulse, rest.angular_impulse);
+        Ok(EventRecord { axial_impulse, angular_impulse, ..record })
     }
 
     /// A cut takes the rebound `speed` away.
-    fn cut(&mut self, speed: f64, error: f64) -> EventRecord {
+    fn cut(&mut self, speed: f64, error: f64) -> Result<EventRecord, Error> {
         let platform = self.system.height.at(self.now.at).velocity;
         let before = self.state;
         let after = DiskState { axial_velocity: platform, ..before };
@@ -472,18 +480,14 @@ impl DrivenEngine {
         record_jump(&mut ledger, &before, &after);
         let event = Event::Attachment { impacts: 0, error_bound: error };
         let mut record = self.moved(0.0, self.now, event, 0.0, (before, after), ledger);
-        self.land();
+        self.land()?;
         record.after.mode = self.state.mode;
-        EventRecord { axial_impulse: -speed, ..record }
+        Ok(EventRecord { axial_impulse: -speed, ..record })
     }
 
     /// A disk on the platform, to the next event.
     fn touch(&mut self, contact: Contact, limit: f64) -> Result<Option<EventRecord>, Error> {
         let at = self.now.at;
-        if contact.end.is_none() {
-            // An error of the search for it.
-            self.system.height.contact_end(at, f64::INFINITY)?;
-        }
         let ends = contact.end.map_or(f64::INFINITY, |end| end.after);
         let kink = self.system.angle.next_kink(at).filter(|kink| kink.after < ends);
         let to = limit.min(ends).min(kink.map_or(f64::INFINITY, |kink| kink.after));
@@ -710,6 +714,10 @@ impl DrivenEngine {
             PhaseTime { periods: clock.periods, phase: phase_at(wrapped_angle(clock.at)) }
         }
     }
+}
+
+const fn legal_span(span: f64) -> f64 {
+    if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 }
 }
 
 const fn mode_of(slip: Option<SlipDirection>) -> Mode {

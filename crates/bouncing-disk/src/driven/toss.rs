@@ -6,7 +6,7 @@ use bouncing_disk_core::{ChatterPolicy, DrivenMap, ImpactState, Observer, Phase}
 
 use super::engine::DrivenEngine;
 use super::{DrivenStart, DrivenSystem};
-use crate::error::Error;
+use crate::error::{Error, check};
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::Event;
 use crate::parameters::disk::Disk;
@@ -15,13 +15,15 @@ use crate::toss::collisions::Collisions;
 use crate::toss::multiple::{VerticalMap, settle};
 use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 
-/// Most events without a departure after which a disk counts as one that never leaves.
+/// Most events without a departure after which a disk counts as one that never leaves: without restitution it
+/// may be hit at each kink for ever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
 /// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it.
 ///
 /// # Errors
-/// [`Error::NeverLeaves`] if it stays on the hand; those of [`DrivenSystem::new`].
+/// [`Error::NeverLeaves`] if it stays on the hand; [`Error::OutOfRange`] for a phase at which the hand already
+/// falls away; those of [`DrivenSystem::new`].
 pub fn single_toss(
     platform: &DrivenPlatform,
     disk: &Disk,
@@ -38,7 +40,14 @@ pub fn single_toss(
     let rim_speed = disk.gyration_radius() * angular_speed * scales.angular_speed;
     let start = DrivenStart::Contact { phase, angular_speed };
     let mut ledger = EnergyLedger::default();
-    for record in DrivenEngine::new(system, start, ChatterPolicy::Complete)?.take(MOST_CONTACT_EVENTS) {
+    let engine = DrivenEngine::new(system, start, ChatterPolicy::Complete)?;
+    check(
+        !engine.launches(),
+        "phase of the start",
+        phase.angle(),
+        "one at which the hand does not fall away",
+    )?;
+    for record in engine.take(MOST_CONTACT_EVENTS) {
         let record = record?;
         ledger += record.ledger;
         let kicked = matches!(record.event, Event::Kick { .. }) && disk.restitution() > 0.0;
@@ -109,6 +118,9 @@ mod tests {
             near(toss.speed_ratio.expect("turns"), known.speed_ratio.expect("turns"));
         }
         let still = system.with_platform(|hand| hand.amplitude = 0.01).expect("legal");
+        let crest = Phase::new(1.5).expect("finite");
+        let late = single_toss(&(*system.platform()).into(), system.disk(), crest, InitialSpin::AbsoluteRest);
+        assert!(matches!(late, Err(Error::OutOfRange { field: "phase of the start", .. })), "{late:?}");
         let stays = single_toss(&(*still.platform()).into(), still.disk(), start, InitialSpin::AbsoluteRest);
         assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
     }

@@ -41,6 +41,7 @@ use crate::parameters::system::System;
 pub struct DrivenMotor {
     motor: Motor,
     stator: DrivenPlatform,
+    system: DrivenSystem,
     /// The sine with the same largest speeds.
     bound: System,
 }
@@ -51,14 +52,17 @@ impl DrivenMotor {
     /// # Errors
     /// Those of [`DrivenPlatform::new`] and [`DrivenSystem::new`].
     pub fn new(motor: Motor, height: Waveform, angle: Waveform) -> Result<Self, Error> {
-        let system = motor.system();
-        let stator = DrivenPlatform::new(*system.platform(), height, angle)?;
-        let (driven, scales) = (DrivenSystem::new(&stator, system.disk())?, system.scales());
-        let bound = system.with_platform(|platform| {
-            platform.amplitude = driven.height().bounds().speed * scales.length;
-            platform.twist_amplitude = driven.angle().bounds().speed * scales.angle;
+        Self::on(motor, DrivenPlatform::new(*motor.system().platform(), height, angle)?)
+    }
+
+    fn on(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
+        let system = DrivenSystem::new(&stator, motor.system().disk())?;
+        let scales = motor.system().scales();
+        let bound = motor.system().with_platform(|platform| {
+            platform.amplitude = system.height().bounds().speed * scales.length;
+            platform.twist_amplitude = system.angle().bounds().speed * scales.angle;
         })?;
-        Ok(Self { motor, stator, bound })
+        Ok(Self { motor, stator, system, bound })
     }
 
     /// The motor with the drive of a file.
@@ -66,8 +70,7 @@ impl DrivenMotor {
     /// # Errors
     /// Those of [`Self::new`]; [`Error::ScheduledDrive`] where the motion is a schedule.
     pub fn of_drive(motor: Motor, drive: &DriveParameters) -> Result<Self, Error> {
-        let stator = DrivenPlatform::of_drive(*motor.system().platform(), drive)?;
-        Self::new(motor, stator.height().clone(), stator.angle().clone())
+        Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }
 
     /// The data sheet.
@@ -83,7 +86,8 @@ impl DrivenMotor {
     }
 
     fn loaded(&self) -> LoadedMotor<'_> {
-        LoadedMotor { system: self.bound, stator: Some(&self.stator), ..LoadedMotor::of(&self.motor) }
+        let stator = Some((&self.stator, &self.system));
+        LoadedMotor { system: self.bound, stator, ..LoadedMotor::of(&self.motor) }
     }
 
     /// As [`Motor::torque_speed_curve`]; a curve costs as much as its points.
@@ -166,7 +170,7 @@ impl DrivenMotor {
         let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
         let mut work = watch.work();
         let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
-        let mut engine = DrivenEngine::new(DrivenSystem::new(&self.stator, rotor)?, start, settings.policy)?;
+        let mut engine = DrivenEngine::new(self.system.clone(), start, settings.policy)?;
         engine.with_energy = false;
         let mut bins = Bins::new(settings.duration, settings.intervals)?;
         let mut generator = SplitMix64::new(settings.seed);

@@ -237,11 +237,21 @@ impl Window {
     ) -> Result<TossOrbit, Error> {
         // How far angular speeds may differ that count as the same.
         let near = settings.tolerance * (1.0 + twist_speed);
-        if let [.., from, to] = self.leavings[..] {
+        if let Some((from, to)) = self.cycle(settings.tolerance) {
             return Ok(self.chattering(near, from, to));
         }
         let periodic = if self.attached { None } else { self.periodic(map, near, settings) };
         periodic.map_or_else(|| self.without_period(map, settings, work), Ok)
+    }
+
+    /// The last separation, and the one before it at the same phase: on a drive there may be others between.
+    fn cycle(&self, tolerance: f64) -> Option<(Leaving, Leaving)> {
+        let (to, before) = self.leavings.split_last()?;
+        let same = |from: &&Leaving| {
+            let apart = (from.time.phase.angle() - to.time.phase.angle()).abs();
+            apart.min(TAU - apart) <= tolerance
+        };
+        before.iter().rev().find(same).map(|from| (*from, *to))
     }
 
     fn chattering(self, near: f64, from: Leaving, to: Leaving) -> TossOrbit {
@@ -252,7 +262,6 @@ impl Window {
             long_flights += usize::from(collision.time.since(&last).radians() > LONG_FLIGHT);
             last = collision.time;
         }
-        // Both separations are at one phase, but for its rounding.
         let round = to.time.since(&from.time);
         let change = to.angular_speed - from.angular_speed;
         TossOrbit {

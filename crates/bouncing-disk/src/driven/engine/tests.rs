@@ -1,3 +1,4 @@
+use bouncing_disk_core::Drive;
 use proptest::prelude::*;
 
 use super::*;
@@ -298,5 +299,57 @@ fn bad_starts_and_states_are_refused_by_name() {
     ] {
         let refused = DrivenEngine::of_state(system.clone(), time, state, policy).expect_err("refused");
         assert!(refused.to_string().contains(words), "{refused}");
+    }
+}
+
+/// It looked for the period of the end among numbers that doubles do not count one by one.
+#[test]
+fn a_slip_that_friction_hardly_ends_is_too_long() {
+    let system = DrivenSystem {
+        height: Drive::fourier(&[(0.5, 0.0)]).expect("legal"),
+        angle: Drive::fourier(&[(0.1, 0.0)]).expect("legal"),
+        friction: 0.3,
+        restitution: 0.5,
+        load: -0.299_999_999_999_999_93,
+    };
+    let start = DrivenStart::Contact {
+        phase: bouncing_disk_core::Phase::new(0.0).expect("finite"),
+        angular_speed: 10.0,
+    };
+    let mut engine = DrivenEngine::new(system, start, ChatterPolicy::Complete).expect("legal");
+    assert!(matches!(engine.advance(), Err(Error::SlipTooLong { .. })));
+    assert!(matches!(engine.advance(), Ok(None)));
+}
+
+/// Where the platform presses, a disk that moves with it lies on it, whatever its state says.
+#[test]
+fn a_state_of_flight_at_the_platform_is_one_of_contact() {
+    for height in [Waveform::Parabolas, Waveform::Sine] {
+        let height = height.track("height", 1.5, 0.0).expect("legal");
+        let system = DrivenSystem {
+            angle: Drive::fourier(&[]).expect("legal"),
+            height,
+            friction: 0.3,
+            restitution: 0.5,
+            load: 0.0,
+        };
+        let phase = phase_at(1.5 * std::f64::consts::PI);
+        let at = system.height.at(phase.angle());
+        let state = DiskState {
+            mode: Mode::Flight,
+            height: at.height,
+            axial_velocity: at.velocity,
+            angle: 0.0,
+            angular_speed: 0.0,
+        };
+        let time = PhaseTime::in_first_period(phase);
+        let mut engine = DrivenEngine::of_state(system, time, state, ChatterPolicy::Complete).expect("legal");
+        assert_eq!(engine.state().mode, Mode::Sticking);
+        let next = engine.advance().expect("no failure").expect("leaves");
+        assert!(next.event == Event::Separation && next.span.radians() > 0.1, "{next:?}");
+        // Spans that are none count as zero, and too long ones end.
+        for span in [f64::NAN, -1.0, f64::INFINITY] {
+            assert!(engine.state_after(span).1.height.is_finite());
+        }
     }
 }

@@ -51,8 +51,9 @@ const STORED_SHARE: f64 = 0.05;
 pub(crate) struct LoadedMotor<'a> {
     /// On a stator that moves in another way, the sine with the same largest speeds.
     pub(crate) system: System,
-    /// How the stator moves, if not by Eq. (1): its phase lag is that of the system.
-    pub(crate) stator: Option<&'a DrivenPlatform>,
+    /// How the stator moves, if not by Eq. (1), and its system without a load: the phase lag is that of
+    /// `system`.
+    pub(crate) stator: Option<(&'a DrivenPlatform, &'a DrivenSystem)>,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
@@ -220,7 +221,7 @@ impl<'a> Run<'a> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
         let driven = motors
             .iter()
-            .filter_map(|motor| Some(DrivenSystem::of_stator(motor.stator?, &motor.system)))
+            .filter_map(|motor| motor.stator.map(|(stator, own)| own.for_motor(stator, &motor.system)))
             .collect::<Result<Vec<_>, Error>>()?;
         let members = (0..settings.members)
             .map(|index| Ok((Member::new(&systems, &driven, asked, index, settings)?, Vec::new())))
