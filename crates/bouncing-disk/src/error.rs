@@ -150,7 +150,7 @@ pub enum Error {
     DriveNotSine,
     /// A schedule in place of a periodic motion.
     #[error(
-        "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or compute a toss"
+        "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"
     )]
     ScheduledDrive,
     /// The segments of a schedule do not join.

@@ -94,9 +94,8 @@ pub(crate) struct BasinsJob {
 /// How near an impact must come to an orbit of a drive that is no sine (rad).
 const RADIUS: f64 = 1e-3;
 
-/// Most impacts and platform periods of an orbit on such a drive, and starts along each axis.
+/// Most impacts and platform periods of an orbit on such a drive.
 const LONGEST: usize = 8;
-const ORBIT_STARTS: u32 = 32;
 
 /// What impacts lead to.
 pub(crate) enum Known {
@@ -144,7 +143,9 @@ impl GridJob for BasinsJob {
             return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
         }
         let map = driven_map(&self.drive, self.axial_forcing, self.restitution)?;
-        let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(ORBIT_STARTS, ORBIT_STARTS)?;
+        // As many starts, on a square.
+        let side = self.search.starts().isqrt();
+        let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(side, side)?;
         let orbits = map.periodic_orbits(&search, &silent)?;
         let stable = orbits.into_iter().filter(|orbit| orbit.stability() == Stability::Stable);
         let known = stable.map(|orbit| KnownOrbit::new(orbit, RADIUS)).collect::<Result<_, _>>()?;

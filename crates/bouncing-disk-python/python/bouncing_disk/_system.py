@@ -128,12 +128,13 @@ class Drive:
     """How a platform moves in place of the sine: the table ``[drive]`` of the command line's files.
 
     A shape multiplies the amplitude of the platform: ``"sine"``, ``"triangle"``, ``"parabolas"``, ``"cubics"``, or a
-    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. It is checked as the object is made.
+    dictionary of one item, ``sawtooth``, ``fourier``, ``pieces`` or ``sampled``. The shapes are checked as the object is made.
 
     Args:
         height, angle: the shapes; the angle is the phase lag earlier.
-        start_phase, segments, then: a schedule: where it starts (rad); dictionaries of ``periods``, ``amplitude``,
-            ``ramp_to``, ``frequency`` and ``lag``; ``"repeat"`` the last one, or ``"rest"``.
+        start_phase, segments, then: a schedule for files of the command line; the calls of this package refuse it.
+            Where it starts (rad); dictionaries of ``periods``, ``amplitude``, ``ramp_to``, ``frequency`` and ``lag``;
+            ``"repeat"`` the last one, or ``"rest"``.
 
     >>> import bouncing_disk as bd
     >>> bd.Drive.sawtooth(0.3)

@@ -52,6 +52,9 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     };
     // The spread, as the regime, is the sine's.
     let tolerance = args.spread.tolerance().filter(|_| drive.is_sine());
+    if tolerance.is_none() && args.spread.tolerance().is_some() {
+        context.note("no spread over the tolerances: it is computed for the sine only");
+    }
     let spreads = match &tolerance {
         Some(tolerance) => {
             let watch = context.watch("motor curve: spread");
