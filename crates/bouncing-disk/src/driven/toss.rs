@@ -92,7 +92,7 @@ impl VerticalMap for DrivenMap {
 
 #[cfg(test)]
 mod tests {
-    use bouncing_disk_core::Unobserved;
+    use bouncing_disk_core::{Drive, Unobserved};
 
     use super::*;
     use crate::System;
@@ -179,5 +179,38 @@ mod tests {
             assert!((speeds[0] - speeds[1]).abs() < 1e-8, "{speeds:?}");
         }
         assert!(periodic > 2 && chattering > 2, "{periodic} {chattering}");
+    }
+
+    /// On a second harmonic alone the disk leaves the hand twice in a period, at two phases.
+    #[test]
+    fn a_cycle_is_from_a_separation_to_the_next_one_at_its_phase() {
+        let settings = MultiTossSettings {
+            transient_impacts: 200,
+            examined_impacts: 64,
+            ..MultiTossSettings::default()
+        };
+        let system = DrivenSystem {
+            height: Drive::fourier(&[(0.0, 0.0), (0.3, 0.0)]).expect("legal"),
+            angle: Drive::fourier(&[(0.5, 0.3)]).expect("legal"),
+            friction: 0.4,
+            restitution: 0.05,
+            load: 0.0,
+        };
+        let phase = Phase::new(0.0).expect("finite");
+        let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
+        let orbit = multi_toss(system.clone(), start, &settings, &Unobserved).expect("no failure");
+        let OrbitClass::Chattering(cycle) = orbit.class else { panic!("{:?}", orbit.class) };
+        assert_eq!(cycle.platform_periods, 1);
+        // The angle turned in the cycle, whose separations are at one phase.
+        let mut engine = DrivenEngine::new(system, start, settings.policy).expect("legal");
+        let mut leavings = Vec::new();
+        while leavings.len() < 402 {
+            let record = engine.advance().expect("no failure").expect("goes on");
+            if record.event == Event::Separation {
+                leavings.push(record.after.angle);
+            }
+        }
+        let mean = (leavings[401] - leavings[399]) / std::f64::consts::TAU;
+        assert!((orbit.mean_angular_speed.expect("it moves") - mean).abs() < 1e-9, "{orbit:?} {mean}");
     }
 }

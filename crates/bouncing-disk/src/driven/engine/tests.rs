@@ -254,6 +254,10 @@ fn kinks_leave_hit_and_turn_as_derived_by_hand() {
         DrivenEngine::new(system.clone(), start(0.0, b), ChatterPolicy::Complete).expect("legal");
     let parted = engine.advance().expect("no failure").expect("an event");
     assert!(parted.event == Event::Separation && near(parted.span.radians(), quarter), "{parted:?}");
+    let mut faster = engine.clone();
+    faster.perturb_launch(0.1);
+    let later = faster.advance().expect("no failure").expect("an event");
+    assert!(near(later.span.radians(), 4.0 * u + 0.2), "{later:?}");
     let landed = engine.advance().expect("no failure").expect("an event");
     let Event::Impact { axial_impact_velocity, .. } = landed.event else { panic!("{landed:?}") };
     assert!(near(landed.span.radians(), 4.0 * u) && near(axial_impact_velocity, -2.0 * u), "{landed:?}");
