@@ -267,9 +267,12 @@ mod tests {
         let curve = driven.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
         let known = calm.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");
         for (own, known) in curve.iter().zip(&known) {
-            let (own, known) = (own.steady().expect("known").speed, known.steady().expect("known").speed);
-            let error = own.standard_error + known.standard_error;
-            assert!((own.value - known.value).abs() < 3.0 * error, "{own:?} {known:?}");
+            let (own, known) = (own.steady().expect("known"), known.steady().expect("known"));
+            let error = own.speed.standard_error + known.speed.standard_error;
+            assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
+            let loss = known.friction_loss.value;
+            assert!((own.friction_loss.value - loss).abs() < 1e-6 * loss, "{own:?} {known:?}");
+            assert!(own.energy_residual < 1e-9, "{own:?}");
         }
     }
 }
