@@ -161,8 +161,10 @@ impl<'a> Diagram<'a> {
 
     fn draw(self) -> Figure {
         let DiagramJob { axial_forcings, restitution, starts, drive, .. } = self.job;
-        let named = |start: &Start| (start.in_words() + &and_shape(drive), Vec::new());
-        let mut starts: Vec<OrbitsFrom> = starts.iter().map(named).collect();
+        // The shape once: the names stand side by side.
+        let shape = |index: usize| if index == 0 { and_shape(drive) } else { String::new() };
+        let named = |(index, start): (usize, &Start)| (start.in_words() + &shape(index), Vec::new());
+        let mut starts: Vec<OrbitsFrom> = starts.iter().enumerate().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
             starts[start].1.push((forcing, phase, speed));
         }

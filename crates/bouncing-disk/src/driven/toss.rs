@@ -19,7 +19,9 @@ use crate::toss::{InitialSpin, MultiTossSettings, TossOrbit, TossPerformance};
 /// may be hit at each kink for ever.
 const MOST_CONTACT_EVENTS: usize = 10_000;
 
-/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it.
+/// The toss of a disk that lies on the hand at `phase`, until the hand falls away from it or a kink throws it. Where
+/// the hand moves at `phase`, it has given the disk its velocity; the speed ratio is to omega Phi, whatever the
+/// waveform.
 ///
 /// # Errors
 /// [`Error::NeverLeaves`] if it stays on the hand; [`Error::OutOfRange`] for a phase at which the hand already
@@ -32,14 +34,17 @@ pub fn single_toss(
 ) -> Result<TossPerformance, Error> {
     let (system, scales) = (DrivenSystem::new(platform, disk)?, platform.scales(disk));
     let peak_acceleration = system.height().bounds().acceleration;
-    let peak = system.angle().bounds().speed * scales.angular_speed;
+    let peak = platform.platform().peak_angular_speed();
+    let start = system.height().at(phase.angle());
     let angular_speed = match initial {
         InitialSpin::AbsoluteRest => 0.0,
         InitialSpin::RestRelativeToHand => system.angle().velocity(phase.angle()),
     };
     let rim_speed = disk.gyration_radius() * angular_speed * scales.angular_speed;
-    let start = DrivenStart::Contact { phase, angular_speed };
     let mut ledger = EnergyLedger::default();
+    ledger.record_normal(0.5 * start.velocity * start.velocity, 0.0);
+    ledger.record_axial_change([0.0, start.velocity], [start.height; 2]);
+    let start = DrivenStart::Contact { phase, angular_speed };
     let engine = DrivenEngine::new(system, start, ChatterPolicy::Complete)?;
     check(
         !engine.launches(),
@@ -96,6 +101,7 @@ mod tests {
 
     use super::*;
     use crate::System;
+    use crate::parameters::driven_platform::Waveform;
     use crate::toss::chattering_cycle::LOCKED_FLIGHTS;
     use crate::toss::{OrbitClass, TOSS_START};
 
@@ -123,6 +129,25 @@ mod tests {
         assert!(matches!(late, Err(Error::OutOfRange { field: "phase of the start", .. })), "{late:?}");
         let stays = single_toss(&(*still.platform()).into(), still.disk(), start, InitialSpin::AbsoluteRest);
         assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
+    }
+
+    /// By hand, on straight lines: 2 omega Phi/pi and 2 omega A/pi, by the work of both and of the lift.
+    #[test]
+    fn the_toss_of_a_triangle_is_as_derived_by_hand() {
+        let system = System::pizza_toss();
+        let triangle = Waveform::Triangle;
+        let hand = DrivenPlatform::new(*system.platform(), triangle.clone(), triangle).expect("legal");
+        let start = Phase::new(TOSS_START).expect("finite");
+        let toss = single_toss(&hand, system.disk(), start, InitialSpin::AbsoluteRest).expect("leaves");
+        let share = std::f64::consts::FRAC_2_PI;
+        let hand = system.platform();
+        let speed = share * hand.angular_frequency() * hand.amplitude();
+        near(toss.launch_speed, speed);
+        near(toss.speed_ratio.expect("turns"), share);
+        let rim_speed = system.disk().gyration_radius() * share * hand.peak_angular_speed();
+        let (rotary, lift) = (0.5 * rim_speed * rim_speed, 2.0 * hand.amplitude());
+        let axial = 0.5 * speed * speed + system.disk().preload_acceleration() * lift;
+        near(toss.efficiency, rotary / (rotary + axial + toss.energy.friction_loss));
     }
 
     /// A periodic orbit, a chattering one and a disk at rest.

@@ -24,10 +24,12 @@ pub enum Waveform {
     Sine,
     /// The sum of a_j sin(j tau + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most
     /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "read::harmonics"))]
     Fourier(Vec<(f64, f64)>),
     /// Pieces (duration, [c0, c1, c2, c3]), one after the other, each c0 + c1 x + c2 x^2 + c3 x^3 from its own
     /// start: x and the durations in periods, which sum to 1. The height must be continuous; the velocity may
     /// jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "read::pieces"))]
     Pieces(Vec<(f64, [f64; 4])>),
     /// The periodic cubic spline through at least 3 samples at equal distances over one period.
     Sampled(Vec<f64>),
@@ -40,6 +42,41 @@ pub enum Waveform {
     Parabolas,
     /// The sine replaced by one cubic for each quarter of the period: the spline through its zeros and extremes.
     Cubics,
+}
+
+/// Lists of lists: a tuple would ignore what a file has too much.
+#[cfg(feature = "serde")]
+mod read {
+    use serde::de::{Deserialize, Deserializer, Error};
+
+    #[derive(serde::Deserialize)]
+    #[serde(untagged)]
+    enum Item {
+        Number(f64),
+        Numbers(Vec<f64>),
+    }
+
+    pub(super) fn harmonics<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, f64)>, D::Error> {
+        let of_one = |(index, own): (usize, Vec<f64>)| match own[..] {
+            [amplitude, angle] => Ok((amplitude, angle)),
+            _ => Err(D::Error::custom(format!("harmonic number {index} is not [amplitude, phase]"))),
+        };
+        Vec::deserialize(from)?.into_iter().enumerate().map(of_one).collect()
+    }
+
+    pub(super) fn pieces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, [f64; 4])>, D::Error> {
+        let of_one = |(index, own): (usize, Vec<Item>)| match &own[..] {
+            [Item::Number(duration), Item::Numbers(given)] if given.len() <= 4 => {
+                let mut coefficients = [0.0; 4];
+                coefficients[..given.len()].copy_from_slice(given);
+                Ok((*duration, coefficients))
+            }
+            _ => Err(D::Error::custom(format!(
+                "piece number {index} is not [duration, [c0, c1, c2, c3]]; the last coefficients may be left out"
+            ))),
+        };
+        Vec::deserialize(from)?.into_iter().enumerate().map(of_one).collect()
+    }
 }
 
 impl Display for Waveform {
@@ -377,6 +414,20 @@ mod tests {
         assert_eq!(DrivenPlatform::of_drive(hand(), &drive), Err(Error::ScheduledDrive));
         let again = serde_json::to_string(&drive).expect("written");
         assert_eq!(serde_json::from_str::<DriveParameters>(&again).expect("read"), drive);
+        let pieces = "height = { pieces = [[0.5, [0.0, 1.0]], [0.5, [0.5, -1]]] }";
+        let drive: DriveParameters = toml::from_str(pieces).expect("legal");
+        assert_eq!(
+            drive.height,
+            Waveform::Pieces(vec![(0.5, [0.0, 1.0, 0.0, 0.0]), (0.5, [0.5, -1.0, 0.0, 0.0])])
+        );
+        for (text, words) in [
+            (text.replace("[1, 0.0]", "[1, 0.0, 7.0]"), "harmonic number 0 is not"),
+            (pieces.replace("-1]", "-1, 0, 0, 9]"), "piece number 1 is not"),
+            (pieces.replace("]]]", "], 3]]"), "piece number 1 is not"),
+        ] {
+            let refused = toml::from_str::<DriveParameters>(&text).expect_err("refused").to_string();
+            assert!(refused.contains(words), "{refused}");
+        }
         for (from, to) in [("angle", "angel"), ("lag", "leg"), ("triangle", "triangel")] {
             let refused =
                 toml::from_str::<DriveParameters>(&schedule.replace(from, to)).expect_err("refused");

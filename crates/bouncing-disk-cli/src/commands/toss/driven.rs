@@ -101,7 +101,8 @@ fn sampled(mut now: ScheduledEngine, end: f64, count: usize) -> Result<(Vec<Impa
     let mut next = now.clone();
     let mut coming = next.advance()?;
     for instant in 0..count {
-        let time = end * instant as f64 / (count - 1) as f64;
+        // The last one is the end itself, not a rounding before.
+        let time = if instant + 1 < count { end * instant as f64 / (count - 1) as f64 } else { end };
         while let Some(ScheduledRecord { segment, time: time_s, record }) =
             coming.filter(|own| own.time <= time)
         {
