@@ -11,6 +11,7 @@ use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, moderate};
 use crate::motion::contact_motion::SAME_SPEED;
 use crate::motion::energy::EnergyLedger;
+use crate::motion::engine::record_jump;
 use crate::motion::event::{Event, EventRecord, Motion};
 use crate::motion::impact::rebound_velocity;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime, phase_at};
@@ -725,12 +726,6 @@ const fn mode_of(slip: Option<SlipDirection>) -> Mode {
         Some(direction) => Mode::Sliding(direction),
         None => Mode::Sticking,
     }
-}
-
-/// Records a jump of the velocities at one height.
-fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
-    ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
-    ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
 
 impl Motion for DrivenEngine {

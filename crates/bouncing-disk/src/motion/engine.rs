@@ -545,7 +545,7 @@ pub(crate) fn chatter_speed(rest: &Attachment) -> f64 {
 }
 
 /// Records a jump of the velocities at one height.
-fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
+pub(crate) fn record_jump(ledger: &mut EnergyLedger, before: &DiskState, after: &DiskState) {
     ledger.record_axial_change([before.axial_velocity, after.axial_velocity], [before.height, after.height]);
     ledger.record_rotary_change(before.angular_speed, after.angular_speed);
 }
