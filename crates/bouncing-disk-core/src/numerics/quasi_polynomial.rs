@@ -280,13 +280,13 @@ impl QuasiPolynomial {
             if term.decay == 0.0 && !term.with_time {
                 let (w, c, s) = (term.frequency, term.cosine, term.sine);
                 let x = w * t;
-                // A search starts at zero.
-                let (sin, cos) = if t == 0.0 { (0.0, 1.0) } else { sin_cos(x) };
-                let (versine, deficit) = if x < 0.5 {
+                let (sin, cos, versine, deficit) = if x < 0.5 {
                     let square = x * x;
-                    (square * versine_ratio(x), square * x * sine_deficit_ratio(x))
+                    let (versine, deficit) = (square * versine_ratio(x), square * x * sine_deficit_ratio(x));
+                    (x - deficit, 1.0 - versine, versine, deficit)
                 } else {
-                    (1.0 - cos, x - sin)
+                    let (sin, cos) = sin_cos(x);
+                    (sin, cos, 1.0 - cos, x - sin)
                 };
                 let value = c * cos + s * sin;
                 let slope = w * (s * cos - c * sin);
@@ -477,23 +477,23 @@ impl Jet {
             let root = radicand.sqrt();
             if v <= 0.0 { 2.0 * g / (root - v) } else { -(v + root) / a }
         };
-        let mut h = if parabola > 0.0 { parabola } else { return f64::NAN };
-        for _ in 0..2 {
-            let (value, slope) = if from_zero {
-                if v > 0.0 {
-                    (v + h * (0.5 * a + h * j * (1.0 / 6.0)), 0.5 * a + h * j * (1.0 / 3.0))
-                } else {
-                    return h;
-                }
-            } else {
-                (g + h * (v + h * (0.5 * a + h * j * (1.0 / 6.0))), v + h * (a + 0.5 * h * j))
-            };
-            let next = h - value / slope;
-            if next > 0.5 * h && next < 2.0 * h {
-                h = next;
+        if parabola > 0.0 { self.refined(parabola, from_zero) } else { f64::NAN }
+    }
+
+    /// A guess after one step of Newton's method on the cubic.
+    fn refined(&self, h: f64, from_zero: bool) -> f64 {
+        let (v, a, j) = (self.slope, self.bend, self.third);
+        let (value, slope) = if from_zero {
+            if v <= 0.0 {
+                return h;
             }
-        }
-        h
+            (v + h * (0.5 * a + h * j * (1.0 / 6.0)), 0.5 * a + h * j * (1.0 / 3.0))
+        } else {
+            let g = self.value.max(0.0) + 2.0 * self.error;
+            (g + h * (v + h * (0.5 * a + h * j * (1.0 / 6.0))), v + h * (a + 0.5 * h * j))
+        };
+        let next = h - value / slope;
+        if next > 0.5 * h && next < 2.0 * h { next } else { h }
     }
 
     /// Whether a function that starts at zero is back after `h` before its bend has changed by a rounding:
@@ -559,6 +559,7 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
                 if h > left && search.jet(to).value > 0.0 {
                     return Ok(doubtful(doubt, t, search.evaluations));
                 }
+                let guess = jet.refined(guess, from_zero);
                 return search.bracketed((t, t + h), t + guess).map(FirstRoot::Root);
             }
         }
@@ -585,8 +586,11 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
                 h *= 0.6;
             }
             if clear {
+                if h >= left {
+                    break;
+                }
                 before = t;
-                t = if h < left { t + h } else { to };
+                t += h;
                 trial = 4.0 * h;
                 jet = search.jet(t);
                 continue;
