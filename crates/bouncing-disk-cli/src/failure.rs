@@ -76,6 +76,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::WaveformJump { .. }
             | Error::DriveNotSine
             | Error::ScheduledDrive
+            | Error::Segment { .. }
             | Error::ScheduleJump { .. }
             | Error::RampOfPieces { .. } => Self::Usage(error.to_string()),
             _ => Self::Failed(error.to_string()),

@@ -95,6 +95,7 @@ impl<D: Described> SourceArgs<D> {
             output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
             return Ok(None);
         }
+        drive.warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
         Ok(Some((parameters, drive)))
     }
 
@@ -203,14 +204,14 @@ fn parse<T: DeserializeOwned>(text: &str, format: Format) -> Result<T, String> {
     }
 }
 
-/// The words of a reader; those on an unknown key or shape, which list the known ones, name the nearest.
+/// The words of a reader; those on an unknown key or name, which list the known ones, name the nearest.
 fn in_words(reason: &str) -> String {
     match reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant ")) {
         Some(keys) => {
             let mut keys = keys.split('`').skip(1).step_by(2);
             unknown(keys.next().unwrap_or_default(), keys)
         }
-        // The type is a programmer's word.
-        None => visible(&reason.replace("expected f64", "expected a number")),
+        // The types are a programmer's words.
+        None => visible(&reason.replace("expected f64", "expected a number").replace("a sequence", "a list")),
     }
 }

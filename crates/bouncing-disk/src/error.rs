@@ -144,8 +144,9 @@ pub enum Error {
     },
     /// A file with a drive where only the sine can be computed.
     #[error(
-        "this computes the sine of Eq. (1) only, and the table [drive] is another motion: leave it out; tosses, orbit diagrams, \
-         periodic orbits, basins, transients and speeds over the load take any drive"
+        "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
+         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients and \
+         torque-speed curves"
     )]
     DriveNotSine,
     /// A schedule in place of a periodic motion.
@@ -153,6 +154,14 @@ pub enum Error {
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"
     )]
     ScheduledDrive,
+    /// A number of a segment of a schedule lies outside its legal range.
+    #[error("segment {segment}: {source}")]
+    Segment {
+        /// Which segment, from 0.
+        segment: usize,
+        /// What is wrong.
+        source: bouncing_disk_core::Error,
+    },
     /// The segments of a schedule do not join.
     #[error(
         "the platform jumps by {jump:?} m where segment {segment} begins: let the one before end where both are equally high"
@@ -164,7 +173,7 @@ pub enum Error {
         jump: f64,
     },
     /// A segment of a schedule cannot be a ramp.
-    #[error("segment {segment} is a ramp of pieces or samples: only a sine or a Fourier sum can be one")]
+    #[error("segment {segment}: ramp_to needs a height and an angle that are the sine or a Fourier sum")]
     RampOfPieces {
         /// Which segment, from 0.
         segment: usize,

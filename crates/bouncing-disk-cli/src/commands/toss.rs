@@ -38,8 +38,8 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 /// One toss of a disk from its platform, or many
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The first toss from rest is that of Sec. III of the paper. Of a file with a [drive] that is a schedule the impacts are printed, \
-up to the first landing. With --many the disk is followed through all tosses that come \
+The first toss from rest is that of Sec. III of the paper. For a file whose [drive] is a schedule, the command prints the \
+impacts up to the first landing. With --many the disk is followed through all tosses that come \
 after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
 than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
@@ -168,6 +168,7 @@ fn described(system: &System, orbit: &TossOrbit) -> Quantities {
         }
         OrbitClass::Undecided { impacts, lyapunov_exponent } => {
             list.push("motion", "undecided", "1");
+            list.push("reason", orbit.class.reason(), "1");
             list.push("impacts", *impacts, "1");
             list.push("lyapunov_exponent", lyapunov_exponent.map(|own| own.exponent), "per impact");
             let error = lyapunov_exponent.map(|own| own.standard_error);

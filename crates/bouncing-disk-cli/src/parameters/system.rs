@@ -1,6 +1,8 @@
 //! A disk on a platform: what a file and `--set` have for the commands of tosses and orbits.
 
 use bouncing_disk::System;
+use bouncing_disk::core::ChatterPolicy;
+use bouncing_disk::driven::{Schedule, ScheduledEngine};
 use bouncing_disk::parameters::DriveParameters;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
@@ -85,7 +87,14 @@ impl Described for System {
         // A file may leave it out.
         file.disk.load_acceleration.get_or_insert(0.0);
         file.drive.check().map_err(|error| error.to_string())?;
-        Ok((build(tables(&file)?, settings)?, file.drive))
+        let system = build(tables(&file)?, settings)?;
+        if file.drive.is_schedule() {
+            let motion = Schedule::of_drive(*system.platform(), &file.drive).and_then(|schedule| {
+                ScheduledEngine::at_rest(&schedule, system.disk(), 0.0, ChatterPolicy::Complete)
+            });
+            motion.map_err(|error| error.to_string())?;
+        }
+        Ok((system, file.drive))
     }
 
     fn template(&self) -> String {

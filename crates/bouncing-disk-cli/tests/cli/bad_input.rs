@@ -71,7 +71,7 @@ fn drives() {
         file("none", "angle = { pieces = [] }");
         file("few", "height = { sampled = [0, 1] }");
         file("burst", "segments = [{ periods = 2.25 }]");
-        let sine_only = "this computes the sine of Eq. (1) only";
+        let sine_only = "this analysis holds for the sine of Eq. (1) only";
         let lines = if command == "toss" {
             ["verdicts", "doublings", "design", "toss --template"]
         } else {
@@ -86,10 +86,13 @@ fn drives() {
             folder.all_refused(2, &[(&format!("{template} triangle.toml"), copy)]);
             folder.all_refused(2, &[("diagram triangle.toml --start period-1", "give rest, rise or")]);
             folder.all_refused(2, &[("orbits burst.toml", "the drive is a schedule")]);
+            file("segment", "segments = [{}, { periods = 0 }]");
+            folder
+                .all_refused(2, &[("toss segment.toml", "segment.toml: segment 1: periods = 0 is outside")]);
         }
         for (name, told) in [
             ("key", "\"hight\" is unknown; did you mean \"height\"?"),
-            ("shape", "\"triangel\" is unknown; did you mean \"triangle\"?"),
+            ("shape", "\"triangel\" is not a shape; write \"sine\", \"triangle\""),
             ("jump", "jump.toml: the height jumps by -0.5 amplitudes where piece 0 begins"),
             ("nan", "nan.toml: the height: harmonic number 1"),
             ("none", "none.toml: sum of the durations of the pieces = 0"),
@@ -162,15 +165,15 @@ fn words_of_the_line_that_are_not_legal() {
         ("diagram -G 0.3:0.30000000000000004:1000", "nearer than numbers can be"),
         (
             "verdicts -G 0:3:1000000 -r 0:0.9:1000000",
-            "not enough memory for 1000000000000 cells of a map of verdicts: at most 2147483648",
+            "1000000000000 cells of a map of verdicts are too many: at most 2147483648",
         ),
         (
             "verdicts -G 0:3:10000 -r 0:0.9:10000 --details --chunk 1/100 --out a.json",
-            "not enough memory for 100000000 verdicts with their evidence: at most 16777216",
+            "100000000 verdicts with their evidence are too many: at most 16777216",
         ),
         (
             "diagram -G 0:3:1000000 --recorded 1000000",
-            "not enough memory for 2000000000000 impacts of a diagram: at most 2147483648",
+            "2000000000000 impacts of a diagram are too many: at most 2147483648",
         ),
         ("verdicts --impacts 1", "impacts"),
         ("basins --cells 0", "cells"),

@@ -185,7 +185,7 @@ pub enum Error {
         expected: u64,
     },
     /// More was requested than the limit allows or, where `count` is within it, than memory can hold.
-    #[error("not enough memory for {count} {what}: at most {limit}")]
+    #[error("{count} {what} {}: at most {limit}", if count > limit { "are too many" } else { "do not fit into memory" })]
     TooLarge {
         /// The requested number.
         what: &'static str,

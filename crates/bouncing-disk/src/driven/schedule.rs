@@ -88,15 +88,19 @@ impl Schedule {
     fn parts(&self, disk: &Disk) -> Result<Vec<Part>, Error> {
         finite("start_phase", self.start_phase)?;
         let count = self.segments.len();
-        check(count > 0, "number of segments", 0.0, "[1, inf)")?;
+        check(count > 0, "number of segments", 0.0, "[1, inf): start_phase and then need segments")?;
         let mut parts: Vec<Part> = Vec::with_capacity(count + 1);
         let mut cycles = self.start_phase / TAU;
         for (index, segment) in self.segments.iter().enumerate() {
             let lasts = index + 1 == count && self.then == AfterSchedule::Repeat;
-            if let (true, Some(ramp)) = (lasts, segment.ramp_to) {
-                check(false, "ramp_to of the last segment, which repeats", ramp, "none")?;
-            }
-            let part = self.part(index, cycles % 1.0, disk)?;
+            let part = self.part(index, lasts, cycles % 1.0, disk).map_err(|error| match error {
+                Error::OutOfRange { field, value, legal } => {
+                    let source = bouncing_disk_core::Error::OutOfRange { field, value, legal };
+                    Error::Segment { segment: index, source }
+                }
+                Error::Waveform { source, .. } => Error::Segment { segment: index, source },
+                other => other,
+            })?;
             join(&parts, &part, index)?;
             parts.push(Part { duration: if lasts { f64::INFINITY } else { part.duration }, ..part });
             cycles += segment.periods;
@@ -122,14 +126,17 @@ impl Schedule {
         Ok(parts)
     }
 
-    fn part(&self, index: usize, cycles: f64, disk: &Disk) -> Result<Part, Error> {
+    fn part(&self, index: usize, repeats: bool, cycles: f64, disk: &Disk) -> Result<Part, Error> {
         let ScheduleSegment { periods, amplitude, ramp_to, frequency, lag } = self.segments[index];
-        check(periods > 0.0 && periods <= 1.0e5, "periods of a segment", periods, "(0, 1e5]")?;
-        check(frequency > 0.0 && frequency <= 1.0e6, "frequency of a segment", frequency, "(0, 1e6]")?;
-        finite("lag of a segment", lag)?;
+        if let (true, Some(ramp)) = (repeats, ramp_to) {
+            check(false, "ramp_to", ramp, "(none: the last segment repeats)")?;
+        }
+        check(periods > 0.0 && periods <= 1.0e5, "periods", periods, "(0, 1e5]")?;
+        check(frequency > 0.0 && frequency <= 1.0e6, "frequency", frequency, "(0, 1e6]")?;
+        finite("lag", lag)?;
         for amplitude in [Some(amplitude), ramp_to].into_iter().flatten() {
             let legal = (0.0..=1.0e6).contains(&amplitude);
-            check(legal, "amplitude of a segment", amplitude, "[0, 1e6]")?;
+            check(legal, "amplitude", amplitude, "[0, 1e6]")?;
         }
         let scales = Scales::of(self.platform.platform().angular_frequency() * frequency, disk);
         scales.check()?;
@@ -215,8 +222,9 @@ impl ScheduledEngine {
     /// A disk that lies on the platform at the start, with this angular speed (rad/s).
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a number of the schedule outside its range; [`Error::ScheduleJump`] for a height
-    /// that jumps at a joint; [`Error::RampOfPieces`]; [`Error::Waveform`] for accelerations beyond 1e8 preloads.
+    /// [`Error::OutOfRange`] for a start phase that is not finite or a schedule without segments;
+    /// [`Error::Segment`] for a number of a segment outside its range, and for accelerations beyond 1e8
+    /// preloads; [`Error::ScheduleJump`] for a height that jumps at a joint; [`Error::RampOfPieces`].
     pub fn at_rest(
         schedule: &Schedule,
         disk: &Disk,

@@ -50,7 +50,7 @@ pub fn single_toss(
         !engine.launches(),
         "phase of the start",
         phase.angle(),
-        "one at which the hand does not fall away",
+        "(a phase at which the hand does not fall away)",
     )?;
     for record in engine.take(MOST_CONTACT_EVENTS) {
         let record = record?;

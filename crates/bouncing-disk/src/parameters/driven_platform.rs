@@ -5,77 +5,90 @@ use std::fmt::{self, Display, Formatter};
 
 use bouncing_disk_core::{Drive, DrivenMap, ImpactMap};
 
+use crate::display::rough;
 use crate::error::{Error, check};
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
-/// The shape of a motion over one period: height or angle in multiples of its amplitude, where the sine of
-/// Eq. (1) has sin(tau). Not yet checked.
+/// Bound on [`Waveform::acceleration_change`]: it is 0.25 of a sine with 6 samples, 0.5 of a corner, 0.8 of noise.
+const LARGEST_CHANGE: f64 = 0.3;
+
+/// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude. A
+/// value is not yet checked; [`DrivenPlatform::new`] does so.
 ///
 /// In a file: `"triangle"`, `{ sawtooth = 0.3 }`, `{ fourier = [[1.0, 0.0], [0.1, 1.5]] }`.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case", try_from = "Given"))]
 #[non_exhaustive]
 pub enum Waveform {
     /// sin(tau), as in Eq. (1).
     #[default]
     Sine,
-    /// The sum of a_j sin(j tau + phi_j) over j = 1, 2, ... of these (a_j, phi_j), at most
+    /// The pairs (a_j, phi_j) of a sum of a_j sin(j tau + phi_j) over j = 1, 2, ..., at most
     /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "read::harmonics"))]
     Fourier(Vec<(f64, f64)>),
-    /// Pieces (duration, [c0, c1, c2, c3]), one after the other, each c0 + c1 x + c2 x^2 + c3 x^3 from its own
-    /// start: x and the durations in periods, which sum to 1. The height must be continuous; the velocity may
-    /// jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
-    #[cfg_attr(feature = "serde", serde(deserialize_with = "read::pieces"))]
+    /// Pieces (duration, [c0, c1, c2, c3]), one after the other: c0 + c1 x + c2 x^2 + c3 x^3, where x counts from
+    /// the start of the piece. x and the durations are in periods; the durations sum to 1. The height must be
+    /// continuous; the velocity may jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
     Pieces(Vec<(f64, [f64; 4])>),
     /// The periodic cubic spline through at least 3 samples at equal distances over one period.
     Sampled(Vec<f64>),
     /// Straight lines through the zeros and extremes of the sine.
     Triangle,
-    /// Straight lines that rise for this share of the period, in [1e-9, 1 - 1e-9], and fall for the rest: from
-    /// 0 at tau = 0 to 1, to -1, and back.
+    /// Straight lines from 0 at tau = 0 to 1, to -1 and back to 0. They rise for this share of the period, in
+    /// [1e-9, 1 - 1e-9], and fall for the rest.
     Sawtooth(f64),
-    /// The sine replaced by one parabola for each half of the period.
+    /// One parabola for each half of the period of the sine.
     Parabolas,
-    /// The sine replaced by one cubic for each quarter of the period: the spline through its zeros and extremes.
+    /// One cubic for each quarter of the period: the spline through the zeros and extremes of the sine.
     Cubics,
 }
 
-/// Lists of lists: a tuple would ignore what a file has too much.
+/// A shape as a file has it; it takes any value, because the errors of serde speak of its own types.
 #[cfg(feature = "serde")]
-mod read {
-    use serde::de::{Deserialize, Deserializer, Error};
+#[derive(serde::Deserialize)]
+#[serde(untagged, deny_unknown_fields)]
+enum Given {
+    Name(String),
+    Sawtooth { sawtooth: f64 },
+    Fourier { fourier: Vec<(f64, f64)> },
+    Pieces { pieces: Vec<(f64, Vec<f64>)> },
+    Sampled { sampled: Vec<f64> },
+    Other(serde::de::IgnoredAny),
+}
 
-    #[derive(serde::Deserialize)]
-    #[serde(untagged)]
-    enum Item {
-        Number(f64),
-        Numbers(Vec<f64>),
-    }
+#[cfg(feature = "serde")]
+impl TryFrom<Given> for Waveform {
+    type Error = String;
 
-    pub(super) fn harmonics<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, f64)>, D::Error> {
-        let of_one = |(index, own): (usize, Vec<f64>)| match own[..] {
-            [amplitude, angle] => Ok((amplitude, angle)),
-            _ => Err(D::Error::custom(format!("harmonic number {index} is not [amplitude, phase]"))),
+    fn try_from(given: Given) -> Result<Self, String> {
+        let wrong = if let Given::Name(name) = &given { format!("{name:?}") } else { "this".to_owned() };
+        let piece = |(duration, mut own): (f64, Vec<f64>)| {
+            own.resize(own.len().max(4), 0.0);
+            Some((duration, own.try_into().ok()?))
         };
-        Vec::deserialize(from)?.into_iter().enumerate().map(of_one).collect()
-    }
-
-    pub(super) fn pieces<'de, D: Deserializer<'de>>(from: D) -> Result<Vec<(f64, [f64; 4])>, D::Error> {
-        let of_one = |(index, own): (usize, Vec<Item>)| match &own[..] {
-            [Item::Number(duration), Item::Numbers(given)] if given.len() <= 4 => {
-                let mut coefficients = [0.0; 4];
-                coefficients[..given.len()].copy_from_slice(given);
-                Ok((*duration, coefficients))
+        let shape = match given {
+            Given::Sawtooth { sawtooth } => Some(Self::Sawtooth(sawtooth)),
+            Given::Fourier { fourier } => Some(Self::Fourier(fourier)),
+            Given::Pieces { pieces } => {
+                pieces.into_iter().map(piece).collect::<Option<_>>().map(Self::Pieces)
             }
-            _ => Err(D::Error::custom(format!(
-                "piece number {index} is not [duration, [c0, c1, c2, c3]]; the last coefficients may be left out"
-            ))),
+            Given::Sampled { sampled } => Some(Self::Sampled(sampled)),
+            Given::Name(name) => {
+                let named = [Self::Sine, Self::Triangle, Self::Parabolas, Self::Cubics];
+                named.into_iter().find(|shape| shape.to_string() == name)
+            }
+            Given::Other(_) => None,
         };
-        Vec::deserialize(from)?.into_iter().enumerate().map(of_one).collect()
+        shape.ok_or_else(|| {
+            format!(
+                "{wrong} is not a shape; write \"sine\", \"triangle\", \"parabolas\", \"cubics\", {{ sawtooth = 0.3 }}, \
+                 {{ fourier = [[1.0, 0.0], [0.1, 1.5]] }}, {{ sampled = [0.0, 1.0, -1.0] }} or {{ pieces = \
+                 [[0.5, [0.0, 1.0]], [0.5, [0.5, -1.0]]] }} with at most 4 coefficients"
+            )
+        })
     }
 }
 
@@ -112,13 +125,29 @@ impl Waveform {
         if *self == Self::Sine { Ok(()) } else { Err(Error::DriveNotSine) }
     }
 
-    /// The impact map of a height of this shape, with the amplitude and the restitution of the `sine`'s.
+    /// The impact map of a height of this shape, with the amplitude and the restitution of `sine`.
     ///
     /// # Errors
     /// Those of [`DrivenPlatform::new`].
     pub fn map(&self, sine: &ImpactMap) -> Result<DrivenMap, Error> {
         let track = self.track("height", sine.vibration().peak_acceleration(), 0.0)?;
         Ok(DrivenMap::new(track, sine.restitution())?)
+    }
+
+    /// By how much the acceleration at the samples changes without every second sample, as a share of its peak.
+    fn acceleration_change(&self) -> Option<f64> {
+        let Self::Sampled(samples) = self else { return None };
+        let bend = |k: usize| {
+            let y = |k: usize| samples[k % samples.len()];
+            y(k + 2) - 2.0 * y(k + 1) + y(k)
+        };
+        let (mut change, mut peak) = (0.0_f64, 0.0_f64);
+        for k in 0..samples.len() {
+            // Second differences over one step and over two differ by a quarter of the fourth difference.
+            change = change.max(0.25 * (bend(k + 2) - 2.0 * bend(k + 1) + bend(k)).abs());
+            peak = peak.max(bend(k).abs());
+        }
+        Some(change / peak)
     }
 
     /// The motion with this amplitude, `lag` (rad) earlier.
@@ -156,19 +185,8 @@ impl Waveform {
 
     /// Checks what does not depend on amplitude and disk.
     fn check(&self, of: &'static str) -> Result<(), Error> {
-        // So small that no acceleration is in the way.
-        let largest = match self {
-            Self::Fourier(harmonics) => harmonics.iter().fold(0.0, |most: f64, (a, _)| most.max(a.abs())),
-            Self::Pieces(pieces) => {
-                pieces.iter().flat_map(|(_, c)| c).fold(0.0, |most: f64, c| most.max(c.abs()))
-            }
-            Self::Sampled(samples) => {
-                let count = samples.len() as f64;
-                samples.iter().fold(0.0, |most: f64, sample| most.max(sample.abs())) * count * count
-            }
-            _ => 1.0,
-        };
-        let amplitude = if largest > 0.0 && largest.is_finite() { 1.0 / largest } else { 1.0 };
+        // So small that no acceleration is too large, and a power of two.
+        let amplitude = 1.0 / (1_u128 << 100) as f64;
         self.track(of, amplitude, 0.0).map(|_| ())
     }
 }
@@ -182,8 +200,8 @@ fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_di
     Drive::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
-/// A [`Platform`] whose sines are replaced by any [`Waveform`]s: height A f(tau), angle Phi h(tau + theta). The
-/// axial forcing Gamma = A omega^2/(pi g) keeps its meaning, whatever the shape.
+/// A [`Platform`] with any [`Waveform`] f in place of the sine of its height, A f(tau), and any h in place of the
+/// sine of its angle, Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its meaning.
 ///
 /// ```
 /// use bouncing_disk::System;
@@ -213,10 +231,10 @@ impl DrivenPlatform {
         Ok(Self { platform, height, angle })
     }
 
-    /// This platform with the motion of a file's table.
+    /// This platform with the motion that the table `[drive]` of a file gives.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] where the motion is a schedule.
+    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule.
     pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
         if drive.is_schedule() {
             return Err(Error::ScheduledDrive);
@@ -256,9 +274,9 @@ impl From<Platform> for DrivenPlatform {
     }
 }
 
-/// The table `[drive]` of a file: how the platform moves in place of the sine of Eq. (1).
-/// [`DrivenPlatform::of_drive`] checks it, and
-/// [`Schedule::of_drive`](crate::driven::Schedule::of_drive) where it has segments.
+/// The table `[drive]` of a file: the motion of the platform in place of the sine of Eq. (1).
+/// [`DrivenPlatform::of_drive`] checks a periodic motion, and
+/// [`Schedule::of_drive`](crate::driven::Schedule::of_drive) one with segments.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table drive"))]
@@ -269,9 +287,9 @@ pub struct DriveParameters {
     pub angle: Waveform,
     /// Phase at which the first segment starts (rad).
     pub start_phase: f64,
-    /// Motions one after the other; without any the motion is periodic.
+    /// Motions one after the other; without segments the motion is periodic.
     pub segments: Vec<ScheduleSegment>,
-    /// What comes after the last segment.
+    /// What the platform does after the last segment.
     pub then: AfterSchedule,
 }
 
@@ -299,23 +317,37 @@ impl DriveParameters {
         self.angle.check("angle")
     }
 
-    /// Whether segments follow one another, in place of a periodic motion.
+    /// What is legal but unlikely to be intended: samples with noise or corners, or too few of them.
+    pub fn warnings(&self) -> impl Iterator<Item = String> {
+        let both = [("height", &self.height), ("angle", &self.angle)];
+        both.into_iter().filter_map(|(of, shape)| {
+            let change = shape.acceleration_change().filter(|change| *change > LARGEST_CHANGE)?;
+            let percent = rough(100.0 * change);
+            Some(format!(
+                "the {of}: without every second sample its acceleration changes by {percent} % of the peak; smooth \
+                 the samples if they have noise, take more if they are few, and write corners as pieces"
+            ))
+        })
+    }
+
+    /// Whether the motion is a schedule of segments and not periodic.
     #[must_use]
     pub fn is_schedule(&self) -> bool {
         !self.segments.is_empty() || self.start_phase != 0.0 || self.then != AfterSchedule::Repeat
     }
 }
 
-/// A part of a [`Schedule`](crate::driven::Schedule), by factors of the schedule's platform.
+/// A part of a [`Schedule`](crate::driven::Schedule): its motion relative to that of the schedule's platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table of a segment"))]
 pub struct ScheduleSegment {
     /// Duration in its own periods, in (0, 1e5].
     pub periods: f64,
     /// Height and angle are this many times those of the platform, in [0, 1e6].
     pub amplitude: f64,
-    /// The same at the end of a ramp, linear in time, in [0, 1e6]; `None` for a constant amplitude.
+    /// The factor of the amplitude at the end of the segment, in [0, 1e6], to which it changes linearly in time;
+    /// `None` for a constant amplitude.
     pub ramp_to: Option<f64>,
     /// The frequency is this many times that of the platform, in (0, 1e6].
     pub frequency: f64,
@@ -330,15 +362,15 @@ impl Default for ScheduleSegment {
     }
 }
 
-/// What comes after the last segment of a schedule.
+/// What the platform does after the last segment of a schedule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum AfterSchedule {
-    /// The last segment goes on for ever.
+    /// It repeats the last segment for ever.
     #[default]
     Repeat,
-    /// The platform stays where it is; a disk in the air comes down and settles on it.
+    /// It stops at its last height; a disk in the air comes down and settles on it.
     Rest,
 }
 
@@ -374,6 +406,19 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn noise_and_corners_of_samples_give_a_warning() {
+        let warned = |count: u32, noise: f64, shape: Waveform| {
+            let track = shape.track("height", 1.0, 0.0).expect("legal");
+            let time = |k| TAU * f64::from(k) / f64::from(count);
+            let sample = |k| track.height(time(k)) + if k % 2 == 0 { noise } else { -noise };
+            Waveform::Sampled((0..count).map(sample).collect()).acceleration_change() > Some(LARGEST_CHANGE)
+        };
+        assert!(!warned(6, 0.0, Waveform::Sine) && warned(5, 0.0, Waveform::Sine));
+        assert!(!warned(64, 1e-4, Waveform::Sine) && warned(64, 1e-2, Waveform::Sine));
+        assert!(!warned(64, 0.0, Waveform::Parabolas) && warned(64, 0.0, Waveform::Triangle));
     }
 
     #[test]
@@ -421,9 +466,10 @@ mod tests {
             Waveform::Pieces(vec![(0.5, [0.0, 1.0, 0.0, 0.0]), (0.5, [0.5, -1.0, 0.0, 0.0])])
         );
         for (text, words) in [
-            (text.replace("[1, 0.0]", "[1, 0.0, 7.0]"), "harmonic number 0 is not"),
-            (pieces.replace("-1]", "-1, 0, 0, 9]"), "piece number 1 is not"),
-            (pieces.replace("]]]", "], 3]]"), "piece number 1 is not"),
+            (text.replace("[1, 0.0]", "[1, 0.0, 7.0]"), "this is not a shape; write \"sine\", "),
+            (pieces.replace("-1]", "-1, 0, 0, 9]"), "this is not a shape"),
+            (pieces.replace("]]]", "], 3]]"), "this is not a shape"),
+            ("height = 'sawtooth'".to_owned(), "\"sawtooth\" is not a shape"),
         ] {
             let refused = toml::from_str::<DriveParameters>(&text).expect_err("refused").to_string();
             assert!(refused.contains(words), "{refused}");

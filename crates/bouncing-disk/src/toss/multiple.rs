@@ -361,6 +361,21 @@ fn growth_rate(
     Ok(LyapunovEstimate::of(&growths).filter(|_| tangent.is_bounded()))
 }
 
+impl OrbitClass {
+    /// Why an orbit is undecided.
+    #[must_use]
+    pub fn reason(&self) -> Option<&'static str> {
+        let Self::Undecided { lyapunov_exponent, .. } = self else { return None };
+        Some(match lyapunov_exponent {
+            Some(exponent) if exponent.grows() => "perturbations grow, but the transient may not be over",
+            Some(_) => "no certain growth and no period: a long period, a slow approach or neutral motion",
+            None => {
+                "no period and no exponent: a rest, a graze, an impact on a kink, or fewer than 17 impacts"
+            }
+        })
+    }
+}
+
 impl Display for OrbitClass {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let n = numbers(f);

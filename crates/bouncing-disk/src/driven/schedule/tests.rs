@@ -123,30 +123,30 @@ fn bad_schedules_are_refused_by_name() {
     let mut list = vec![
         (schedule(&[], AfterSchedule::Repeat), "number of segments"),
         (schedule(&[segment(1.0, 1.0), segment(1.0, 1.5)], AfterSchedule::Repeat), "jumps by -0.1065"),
-        (schedule(&[segment(0.0, 1.0)], AfterSchedule::Rest), "periods of a segment"),
-        (schedule(&[segment(f64::NAN, 1.0)], AfterSchedule::Rest), "periods of a segment"),
-        (schedule(&[first, segment(1.0, -1.0)], AfterSchedule::Rest), "amplitude of a segment"),
+        (schedule(&[segment(0.0, 1.0)], AfterSchedule::Rest), "segment 0: periods = 0 "),
+        (schedule(&[segment(f64::NAN, 1.0)], AfterSchedule::Rest), "segment 0: periods = NaN "),
+        (schedule(&[first, segment(1.0, -1.0)], AfterSchedule::Rest), "segment 1: amplitude = -1 "),
         (
             schedule(&[ScheduleSegment { frequency: 0.0, ..first }], AfterSchedule::Rest),
-            "frequency of a segment",
+            "segment 0: frequency = 0 ",
         ),
         (
             schedule(&[ScheduleSegment { lag: f64::INFINITY, ..first }], AfterSchedule::Rest),
-            "lag of a segment",
+            "segment 0: lag = inf ",
         ),
         (
             schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Repeat),
-            "which repeats",
+            "segment 0: ramp_to = 2 ",
         ),
         (Schedule { start_phase: f64::NAN, ..schedule(&[first], AfterSchedule::Rest) }, "start_phase"),
         (
             schedule(&[ScheduleSegment { frequency: 1e6, ..first }], AfterSchedule::Rest),
-            "height: acceleration",
+            "segment 0: acceleration",
         ),
     ];
     let triangle = DrivenPlatform::new(hand(), Waveform::Triangle, Waveform::Sine).expect("legal");
     let ramp = schedule(&[ScheduleSegment { ramp_to: Some(2.0), ..first }], AfterSchedule::Rest);
-    list.push((Schedule { platform: triangle, ..ramp }, "segment 0 is a ramp of pieces"));
+    list.push((Schedule { platform: triangle, ..ramp }, "segment 0: ramp_to needs"));
     for (schedule, words) in list {
         let found = ScheduledEngine::at_rest(&schedule, &dough(), 0.0, ChatterPolicy::Complete);
         let text = found.expect_err("refused").to_string();

@@ -38,7 +38,9 @@ impl MotorFileError {
                 "a value must be a number without a unit, such as 40e3".to_owned()
             }
             other => nearest_word(other)
-                .unwrap_or_else(|| other.replace("expected f64", "expected a number"))
+                .unwrap_or_else(|| {
+                    other.replace("expected f64", "expected a number").replace("a sequence", "a list")
+                })
                 .replace(char::is_control, " "),
         };
         Self::Text { line: line.max(1), column: column.max(1), reason }
@@ -258,7 +260,7 @@ fn sine((motor, drive): (Motor, DriveParameters)) -> Result<Motor, MotorFileErro
     Ok(motor)
 }
 
-/// The words on an unknown key or shape of the drive, of which a reader lists all that are known.
+/// The words on an unknown key or name of the drive, of which a reader lists all that are known.
 fn nearest_word(reason: &str) -> Option<String> {
     let words = reason.strip_prefix("unknown field ").or_else(|| reason.strip_prefix("unknown variant "))?;
     let mut words = words.split('`').skip(1).step_by(2);
@@ -382,8 +384,8 @@ mod tests {
         };
         for (drive, told) in [
             ("hight = 'sine'", "\"hight\" is unknown; did you mean \"height\"?"),
-            ("height = 'triangel'", "\"triangel\" is unknown; did you mean \"triangle\"?"),
-            ("height = 'square'", "the known ones are sine, fourier"),
+            ("height = 'triangel'", "\"triangel\" is not a shape; write \"sine\", \"triangle\""),
+            ("then = 'resst'", "\"resst\" is unknown; did you mean \"rest\"?"),
             ("height = { fourier = [[nan, 0]] }", "height: harmonic number 0"),
             ("angle = { pieces = [[1, [0, 1, 0, 0]]] }", "the angle jumps by -1.0 amplitudes where piece 0"),
             ("height = { pieces = [] }", "sum of the durations of the pieces = 0"),
