@@ -21,9 +21,9 @@ const FORCING: f64 = 0.486;
 #[command(after_help = "\
 The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
 as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
-0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. On a \
-[drive] other than the sine they are the attracting orbits of up to 8 impacts; an impact within 0.001 rad of one counts as caught, \
-and chaos stays undecided. See docs/studying-the-dynamics.md.
+0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. With a \
+[drive] that is not a sine the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
+of one of these belongs to its basin; chaos stays undecided. See docs/studying-the-dynamics.md.
 
 Examples:
   bouncing-disk basins --out basins.png
@@ -91,16 +91,17 @@ pub(crate) struct BasinsJob {
     drive: Waveform,
 }
 
-/// How near an impact must come to an orbit of a drive that is no sine (rad).
+/// How near an impact must come to an orbit of a drive that is not a sine (rad): a twentieth of a cell of the
+/// default window, because no radius of attraction is proven there.
 const RADIUS: f64 = 1e-3;
 
-/// Most impacts and platform periods of an orbit on such a drive.
+/// Most impacts and platform periods of an orbit on such a drive: the time of the search grows with both.
 const LONGEST: usize = 8;
 
 /// What impacts lead to.
 pub(crate) enum Known {
     Sine(Attractors),
-    /// The attracting orbits of a platform that is no sine.
+    /// The attracting orbits on a drive that is not a sine.
     Driven(DrivenMap, Vec<KnownOrbit>),
 }
 

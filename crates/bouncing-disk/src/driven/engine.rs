@@ -20,8 +20,12 @@ use crate::motion::segment::Segment;
 use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 
 /// Events of friction that come this much before the end of a contact, relative to its time, are the end
-/// itself.
+/// itself: both times are roots, each with an error of some roundings of the time.
 const JOINT: f64 = 16.0 * f64::EPSILON;
+
+/// A height or velocity of a resumed disk that differs from the platform's by this share is the platform's: the
+/// change of units and the evaluation of the drive leave some roundings each.
+const SAME_PLACE: f64 = 1.0e-12;
 
 /// What the disk does until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -142,7 +146,7 @@ impl DrivenEngine {
         let size = engine.state.axial_velocity.abs() + state.axial_velocity.abs();
         let height = engine.state.height;
         engine.resume(state)?;
-        if state.mode != Mode::Flight && jump.abs() > 1.0e-12 * size {
+        if state.mode != Mode::Flight && jump.abs() > SAME_PLACE * size {
             // It lies there until its next event, a kick or a separation at once.
             let slip = SlipDirection::of(engine.state.angular_speed - engine.system.angle.at(at).velocity);
             engine.state = DiskState {
@@ -193,7 +197,7 @@ impl DrivenEngine {
         self.angle = LongSum::new(state.angle);
         if state.mode == Mode::Flight {
             let gap = state.height - platform.height;
-            let rounding = 1.0e-12 * (state.height.abs() + platform.height.abs());
+            let rounding = SAME_PLACE * (state.height.abs() + platform.height.abs());
             crate::error::check(gap >= -rounding, "height above the platform", gap, "[0, inf) (g/omega^2)")?;
             let velocity = state.axial_velocity - platform.axial_velocity;
             let parted = gap > rounding

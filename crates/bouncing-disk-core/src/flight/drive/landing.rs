@@ -15,7 +15,8 @@ use crate::numerics::elementary::{nearest_periods, nearest_whole, wrapped_angle}
 use crate::numerics::error::{Error, finite, not_negative, within};
 use crate::numerics::quasi_polynomial::{DampedSine, FirstRoot, QuasiPolynomial, Root};
 
-/// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole.
+/// A flight whose parabola is back at the highest point of the platform before (rad) is searched as a whole:
+/// without the errors with which a second window starts, and with few steps more.
 const BRIEF: f64 = 2.0;
 
 /// The first impact on a [`Drive`].
