@@ -1,4 +1,4 @@
-"""Platforms that are no sine."""
+"""Drives that are not a sine."""
 
 from __future__ import annotations
 

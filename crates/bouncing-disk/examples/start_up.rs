@@ -1,6 +1,6 @@
-//! A start-up: a dough that rests in the hand is taken to the fast orbit of the semielliptical motion, which that
-//! motion alone does not reach (Sec. IV B of the paper: performers use a linear motion for the first tosses). First
-//! motions are searched; the safest one is repeated with errors of 2 %, and drawn.
+//! A start-up: a first motion takes a dough that rests in the hand to the fast orbit of the semielliptical
+//! motion, which does not reach it alone (Sec. IV B of the paper: performers begin with a linear motion). It
+//! searches first motions, repeats the safest with errors of 2 %, and draws it.
 //!
 //!     cargo run --release -p bouncing-disk --example start_up -- start_up.svg
 #![allow(clippy::print_stdout, reason = "an example shows its result")]
@@ -12,8 +12,8 @@ use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::driven::{AfterSchedule, Schedule, ScheduleSegment, ScheduledEngine};
 use bouncing_disk::{Error, Event, System};
 
-/// What may be a little off: the first motion's amplitude and frequency as factors of the second one's, the
-/// second one's amplitude, and the restitution.
+/// The quantities with errors: amplitude and frequency of the first motion as factors of those of the second,
+/// the forcing of the second, and the restitution.
 #[derive(Clone, Copy)]
 struct StartUp {
     periods: f64,
@@ -23,7 +23,7 @@ struct StartUp {
     restitution: f64,
 }
 
-/// Periods after which the last impacts are looked at.
+/// Periods after which the last impacts are examined.
 const PERIODS: f64 = 40.0;
 
 fn main() -> Result<(), Error> {
@@ -80,7 +80,7 @@ impl StartUp {
         ScheduledEngine::at_rest(&schedule, forced.disk(), 0.0, ChatterPolicy::Complete)
     }
 
-    /// Whether the last impacts come one in each period; next to its doubling the orbit settles slowly.
+    /// Whether the last impacts are one period apart, within a tenth: near a doubling orbits settle slowly.
     fn reaches_orbit(&self) -> Result<bool, Error> {
         let period = TAU / System::pizza_toss().platform().angular_frequency();
         let mut times = Vec::new();
@@ -99,7 +99,7 @@ impl StartUp {
         Ok(times.len() > 8 && times[times.len() - 8..].windows(2).all(steady))
     }
 
-    /// How many repetitions succeed, with even errors of up to 2 % in all but the number of periods.
+    /// How many repetitions succeed, with uniform errors of up to 2 % in all but the number of periods.
     fn successes(&self, repetitions: usize) -> Result<usize, Error> {
         let mut random = SplitMix64::new(1);
         let mut successes = 0;

@@ -2,10 +2,11 @@
 //! schedules of them.
 //!
 //! The laws are those of [`motion`](crate::motion), with the height s and the angle beta of any platform in
-//! place of Eq. (1): in contact the force is N = 1 + s'' (Eq. 3), a disk that slides is accelerated by -sgn(w_T)
-//! mu N - l (Eqs. 4 and 12), and an impact has the impulses of Eqs. (5) to (10). What a sine does not have is a
-//! *kink*: where the velocity of the platform drops it leaves the disk behind, where it rises it hits the disk
-//! at zero distance ([`Event::Kick`](crate::Event::Kick)), and where its angular speed jumps friction cannot follow.
+//! place of Eq. (1): in contact the force is N = 1 + s'' (Eq. 3), the acceleration of a disk that slides is
+//! -sgn(w_T) mu N - l (Eqs. 4 and 12), and an impact has the impulses of Eqs. (5) to (10). Unlike the sine, a
+//! drive may have *kinks*, where its velocity jumps. Where the velocity of the height falls, the platform
+//! leaves the disk behind; where it rises, the platform hits a disk in contact
+//! ([`Event::Kick`](crate::Event::Kick)); where the angular speed jumps, friction cannot follow.
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -24,9 +25,9 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 //!
-//! [`single_toss`] and [`multi_toss`] are the tosses of such a hand,
-//! [`DrivenMotor`](crate::motor::DrivenMotor) has such a stator; a [`Schedule`] joins several motions, as a start-up does. The vertical motion alone is
-//! the core's [`DrivenMap`](crate::core::DrivenMap).
+//! [`single_toss`] and [`multi_toss`] compute the tosses of such a hand, and
+//! [`DrivenMotor`](crate::motor::DrivenMotor) a motor with such a stator. A [`Schedule`] joins several
+//! motions, as in a start-up. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
 
 use bouncing_disk_core::Drive;
 
@@ -48,9 +49,8 @@ pub use engine::DrivenEngine;
 pub use schedule::{Schedule, ScheduledEngine, ScheduledRecord};
 pub use toss::{multi_toss, single_toss};
 
-/// A disk on a platform that moves in any way, without units, as
-/// [`DimensionlessSystem`] is for a sine: time in radians of the
-/// fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
+/// A disk on a platform with any drives of height and angle, without units, as [`DimensionlessSystem`] for
+/// the sine. Time is in radians of the fundamental, length in g/omega^2, angle in g a_e/(a_g omega)^2.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrivenSystem {
     pub(crate) height: Drive,
@@ -61,7 +61,7 @@ pub struct DrivenSystem {
 }
 
 impl DrivenSystem {
-    /// The system of these two; [`DrivenPlatform::scales`] has its units.
+    /// The system of this platform and this disk; [`DrivenPlatform::scales`] gives its units.
     ///
     /// # Errors
     /// [`Error::Waveform`] for accelerations beyond 1e8 preloads; [`Error::OutOfRange`] if a unit is too small or

@@ -19,10 +19,10 @@ use super::prelude::*;
 /// Forcings of the paper's Fig. 6.
 const FORCINGS: &str = "0.30:0.62:641";
 
-/// An orbit diagram: the impacts for good, over the axial forcing
+/// An orbit diagram: the impacts after the transient, over the axial forcing
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Of each forcing a row: the impacts of an orbit after its transient, as Figs. 6(a) and 6(b) of the paper. Phases are in \
+Each forcing gives a row: the impacts of an orbit after its transient, as in Figs. 6(a) and 6(b) of the paper. Phases are in \
 periods of the platform (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. The table on the terminal counts the \
 phases that differ by a millionth of a period. See docs/studying-the-dynamics.md.
 
@@ -38,7 +38,7 @@ pub(crate) struct DiagramArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated; `rest` and `period-1` unless given, of a [drive] `rest` and `rise`"))]
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated. Default: `rest` and `period-1`; with a [drive] `rest` and `rise`"))]
     start: Vec<Start>,
     /// Impacts to discard before the recorded ones
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 3_000)]

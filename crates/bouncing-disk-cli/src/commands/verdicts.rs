@@ -20,10 +20,10 @@ const MOST_DETAILED: u64 = 1 << 24;
 const DETAILED: u64 = 2 * size_of::<Option<Verdict>>() as u64;
 const PLAIN: u64 = 4;
 
-/// Verdicts on what the disk does for good, over forcing and restitution
+/// Verdicts on the long-term motion of the disk, over forcing and restitution
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A verdict says what the orbit from the start does for good, with its evidence: rest, a cycle with rest, a period that is \
+A verdict names the long-term motion of the orbit from the start, with its evidence: rest, a cycle with rest, a period that is \
 proved by Newton's method, chaos by growth that neither neutral motion nor the error explains, or undecided. A range of restitutions \
 makes a map of regimes, a row for each. On the terminal a map is a count of its verdicts. See \
 docs/studying-the-dynamics.md.

@@ -66,7 +66,7 @@ fn diagrams_from_rest() {
     }
 }
 
-/// The same for a platform that is no sine, whose rows may be computed in parts.
+/// The same for a drive that is not a sine, whose rows may be computed in parts.
 #[test]
 fn diagrams_orbits_and_basins_of_parabolas() {
     let folder = Folder::new();
@@ -106,7 +106,7 @@ fn diagrams_orbits_and_basins_of_parabolas() {
 }
 
 #[test]
-fn tosses_and_motors_that_are_no_sine() {
+fn tosses_and_motors_on_drives() {
     let folder = Folder::new();
     let written = |line: &str| -> Value {
         folder.done(&format!("{line} --out a.json --force"));

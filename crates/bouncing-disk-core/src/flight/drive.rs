@@ -1,4 +1,4 @@
-//! A platform that moves in any periodic way: Fourier sums, ramps of them, and pieces of polynomials.
+//! The motions of a platform: Fourier sums, ramps of them, and pieces of polynomials.
 
 use core::f64::consts::TAU;
 use std::sync::Arc;
@@ -20,10 +20,9 @@ pub const MAX_HARMONICS: usize = 32;
 /// Four roundoffs.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;
 
-/// The height of a platform over time: time in radians of the drive's fundamental, one period being 2 pi;
-/// height in g/omega^2.
+/// The height of a platform (g/omega^2) over time, in radians of the drive's fundamental: one period is 2 pi.
 ///
-/// Where the velocity jumps (a kink) the later piece holds. Clones share their numbers.
+/// At a kink, where the velocity jumps, the later piece holds. Clones share their numbers.
 ///
 /// ```
 /// use bouncing_disk_core::{Drive, Launch, Phase};
@@ -116,7 +115,7 @@ impl Drive {
     }
 
     /// The sum of (a_j + b_j t) sin(j t + phi_j) of these (a_j, b_j, phi_j), for t in [0, `duration`]: a
-    /// segment of a schedule. Its times are counted from its start and are not reduced to a period.
+    /// segment of a schedule. Its times count from its start and are not reduced to a period.
     ///
     /// # Errors
     /// As [`Self::fourier`]; [`Error::OutOfRange`] for a duration that is not in (0, 1e6].

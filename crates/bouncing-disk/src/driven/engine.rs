@@ -23,8 +23,8 @@ use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
 /// itself: both times are roots, each with an error of some roundings of the time.
 const JOINT: f64 = 16.0 * f64::EPSILON;
 
-/// A height or velocity of a resumed disk that differs from the platform's by this share is the platform's: the
-/// change of units and the evaluation of the drive leave some roundings each.
+/// A height or velocity of a resumed disk that differs from the platform's by this share is the platform's:
+/// the change of units and the evaluation of the drive leave some roundings each.
 const SAME_PLACE: f64 = 1.0e-12;
 
 /// What the disk does until the next event.

@@ -255,8 +255,8 @@ mod tests {
             let own = driven.transient(phase, &settings, &Unobserved).expect("no failure");
             let sine = crate::motor::transient(strong.system(), phase, &settings, &Unobserved);
             let sine = sine.expect("no failure");
-            // Flights of hundreds of periods round the phase by 1e-13 rad; each of the few impacts that follow
-            // multiplies that by some hundred, because the next flight lasts about as many periods.
+            // Flights of hundreds of periods round the phase by 1e-13 rad, and each of the few impacts that
+            // follow multiplies that by some hundred: its speed decides on another long flight.
             let near = |(own, sine): (&f64, &f64)| (own - sine).abs() <= 1e-8 * sine.abs();
             assert!(own.speeds.iter().zip(&sine.speeds).all(near), "{own:?} {sine:?}");
         }

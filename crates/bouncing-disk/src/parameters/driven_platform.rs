@@ -11,11 +11,11 @@ use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
 
-/// Bound on [`Waveform::acceleration_change`]: it is 0.25 of a sine with 6 samples, 0.5 of a corner, 0.8 of noise.
+/// Most of [`Waveform::acceleration_change`]: 6 samples of a sine have 0.25, a corner 0.5, noise alone 0.8.
 const LARGEST_CHANGE: f64 = 0.3;
 
-/// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude. A
-/// value is not yet checked; [`DrivenPlatform::new`] does so.
+/// The shape of a motion over one period tau = 0 to 2 pi: the height or the angle, divided by its amplitude.
+/// [`DrivenPlatform::new`] checks it.
 ///
 /// In a file: `"triangle"`, `{ sawtooth = 0.3 }`, `{ fourier = [[1.0, 0.0], [0.1, 1.5]] }`.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,8 +29,8 @@ pub enum Waveform {
     /// The pairs (a_j, phi_j) of a sum of a_j sin(j tau + phi_j) over j = 1, 2, ..., at most
     /// [`MAX_HARMONICS`](bouncing_disk_core::flight::MAX_HARMONICS).
     Fourier(Vec<(f64, f64)>),
-    /// Pieces (duration, [c0, c1, c2, c3]), one after the other: c0 + c1 x + c2 x^2 + c3 x^3, where x counts from
-    /// the start of the piece. x and the durations are in periods; the durations sum to 1. The height must be
+    /// Pieces (duration, [c0, c1, c2, c3]), one after the other: c0 + c1 x + c2 x^2 + c3 x^3, x from the
+    /// start of the piece. x and the durations are in periods; the durations sum to 1. The height must be
     /// continuous; the velocity may jump. At most [`MAX_PIECES`](bouncing_disk_core::flight::MAX_PIECES).
     Pieces(Vec<(f64, [f64; 4])>),
     /// The periodic cubic spline through at least 3 samples at equal distances over one period.
@@ -134,7 +134,7 @@ impl Waveform {
         Ok(DrivenMap::new(track, sine.restitution())?)
     }
 
-    /// By how much the acceleration at the samples changes without every second sample, as a share of its peak.
+    /// How much the acceleration at the samples changes without every second sample, as a share of its peak.
     fn acceleration_change(&self) -> Option<f64> {
         let Self::Sampled(samples) = self else { return None };
         let bend = |k: usize| {
@@ -200,8 +200,8 @@ fn pieces_of(pieces: &[(f64, [f64; 4])], size: f64) -> Result<Drive, bouncing_di
     Drive::pieces(&pieces.iter().map(scaled).collect::<Vec<_>>())
 }
 
-/// A [`Platform`] with any [`Waveform`] f in place of the sine of its height, A f(tau), and any h in place of the
-/// sine of its angle, Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its meaning.
+/// A [`Platform`] with any [`Waveform`]s f and h in place of its sines: the height is A f(tau), the angle
+/// Phi h(tau + theta). The axial forcing Gamma = A omega^2/(pi g) keeps its meaning.
 ///
 /// ```
 /// use bouncing_disk::System;
@@ -346,7 +346,7 @@ pub struct ScheduleSegment {
     pub periods: f64,
     /// Height and angle are this many times those of the platform, in [0, 1e6].
     pub amplitude: f64,
-    /// The factor of the amplitude at the end of the segment, in [0, 1e6], to which it changes linearly in time;
+    /// The factor of the amplitude at the end of the segment, in [0, 1e6]; it changes linearly in time.
     /// `None` for a constant amplitude.
     pub ramp_to: Option<f64>,
     /// The frequency is this many times that of the platform, in (0, 1e6].

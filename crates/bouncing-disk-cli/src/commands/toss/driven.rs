@@ -1,4 +1,4 @@
-//! Tosses by a hand that is no sine.
+//! Tosses on a drive that is not a sine.
 
 use std::f64::consts::TAU;
 
@@ -57,7 +57,7 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     deliver(own, args, context, &samples, text, ("orbit", stored(&orbit)?))
 }
 
-/// The motion from rest on the platform: of a periodic drive from the lowest point of the sine.
+/// The motion from rest on the platform; a periodic drive starts at the lowest point of the sine.
 fn motion(system: &System, drive: &DriveParameters, spin: InitialSpin) -> Result<ScheduledEngine> {
     let mut drive = drive.clone();
     if !drive.is_schedule() {
