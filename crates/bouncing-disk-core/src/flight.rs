@@ -17,6 +17,7 @@
 //! One flight after the other makes the [impact map](crate::map).
 
 pub(crate) mod bounds;
+pub(crate) mod compliance;
 pub(crate) mod drive;
 pub(crate) mod drop;
 pub(crate) mod first_impact;
@@ -27,6 +28,7 @@ pub(crate) mod platform;
 pub mod reference;
 
 // The model reads a drop through the same check.
+pub use compliance::{Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
 pub use drive::contact::ChatterDuration;
 pub use drive::landing::{Doubt, DrivenImpact};
 pub use drive::pieces::MAX_PIECES;

@@ -30,6 +30,7 @@
 //! motions, as in a start-up. The core's [`DrivenMap`](crate::core::DrivenMap) has the vertical motion alone.
 
 use bouncing_disk_core::Drive;
+use bouncing_disk_core::flight::{Compliance, CompliantPlatform};
 
 use crate::error::Error;
 use crate::parameters::dimensionless::DimensionlessSystem;
@@ -58,6 +59,8 @@ pub struct DrivenSystem {
     pub(crate) friction: f64,
     pub(crate) restitution: f64,
     pub(crate) load: f64,
+    /// A contact that takes time, in place of the law of impact.
+    pub(crate) compliance: Option<CompliantPlatform>,
 }
 
 impl DrivenSystem {
@@ -77,6 +80,7 @@ impl DrivenSystem {
             friction: disk.friction(),
             restitution: disk.restitution(),
             load: disk.load_acceleration() / scales.angular_acceleration,
+            compliance: None,
         })
     }
 
@@ -91,6 +95,17 @@ impl DrivenSystem {
             stator.angle().track("angle", amplitude, lag)?
         };
         Ok(Self { angle, friction: own.friction(), load: own.load(), ..self.clone() })
+    }
+
+    /// This system with a contact that takes time: an isolated impact lasts for `contact_time` (rad) and has
+    /// the system's restitution.
+    ///
+    /// # Errors
+    /// Those of [`Compliance::new`] and [`CompliantPlatform::new`].
+    pub fn with_contact_time(mut self, contact_time: f64) -> Result<Self, Error> {
+        let compliance = Compliance::new(contact_time, self.restitution)?;
+        self.compliance = Some(CompliantPlatform::new(self.height.clone(), compliance)?);
+        Ok(self)
     }
 
     /// The drive of the height.
@@ -121,6 +136,7 @@ impl TryFrom<DimensionlessSystem> for DrivenSystem {
             friction: system.friction(),
             restitution: system.restitution(),
             load: system.load(),
+            compliance: None,
         })
     }
 }

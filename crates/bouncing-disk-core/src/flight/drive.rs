@@ -193,7 +193,12 @@ impl Drive {
 
     /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it
     /// is sines.
-    fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
+    pub(crate) fn at_with_terms(
+        &self,
+        time: f64,
+        order: u32,
+        factor: f64,
+    ) -> (DriveState, Vec<DampedSine>) {
         let time = self.reduced(time);
         match &self.shape {
             Shape::Fourier(fourier) => fourier.at_with_terms(time, order, factor),
@@ -330,6 +335,27 @@ impl Drive {
         self.as_pieces().map(|pieces| pieces.next_joint(wrapped_angle(time)))
     }
 
+    /// The sine of the closed forms, where this is one.
+    pub(crate) fn as_vibration(&self) -> Option<Vibration> {
+        let Shape::Fourier(fourier) = &self.shape else { return None };
+        match fourier.harmonics[..] {
+            [Harmonic { number: 1.0, amplitude, rate: 0.0, angle: 0.0 }] => Vibration::new(amplitude).ok(),
+            _ => None,
+        }
+    }
+
+    /// The Fourier sum in which each harmonic is as much larger, and ahead, as `response` says of its number.
+    pub(crate) fn responding(&self, response: impl Fn(f64) -> (f64, f64)) -> Result<Self, Error> {
+        let mut sum = [(0.0, 0.0); MAX_HARMONICS];
+        if let Shape::Fourier(fourier) = &self.shape {
+            for &Harmonic { number, amplitude, angle, .. } in &fourier.harmonics {
+                let (gain, ahead) = response(number);
+                sum[number as usize - 1] = (amplitude * gain, angle + ahead);
+            }
+        }
+        Self::fourier(&sum)
+    }
+
     fn as_pieces(&self) -> Option<&Pieces> {
         match &self.shape {
             Shape::Fourier(_) => None,
@@ -337,12 +363,12 @@ impl Drive {
         }
     }
 
-    fn is_periodic(&self) -> bool {
+    pub(crate) fn is_periodic(&self) -> bool {
         self.duration() == f64::INFINITY
     }
 
     /// The time in [0, 2 pi), unless the drive is a ramp.
-    fn reduced(&self, time: f64) -> f64 {
+    pub(crate) fn reduced(&self, time: f64) -> f64 {
         if self.is_periodic() { wrapped_angle(time) } else { time }
     }
 }

@@ -271,6 +271,54 @@ impl QuasiPolynomial {
         self
     }
 
+    /// The integral from 0, from this value on; a cubic term counts as none.
+    pub(crate) fn integral(self, start: f64) -> Self {
+        let mut bend = self.start[1];
+        let mut terms = Vec::with_capacity(self.terms.len());
+        for term in &self.terms {
+            bend -= term.at_zero()[1];
+            let size = term.decay * term.decay + term.frequency * term.frequency;
+            // Over i w - d.
+            let over = |(re, im): (f64, f64)| {
+                let (re, im) = times((re, im), (-term.decay, -term.frequency));
+                (re / size, im / size)
+            };
+            let once = over((term.cosine, -term.sine));
+            let of = |(re, im): (f64, f64), with_time| DampedSine {
+                cosine: re,
+                sine: -im,
+                with_time,
+                ..*term
+            };
+            terms.push(of(once, term.with_time));
+            if term.with_time {
+                let (re, im) = over(once);
+                terms.push(of((-re, -im), false));
+            }
+        }
+        let errors = [0.0, self.start_error[0]];
+        Self::known([start, self.start[0]], errors, [0.5 * bend, self.bend * (1.0 / 6.0)], terms)
+    }
+
+    /// `value` times the function plus `slope` times its derivative, of undamped terms.
+    pub(crate) fn with_its_slope(self, value: f64, slope: f64) -> Self {
+        let terms = self.terms.iter().map(|term| {
+            let turned = slope * term.frequency;
+            DampedSine {
+                cosine: value * term.cosine + turned * term.sine,
+                sine: value * term.sine - turned * term.cosine,
+                ..*term
+            }
+        });
+        let (bend, third) = (self.bend, self.third);
+        let start = [
+            value * self.start[0] + slope * self.start[1],
+            value * self.start[1] + slope * self.at(0.0, 0.0).bend,
+        ];
+        let polynomial = [0.5 * (value * bend + slope * third), value * third * (1.0 / 6.0)];
+        Self::known(start, [0.0; 2], polynomial, terms.collect())
+    }
+
     /// Value, derivatives and their bounds at t >= 0; the bound on the fourth derivative holds up to `to`.
     #[must_use]
     pub fn at(&self, t: f64, to: f64) -> Jet {

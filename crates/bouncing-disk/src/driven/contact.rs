@@ -11,14 +11,15 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::flight::{MAX_FLIGHT_DURATION, TimeAhead};
+use bouncing_disk_core::Drive;
+use bouncing_disk_core::flight::{MAX_FLIGHT_DURATION, Pressed, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
 use super::DrivenSystem;
 use crate::error::Error;
 use crate::motion::rotary_change::RotaryChange;
-use crate::motion::state::SlipDirection;
+use crate::motion::state::{DiskState, SlipDirection};
 
 /// Rounding of a rate, in units of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
@@ -39,15 +40,80 @@ pub(super) struct SlideWork {
     pub(super) size: f64,
 }
 
-impl DrivenSystem {
+/// What presses the disk on: a platform that it lies on, or a contact that takes time, so long after its
+/// start.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Ride<'a> {
+    Platform(&'a Drive),
+    Pressed(&'a Pressed, f64),
+}
+
+impl Ride<'_> {
+    /// Acceleration of the disk, and its derivative.
+    fn acceleration(&self, at: f64) -> [f64; 2] {
+        match self {
+            Self::Platform(drive) => {
+                let state = drive.at(at);
+                [state.acceleration, state.jerk]
+            }
+            Self::Pressed(pressed, after) => {
+                let force = pressed.force().at(*after, *after);
+                [force.value - 1.0, force.slope]
+            }
+        }
+    }
+
+    /// Velocity (order 1) or acceleration (order 2) from `at` on, but for a constant in the velocity.
+    fn derivative(&self, order: u32, at: f64) -> QuasiPolynomial {
+        match self {
+            Self::Platform(drive) => drive.derivative(order, at),
+            Self::Pressed(pressed, _) if order == 1 => pressed.velocity_change(),
+            Self::Pressed(pressed, _) => pressed.force().clone() + -1.0,
+        }
+    }
+
+    /// As [`Drive::change`].
+    pub(super) fn change(&self, at: f64, span: f64) -> (f64, f64) {
+        match self {
+            Self::Platform(drive) => drive.change(at, span),
+            Self::Pressed(pressed, _) => {
+                (pressed.velocity_change().at(span, span).value, pressed.lift().at(span, span).value)
+            }
+        }
+    }
+
+    fn next_joint(&self, at: f64) -> Option<TimeAhead> {
+        match self {
+            Self::Platform(drive) => drive.next_joint(at),
+            Self::Pressed(..) => None,
+        }
+    }
+
+    /// The fastest change, in radians of the drive.
+    fn rate(&self) -> f64 {
+        match self {
+            Self::Platform(drive) => drive.highest_harmonic(),
+            Self::Pressed(pressed, _) => pressed.rate(),
+        }
+    }
+}
+
+/// A disk in contact: the system, and what presses it on.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Touching<'a> {
+    pub(super) system: &'a DrivenSystem,
+    pub(super) ride: Ride<'a>,
+}
+
+impl Touching<'_> {
     /// The rate at which the slip in `direction` grows, its derivative, and the rounding of both.
     pub(super) fn growth(&self, direction: SlipDirection, at: f64) -> ([f64; 2], [f64; 2]) {
-        let (s, beta, d, mu) = (self.height.at(at), self.angle.at(at), direction.sign(), self.friction);
-        let rate = -mu * (1.0 + s.acceleration) - d * (self.load + beta.acceleration);
-        let size = mu * (1.0 + s.acceleration.abs()) + self.load.abs() + beta.acceleration.abs();
-        let change = -(mu * s.jerk + d * beta.jerk);
+        let ([pull, pull_change], beta, d, mu) = (self.ride.acceleration(at), self.system.angle.at(at), direction.sign(), self.system.friction);
+        let rate = -mu * (1.0 + pull) - d * (self.system.load + beta.acceleration);
+        let size = mu * (1.0 + pull.abs()) + self.system.load.abs() + beta.acceleration.abs();
+        let change = -(mu * pull_change + d * beta.jerk);
         // The time is rounded, too.
-        let change_size = mu * s.jerk.abs() + beta.jerk.abs();
+        let change_size = mu * pull_change.abs() + beta.jerk.abs();
         ([rate, change], [ROUNDING * (size + (1.0 + at.abs()) * change_size), ROUNDING * change_size])
     }
 
@@ -67,7 +133,7 @@ impl DrivenSystem {
 
     /// Nothing turns the disk: friction holds it to the end of the contact.
     fn is_unloaded(&self) -> bool {
-        self.angle.bounds().speed == 0.0 && self.load == 0.0
+        self.system.angle.bounds().speed == 0.0 && self.system.load == 0.0
     }
 
     /// How long friction holds a disk at `at`, if it gives way within `limit`, and in which direction it then
@@ -77,7 +143,7 @@ impl DrivenSystem {
             return Ok(None);
         }
         // What does not happen in a period never does.
-        let limit = if self.is_ramp() { limit } else { limit.min(TAU) };
+        let limit = if self.repeats() { limit.min(TAU) } else { limit };
         let mut first: Option<(f64, SlipDirection)> = None;
         for direction in [SlipDirection::Forward, SlipDirection::Backward] {
             let limit = first.map_or(limit, |(after, _)| after);
@@ -114,11 +180,11 @@ impl DrivenSystem {
         speed: f64,
         limit: f64,
     ) -> Result<Option<f64>, Error> {
-        let window = if self.is_ramp() { limit } else { limit.min(TAU) };
+        let window = if self.repeats() { limit.min(TAU) } else { limit };
         if let Some(after) = self.slip_end_within(direction, at, speed, window)? {
             return Ok(Some(after));
         }
-        let loss = TAU * (self.friction + direction.sign() * self.load);
+        let loss = TAU * (self.system.friction + direction.sign() * self.system.load);
         if window >= limit || loss <= 0.0 {
             return Ok(None);
         }
@@ -177,8 +243,8 @@ impl DrivenSystem {
 
     /// mu s + d beta, or a derivative of it.
     fn pull_on(&self, order: u32, direction: SlipDirection, here: f64) -> QuasiPolynomial {
-        self.height.derivative(order, here) * self.friction
-            + self.angle.derivative(order, here) * direction.sign()
+        self.ride.derivative(order, here) * self.system.friction
+            + self.system.angle.derivative(order, here) * direction.sign()
     }
 
     /// The slip speed when a time has passed, from the `last` place, the time passed there, and the speed.
@@ -189,13 +255,13 @@ impl DrivenSystem {
             return speed;
         }
         let d = direction.sign();
-        let (lifted, turned) = (self.height.change(at, span).0, self.angle.change(at, span).0);
-        speed - ((self.friction + d * self.load) * span + self.friction * lifted + d * turned)
+        let (lifted, turned) = (self.ride.change(at, span).0, self.system.angle.change(at, span).0);
+        speed - ((self.system.friction + d * self.system.load) * span + self.system.friction * lifted + d * turned)
     }
 
     /// The next joint of height or angle.
     fn next_joint(&self, here: f64) -> Option<TimeAhead> {
-        let joints = [self.height.next_joint(here), self.angle.next_joint(here)];
+        let joints = [self.ride.next_joint(here), self.system.angle.next_joint(here)];
         joints.into_iter().flatten().min_by(|a, b| a.after.total_cmp(&b.after))
     }
 
@@ -232,8 +298,8 @@ impl DrivenSystem {
 
     /// A slide from `at` on for `span` in `direction`, of a disk with angular `speed`.
     pub(super) fn slide(&self, direction: SlipDirection, speed: f64, at: f64, span: f64) -> RotaryChange {
-        let (velocity, lift) = self.height.change(at, span);
-        let (grip, load) = (direction.sign() * self.friction, self.load);
+        let (velocity, lift) = self.ride.change(at, span);
+        let (grip, load) = (direction.sign() * self.system.friction, self.system.load);
         RotaryChange {
             speed: speed - (grip * (span + velocity) + load * span),
             angle: span * (speed - 0.5 * load * span) - grip * (0.5 * span * span + lift),
@@ -242,17 +308,17 @@ impl DrivenSystem {
 
     /// The integrals of a slide that starts with this slip `speed` at `at` and lasts for `span`.
     pub(super) fn slide_work(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
-        let periods = if self.is_ramp() { 0.0 } else { whole(span / TAU) };
+        let periods = if self.repeats() { whole(span / TAU) } else { 0.0 };
         let mut work = SlideWork::default();
         if periods > 0.0 {
             let one = self.slide_work_within(direction, at, speed, TAU);
             // The slip of each period is that of the one before less the loss; the force of a period is 2 pi.
-            let loss = TAU * (self.friction + direction.sign() * self.load);
+            let loss = TAU * (self.system.friction + direction.sign() * self.system.load);
             work.carried = periods * one.carried;
             work.slipped = periods * one.slipped - TAU * loss * 0.5 * periods * (periods - 1.0);
             work.size = periods * one.size + TAU * loss.abs() * periods * periods;
         }
-        let loss = periods * TAU * (self.friction + direction.sign() * self.load);
+        let loss = periods * TAU * (self.system.friction + direction.sign() * self.system.load);
         let rest = self.slide_work_within(direction, at, speed - loss, span - periods * TAU);
         work.carried += rest.carried;
         work.slipped += rest.slipped;
@@ -261,7 +327,7 @@ impl DrivenSystem {
     }
 
     fn slide_work_within(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
-        let number = self.height.highest_harmonic().max(self.angle.highest_harmonic());
+        let number = self.ride.rate().max(self.system.angle.highest_harmonic());
         let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
         let mut last = (at, 0.0, speed);
         while passed < span {
@@ -274,8 +340,8 @@ impl DrivenSystem {
             last = (here, passed, value);
             let (slip, force, carrier) = (
                 self.slip_from(direction, here, value, 0.0),
-                self.height.derivative(2, here) + 1.0,
-                self.angle.derivative(1, here),
+                self.ride.derivative(2, here) + 1.0,
+                self.system.angle.derivative(1, here),
             );
             let half = 0.5 * stretch / panels;
             let mut panel = 0.0;
@@ -300,6 +366,57 @@ impl DrivenSystem {
         work
     }
 
+    /// In a contact that takes time: the work of the platform over the next `span`, what the damper takes, and
+    /// the gap at the start and at the end.
+    pub(super) fn normal_work(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64, [f64; 2]) {
+        let Some(compliant) = &self.system.compliance else { return (0.0, 0.0, [0.0; 2]) };
+        let drive = compliant.drive();
+        let (periods, rest) = if self.repeats() {
+            let periods = whole(span / TAU);
+            (periods, span - periods * TAU)
+        } else {
+            (0.0, span)
+        };
+        let (whole_work, whole_loss) = if periods > 0.0 { self.normal_work_within(start, at, TAU) } else { (0.0, 0.0) };
+        let (work, loss) = self.normal_work_within(start, at, rest);
+        let here = drive.at(at);
+        let (lifted, raised) = (self.ride.change(at, rest).1, drive.change(at, rest).1);
+        let gap = start.height - here.height;
+        let end = gap + rest * (start.axial_velocity - here.velocity) + (lifted - raised);
+        (periods * whole_work + work, periods * whole_loss + loss, [gap, end])
+    }
+
+    fn normal_work_within(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64) {
+        let Some(compliant) = &self.system.compliance else { return (0.0, 0.0) };
+        let drive = compliant.drive();
+        let force = self.ride.derivative(2, at) + 1.0;
+        let platform = drive.derivative(1, at);
+        let disk = self.ride.derivative(1, at);
+        let offset = start.axial_velocity - disk.at(0.0, 0.0).value;
+        let relative = disk + offset + platform.clone() * -1.0;
+        let panels = whole(span * self.ride.rate().max(compliant.rate())) + 1.0;
+        let half = 0.5 * span / panels;
+        let (mut work, mut loss, mut panel) = (0.0, 0.0, 0.0);
+        while panel < panels {
+            let middle = (2.0 * panel + 1.0) * half;
+            for (node, weight) in GAUSS {
+                for x in [middle - half * node, middle + half * node] {
+                    let velocity = relative.at(x, span).value;
+                    work += half * weight * force.at(x, span).value * platform.at(x, span).value;
+                    loss += half * weight * velocity * velocity;
+                }
+            }
+            panel += 1.0;
+        }
+        (work, loss * compliant.compliance().damping())
+    }
+
+    fn repeats(&self) -> bool {
+        matches!(self.ride, Ride::Platform(_)) && !self.system.is_ramp()
+    }
+}
+
+impl DrivenSystem {
     /// Time `span` after `at`: in [0, 2 pi) unless the motion is a ramp.
     pub(super) fn time_after(&self, at: f64, span: f64) -> f64 {
         if self.is_ramp() { at + span } else { wrapped_angle(at + span) }

@@ -2,11 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::ChatterPolicy;
+use bouncing_disk_core::{ChatterPolicy, Drive};
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
-use bouncing_disk_core::flight::{ChatterDuration, MAX_FLIGHT_DURATION, TimeAhead};
+use bouncing_disk_core::flight::{
+    ChatterDuration, ContactEnd, MAX_FLIGHT_DURATION, Pressed, RelativeState, TimeAhead, Touch,
+};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
+use super::contact::{Ride, Touching};
 use super::{DrivenStart, DrivenSystem};
 use crate::error::{Error, moderate};
 use crate::motion::contact_motion::SAME_SPEED;
@@ -56,6 +59,8 @@ enum Stage {
 struct Contact {
     slip: Option<SlipDirection>,
     end: Option<TimeAhead>,
+    /// The end is that of the transient: the disk never leaves.
+    settles: bool,
 }
 
 /// The instant of an event, for the drive and for the record.
@@ -79,6 +84,10 @@ pub struct DrivenEngine {
     now: Clock,
     state: DiskState,
     angle: LongSum,
+    /// The contact that takes time, in [`Stage::Contact`].
+    pressed: Option<Pressed>,
+    /// How a disk moves that never leaves such a contact.
+    settled: Option<Drive>,
     /// Without it the ledgers of slides stay empty: a motor does not need them.
     pub(crate) with_energy: bool,
 }
@@ -156,7 +165,7 @@ impl DrivenEngine {
                 ..engine.state
             };
             let end = TimeAhead { after: 0.0, time: at, velocity_jump: jump };
-            engine.stage = Stage::Contact(Contact { slip, end: Some(end) });
+            engine.stage = Stage::Contact(Contact { slip, end: Some(end), settles: false });
         }
         Ok(engine)
     }
@@ -178,6 +187,8 @@ impl DrivenEngine {
             stage: Stage::Ended,
             now,
             state,
+            pressed: None,
+            settled: None,
             with_energy: true,
         }
     }
@@ -195,6 +206,18 @@ impl DrivenEngine {
         self.state.angular_speed = state.angular_speed;
         self.state.angle = state.angle;
         self.angle = LongSum::new(state.angle);
+        if let Some(compliant) = &self.system.compliance {
+            let (gap, velocity) =
+                (state.height - platform.height, state.axial_velocity - platform.axial_velocity);
+            let relative = RelativeState { time: self.now.at, gap, velocity };
+            self.state = state;
+            if gap > 0.0 || state.mode == Mode::Flight && compliant.force(relative) <= 0.0 {
+                self.stage = Stage::Flight { gap, velocity };
+                self.state.mode = Mode::Flight;
+                return Ok(());
+            }
+            return self.press(relative);
+        }
         if state.mode == Mode::Flight {
             let gap = state.height - platform.height;
             let rounding = SAME_PLACE * (state.height.abs() + platform.height.abs());
@@ -223,6 +246,15 @@ impl DrivenEngine {
     /// had.
     fn put_down(&mut self, mode: Option<Mode>) -> Result<(), Error> {
         let at = self.now.at;
+        if let Some(compliant) = &self.system.compliance {
+            let resting = compliant.resting(at);
+            self.state.height += resting.gap;
+            if resting.gap == 0.0 {
+                self.take_off(0.0, 0.0);
+                return Ok(());
+            }
+            return self.press(resting);
+        }
         let (s, beta) = (self.system.height.at(at), self.system.angle.at(at));
         if !self.system.height.holds(at) {
             self.take_off(0.0, 0.0);
@@ -254,14 +286,47 @@ impl DrivenEngine {
         self.stage = Stage::Flight { gap, velocity };
     }
 
+    /// A disk that presses on a contact that takes time.
+    fn press(&mut self, from: RelativeState) -> Result<(), Error> {
+        let Some(compliant) = &self.system.compliance else { return Ok(()) };
+        let pressed = compliant.press(from);
+        let touching = Touching { system: &self.system, ride: Ride::Pressed(&pressed, 0.0) };
+        let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(from.time).velocity)
+            .or_else(|| touching.onset(from.time, None));
+        let (after, settles) = match pressed.end(f64::INFINITY)? {
+            Some(ContactEnd::Release(after)) => (after, false),
+            Some(ContactEnd::Settles(after)) => (after, true),
+            None => (f64::INFINITY, false),
+        };
+        let end = TimeAhead { after, time: self.system.time_after(from.time, after), velocity_jump: 0.0 };
+        self.state.mode = mode_of(slip);
+        self.stage = Stage::Contact(Contact { slip, end: Some(end), settles });
+        self.pressed = Some(pressed);
+        Ok(())
+    }
+
+    /// What presses the disk on, `after` the last event.
+    fn touching(&self, after: f64) -> Touching<'_> {
+        let ride = match &self.pressed {
+            Some(pressed) => Ride::Pressed(pressed, after),
+            None => Ride::Platform(self.ridden()),
+        };
+        Touching { system: &self.system, ride }
+    }
+
+    /// How the platform moves the disk that lies on it.
+    fn ridden(&self) -> &Drive {
+        self.settled.as_ref().unwrap_or(&self.system.height)
+    }
+
     /// A disk that has come to rest on the platform, at its angular speed.
     fn land(&mut self) -> Result<(), Error> {
         let at = self.now.at;
         let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(at).velocity)
-            .or_else(|| self.system.onset(at, None));
+            .or_else(|| self.touching(0.0).onset(at, None));
         self.state.mode = mode_of(slip);
-        let end = self.system.height.contact_end(at, f64::INFINITY)?;
-        self.stage = Stage::Contact(Contact { slip, end });
+        let end = self.ridden().contact_end(at, f64::INFINITY)?;
+        self.stage = Stage::Contact(Contact { slip, end, settles: false });
         Ok(())
     }
 
@@ -353,6 +418,11 @@ impl DrivenEngine {
         let velocity = match self.stage {
             Stage::Separated => speed,
             Stage::Flight { gap: 0.0, velocity } if velocity >= 0.0 => velocity + speed,
+            Stage::Flight { gap, velocity } if gap < 0.0 => {
+                self.state.axial_velocity += speed;
+                self.stage = Stage::Flight { gap, velocity: velocity + speed };
+                return;
+            }
             _ => return,
         };
         self.state.axial_velocity += speed;
@@ -360,6 +430,11 @@ impl DrivenEngine {
     }
 
     fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<EventRecord>, Error> {
+        if let Some(compliant) = &self.system.compliance {
+            let from = RelativeState { time: self.now.at, gap, velocity };
+            let touch = compliant.touch(from, limit)?;
+            return touch.map(|touch| self.begin_contact(from, &touch)).transpose();
+        }
         if gap <= 0.0 && velocity < 0.0 {
             return Ok(Some(self.hit(0.0, self.now, velocity, f64::INFINITY, false)));
         }
@@ -370,6 +445,70 @@ impl DrivenEngine {
         }
         let found = self.system.height.first_impact_within(self.now.at, gap, velocity, limit)?;
         Ok(found.map(|landing| self.land_on(&landing.impact)))
+    }
+
+    /// The start of a contact that takes time.
+    fn begin_contact(&mut self, from: RelativeState, touch: &Touch) -> Result<EventRecord, Error> {
+        let Touch { duration: span, state, .. } = *touch;
+        let to = Clock { at: state.time, periods: self.now.periods + touch.turns };
+        let change = self.change(span, to.at);
+        let (s, beta) = (self.system.height.at(to.at), self.system.angle.at(to.at));
+        let before = DiskState {
+            mode: Mode::Flight,
+            height: s.height + state.gap,
+            axial_velocity: s.velocity + state.velocity,
+            angle: 0.0,
+            angular_speed: change.speed,
+        };
+        let mut ledger = EnergyLedger::default();
+        self.record_flight(&mut ledger, &before, &change);
+        self.record_spring(&mut ledger, from.gap, state.gap, true);
+        let event = if state.gap < 0.0 {
+            Event::Recontact
+        } else {
+            Event::Impact {
+                axial_impact_velocity: state.velocity,
+                tangential_impact_velocity: change.speed - beta.velocity,
+                capped: false,
+            }
+        };
+        let mut record = self.moved(span, to, event, change.angle, (before, before), ledger);
+        self.press(state)?;
+        record.after.mode = self.state.mode;
+        Ok(record)
+    }
+
+    /// The change of the spring's energy between two gaps, lost in the damper where no force acts.
+    fn record_spring(&self, ledger: &mut EnergyLedger, from: f64, to: f64, lost: bool) {
+        let Some(compliant) = &self.system.compliance else { return };
+        let half = 0.5 * compliant.compliance().stiffness();
+        let energy = |gap: f64| half * gap.min(0.0) * gap.min(0.0);
+        ledger.record_spring([energy(from), energy(to)]);
+        if lost {
+            ledger.record_normal(0.0, energy(from) - energy(to));
+        }
+    }
+
+    /// The end of a contact that takes time, `span` after the last event.
+    fn release(&mut self, pressed: &Pressed, contact: Contact, span: f64, to: Clock) -> Result<EventRecord, Error> {
+        let change = self.change(span, to.at);
+        let mut ledger = self.ledger_of(span, to.at, change);
+        let before = self.drifted(span, to.at, change);
+        if contact.settles {
+            self.settled = Some(pressed.platform().steady()?);
+            let event = Event::Attachment { impacts: 0, error_bound: 0.0 };
+            let record = self.moved(span, to, event, change.angle, (before, before), ledger);
+            self.pressed = None;
+            self.stage = Stage::Contact(Contact { end: None, settles: false, ..contact });
+            return Ok(record);
+        }
+        let released = pressed.released(span);
+        let after = DiskState { mode: Mode::Flight, ..before };
+        record_jump(&mut ledger, &before, &after);
+        let record = self.moved(span, to, Event::Separation, change.angle, (before, after), ledger);
+        self.pressed = None;
+        self.stage = Stage::Flight { gap: released.gap, velocity: released.velocity };
+        Ok(record)
     }
 
     fn land_on(&mut self, impact: &bouncing_disk_core::Impact) -> EventRecord {
@@ -501,9 +640,9 @@ impl DrivenEngine {
         };
         let change = match contact.slip {
             Some(direction) => {
-                self.system.slip_end(direction, at, slip(direction), to)?.map(|span| (span, direction))
+                self.touching(0.0).slip_end(direction, at, slip(direction), to)?.map(|span| (span, direction))
             }
-            None => self.system.stick_end(at, to)?,
+            None => self.touching(0.0).stick_end(at, to)?,
         };
         // Where nothing pulls at the disk, friction gives way as the contact ends.
         let change = change.filter(|(span, _)| span + JOINT * (at + span + 1.0) < ends);
@@ -534,6 +673,9 @@ impl DrivenEngine {
         }
         let Some(TimeAhead { after: span, time, velocity_jump: jump }) = contact.end else { return Ok(None) };
         let to = self.clock_at(span, time);
+        if let Some(pressed) = self.pressed.clone() {
+            return self.release(&pressed, contact, span, to).map(Some);
+        }
         if jump > 0.0 {
             return Ok(Some(self.hit(span, to, -jump, f64::INFINITY, true)));
         }
@@ -555,7 +697,7 @@ impl DrivenEngine {
 
     fn end_slip(&mut self, contact: Contact, direction: SlipDirection, span: f64) -> EventRecord {
         let to = self.later(span);
-        let next = self.system.onset(to.at, Some(direction));
+        let next = self.touching(span).onset(to.at, Some(direction));
         let event = next.map_or(Event::SlipToStick, Event::SlipReversal);
         self.change_contact(contact, span, to, event, next)
     }
@@ -586,7 +728,10 @@ impl DrivenEngine {
         let after = DiskState { mode: mode_of(slip), ..before };
         let record = self.moved(span, to, event, change.angle, (before, after), ledger);
         let end = contact.end.map(|end| TimeAhead { after: (end.after - span).max(0.0), ..end });
-        self.stage = Stage::Contact(Contact { slip, end });
+        self.stage = Stage::Contact(Contact { slip, end, ..contact });
+        if let Some(pressed) = &self.pressed {
+            self.pressed = Some(pressed.platform().press(pressed.after(span)));
+        }
         record
     }
 
@@ -599,7 +744,7 @@ impl DrivenEngine {
                 angle: self.system.angle.at(at).height - self.system.angle.at(self.now.at).height,
             },
             Mode::Sliding(direction) => {
-                self.system.slide(direction, self.state.angular_speed, self.now.at, span)
+                self.touching(0.0).slide(direction, self.state.angular_speed, self.now.at, span)
             }
         }
     }
@@ -613,6 +758,14 @@ impl DrivenEngine {
             }
             (Mode::Flight, _) => {
                 (state.height + span * (state.axial_velocity - 0.5 * span), state.axial_velocity - span)
+            }
+            _ if self.pressed.is_some() => {
+                let (gained, lifted) = self.touching(0.0).ride.change(self.now.at, span);
+                (state.height + (span * state.axial_velocity + lifted), state.axial_velocity + gained)
+            }
+            _ if self.settled.is_some() => {
+                let (from, to) = (self.ridden().at(self.now.at), self.ridden().at(at));
+                (state.height + (to.height - from.height), state.axial_velocity + (to.velocity - from.velocity))
             }
             _ if span > 0.0 => (self.system.height.at(at).height, self.system.height.velocity_before(at)),
             _ => (state.height, state.axial_velocity),
@@ -634,16 +787,24 @@ impl DrivenEngine {
         let (start, end) = (self.state, self.drifted(span, at, change));
         self.record_flight(&mut ledger, &end, &change);
         if start.mode == Mode::Flight {
+            let gap = |state: &DiskState, at| state.height - self.system.height.at(at).height;
+            self.record_spring(&mut ledger, gap(&start, self.now.at), gap(&end, at), true);
             return ledger;
         }
-        // The integral of (1 + s'') s'.
-        let (from, to) = (start.axial_velocity, end.axial_velocity);
-        ledger.record_normal((end.height - start.height) + 0.5 * (to - from) * (to + from), 0.0);
+        if self.system.compliance.is_some() {
+            let (work, loss, gap) = self.touching(0.0).normal_work(&start, self.now.at, span);
+            ledger.record_normal(work, loss);
+            self.record_spring(&mut ledger, gap[0], gap[1], false);
+        } else {
+            // The integral of (1 + s'') s'.
+            let (from, to) = (start.axial_velocity, end.axial_velocity);
+            ledger.record_normal((end.height - start.height) + 0.5 * (to - from) * (to + from), 0.0);
+        }
         if let Mode::Sliding(direction) = start.mode {
             if self.with_energy {
                 let slip = start.angular_speed - self.system.angle.at(self.now.at).velocity;
                 let work =
-                    self.system.slide_work(direction, self.now.at, (direction.sign() * slip).max(0.0), span);
+                    self.touching(0.0).slide_work(direction, self.now.at, (direction.sign() * slip).max(0.0), span);
                 let mu = self.system.friction;
                 ledger.record_friction(
                     -direction.sign() * mu * work.carried,

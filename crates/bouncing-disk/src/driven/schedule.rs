@@ -167,6 +167,7 @@ impl Schedule {
                 friction: disk.friction(),
                 restitution: disk.restitution(),
                 load: disk.load_acceleration() / scales.angular_acceleration,
+                compliance: None,
             },
             start: if ramp_to.is_some() { 0.0 } else { phase_at(phase).angle() },
             duration,

@@ -25,7 +25,7 @@ pub struct EnergyLedger {
     pub restitution_loss: f64,
     /// Axial: change of the kinetic energy.
     pub axial_kinetic_change: f64,
-    /// Axial: change of the potential energy.
+    /// Axial: change of the potential energy, that of the spring of a contact that takes time included.
     pub potential_change: f64,
     /// Rotary: work of the platform by friction, in contact and in impacts.
     pub friction_work: f64,
@@ -76,6 +76,12 @@ impl EnergyLedger {
         self.axial_kinetic_change += 0.5 * (after - before) * (after + before);
         self.potential_change += height[1] - height[0];
         self.axial_magnitude += 0.5 * (before * before + after * after) + height[0].abs() + height[1].abs();
+    }
+
+    /// Records a change of the energy of the spring of a contact.
+    pub(crate) fn record_spring(&mut self, [before, after]: [f64; 2]) {
+        self.potential_change += after - before;
+        self.axial_magnitude += before + after;
     }
 
     /// Counts in that a platform velocity of up to `peak`, recomputed at the end of a chatter, rounds the

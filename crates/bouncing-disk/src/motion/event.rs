@@ -57,6 +57,8 @@ pub enum Event {
     },
     /// The angular speed of the platform jumps, and the disk slides on in this direction.
     SlipJump(SlipDirection),
+    /// In a contact that takes time: the force sets in again before the spring is free.
+    Recontact,
     /// A segment of a [`Schedule`](crate::driven::Schedule) ends.
     Joint,
 }
@@ -132,7 +134,7 @@ impl Display for Event {
             Self::StickToSlip(direction) | Self::SlipReversal(direction) | Self::SlipJump(direction) => {
                 write!(f, ", {direction}")
             }
-            Self::Separation | Self::SlipToStick | Self::Joint => Ok(()),
+            Self::Separation | Self::SlipToStick | Self::Recontact | Self::Joint => Ok(()),
         }
     }
 }

@@ -42,13 +42,15 @@ pub enum EventKind {
     Kick,
     /// [`Event::SlipJump`].
     SlipJump,
+    /// [`Event::Recontact`].
+    Recontact,
     /// [`Event::Joint`].
     Joint,
 }
 
 impl EventKind {
     /// All events.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Impact,
         Self::Attachment,
         Self::Separation,
@@ -57,6 +59,7 @@ impl EventKind {
         Self::SlipReversal,
         Self::Kick,
         Self::SlipJump,
+        Self::Recontact,
         Self::Joint,
     ];
 }
@@ -123,6 +126,7 @@ impl Event {
             Self::SlipReversal(_) => EventKind::SlipReversal,
             Self::Kick { .. } => EventKind::Kick,
             Self::SlipJump(_) => EventKind::SlipJump,
+            Self::Recontact => EventKind::Recontact,
             Self::Joint => EventKind::Joint,
         }
     }
@@ -157,6 +161,7 @@ impl Display for EventKind {
             Self::SlipReversal => "slip reversal",
             Self::Kick => "kick",
             Self::SlipJump => "slip jump",
+            Self::Recontact => "recontact",
             Self::Joint => "joint",
         })
     }

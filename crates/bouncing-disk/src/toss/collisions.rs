@@ -202,6 +202,7 @@ const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
         | Event::SlipToStick
         | Event::SlipReversal(_)
         | Event::SlipJump(_)
+        | Event::Recontact
         | Event::Joint => None,
     }
 }

@@ -63,8 +63,8 @@ impl Start {
 
 /// What is found in a window.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Found {
-    pub(super) root: Option<Root>,
+pub(crate) struct Found {
+    pub(crate) root: Option<Root>,
     pub(super) on_kink: bool,
     pub(super) doubt: Option<Doubt>,
     pub(super) evaluations: u32,
@@ -276,7 +276,7 @@ impl Found {
 }
 
 /// The first root of a gap up to `to`; a touch that rounding hides counts as its evaluated sign says.
-pub(super) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
+pub(crate) fn decided(gap: &QuasiPolynomial, to: f64) -> Result<Found, Error> {
     let mut found = Found::default();
     let mut from = 0.0;
     loop {

@@ -26,7 +26,7 @@ fn compare(
         let Ok(Some(record)) = engine.advance() else { break };
         // Whether a slip that only touches zero ends there, rounding decides.
         let rate = [SlipDirection::Forward, SlipDirection::Backward]
-            .map(|direction| driven.growth(direction, record.time.phase.angle()).0[0].abs())
+            .map(|direction| Touching{ system: &driven, ride: Ride::Platform(&driven.height) }.growth(direction, record.time.phase.angle()).0[0].abs())
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let slip_ends = matches!(record.event, Event::SlipToStick | Event::SlipReversal(_));
