@@ -28,7 +28,7 @@ pub(crate) mod platform;
 pub mod reference;
 
 // The model reads a drop through the same check.
-pub use compliance::{Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
+pub use compliance::{Branch, Compliance, CompliantPlatform, ContactEnd, Pressed, RelativeState, Touch};
 pub use drive::contact::ChatterDuration;
 pub use drive::landing::{Doubt, DrivenImpact};
 pub use drive::pieces::MAX_PIECES;

@@ -108,6 +108,17 @@ impl DrivenSystem {
         Ok(self)
     }
 
+    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at less stiffness
+    /// in place of a damper.
+    ///
+    /// # Errors
+    /// As for [`Self::with_contact_time`].
+    pub fn with_hysteretic_contact(mut self, contact_time: f64) -> Result<Self, Error> {
+        let compliance = Compliance::hysteretic(contact_time, self.restitution)?;
+        self.compliance = Some(CompliantPlatform::new(self.height.clone(), compliance)?);
+        Ok(self)
+    }
+
     /// The drive of the height.
     #[must_use]
     pub const fn height(&self) -> &Drive {

@@ -7,6 +7,9 @@
 //! x'' = -1 + F,   F = max(0, -k y - c y')  while y <= 0,   F = 0 while y > 0.
 //! ```
 //!
+//! A second law has no damper, but a spring that unloads at less stiffness than it loads, and that holds
+//! still in between: what the two agree on does not depend on the damping.
+//!
 //! Between two events all is polynomials and damped sines, and the events are their first roots
 //! (docs/numerics/contacts.md). The platform is a Fourier sum.
 
@@ -45,6 +48,20 @@ const SETTLED: f64 = 1.0e-18;
 pub struct Compliance {
     stiffness: f64,
     damping: f64,
+    /// The stiffness when it unloads.
+    unloading: f64,
+}
+
+/// What the spring does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub enum Branch {
+    /// It loads; with a damper also: it moves.
+    Loading,
+    /// It unloads at its lower stiffness.
+    Unloading,
+    /// Its force is between that of loading and that of unloading: it holds still.
+    Held,
 }
 
 impl Compliance {
@@ -67,7 +84,7 @@ impl Compliance {
         };
         if angle < CRITICAL {
             let frequency = 2.0 / contact_time;
-            return Ok(Self { stiffness: frequency * frequency, damping: 2.0 * frequency });
+            return Ok(Self::viscous(frequency, 2.0 * frequency));
         }
         let (sine, cosine) = if over {
             let Hyperbolic { sine, cosine, .. } = hyperbolic(angle);
@@ -76,13 +93,36 @@ impl Compliance {
             sin_cos(angle)
         };
         let frequency = 2.0 * angle / (sine * contact_time);
-        Ok(Self { stiffness: frequency * frequency, damping: 2.0 * cosine * frequency })
+        Ok(Self::viscous(frequency, 2.0 * cosine * frequency))
+    }
+
+    const fn viscous(frequency: f64, damping: f64) -> Self {
+        let stiffness = frequency * frequency;
+        Self { stiffness, damping, unloading: stiffness }
+    }
+
+    /// The contact whose spring unloads at the square of the restitution times its stiffness, without a
+    /// damper.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn hysteretic(contact_time: f64, restitution: f64) -> Result<Self, Error> {
+        Self::new(contact_time, restitution)?;
+        let frequency = FRAC_PI_2 * (1.0 + 1.0 / restitution) / contact_time;
+        let stiffness = frequency * frequency;
+        Ok(Self { stiffness, damping: 0.0, unloading: restitution * restitution * stiffness })
     }
 
     /// The stiffness k, in units of m omega^2: the indentation under the weight is its inverse.
     #[must_use]
     pub const fn stiffness(&self) -> f64 {
         self.stiffness
+    }
+
+    /// The stiffness when the spring unloads.
+    #[must_use]
+    pub const fn unloading_stiffness(&self) -> f64 {
+        self.unloading
     }
 
     /// The damping c, in units of m omega.
@@ -94,6 +134,9 @@ impl Compliance {
     /// What an isolated impact without weight keeps of its speed when the force has fallen to zero.
     #[must_use]
     pub fn restitution(&self) -> f64 {
+        if self.is_hysteretic() {
+            return (self.unloading / self.stiffness).sqrt();
+        }
         // The damping ratio cos u times the frequency times the contact time is 2 u cot u.
         exp(-0.5 * self.damping * self.contact_time())
     }
@@ -102,6 +145,9 @@ impl Compliance {
     #[must_use]
     pub fn contact_time(&self) -> f64 {
         let frequency = self.stiffness.sqrt();
+        if self.is_hysteretic() {
+            return FRAC_PI_2 * (1.0 / frequency + 1.0 / self.unloading.sqrt());
+        }
         let ratio = 0.5 * self.damping / frequency;
         let square = (1.0 - ratio) * (1.0 + ratio);
         let sine = square.abs().sqrt();
@@ -112,6 +158,18 @@ impl Compliance {
         };
         let share = if sine < CRITICAL { 1.0 } else { angle / sine };
         2.0 * share / frequency
+    }
+
+    const fn is_hysteretic(&self) -> bool {
+        self.damping == 0.0
+    }
+
+    /// The spring and damper on a branch.
+    const fn on(&self, branch: Branch) -> Self {
+        match branch {
+            Branch::Unloading => Self { stiffness: self.unloading, ..*self },
+            Branch::Loading | Branch::Held => *self,
+        }
     }
 
     /// The response of the force to the acceleration of one harmonic of the platform: x'' = H s''.
@@ -203,6 +261,8 @@ pub enum ContactEnd {
     /// It never does: after this time (rad) what is left of the start is rounding, and the disk follows the
     /// platform by its [steady response](CompliantPlatform::steady).
     Settles(f64),
+    /// The contact goes on, but its spring loads, unloads or holds still from now on (rad).
+    Turns(f64, Branch),
 }
 
 impl CompliantPlatform {
@@ -236,6 +296,9 @@ impl CompliantPlatform {
     /// # Errors
     /// Those of [`Drive::fourier`].
     pub fn steady(&self) -> Result<Drive, Error> {
+        if self.compliance.is_hysteretic() {
+            return Ok(self.drive.clone());
+        }
         self.drive.responding(|number| {
             let Complex(re, im) = self.compliance.response(number);
             (hypot(re, im), atan2(im, re))
@@ -246,21 +309,44 @@ impl CompliantPlatform {
     #[must_use]
     pub fn resting(&self, time: f64) -> RelativeState {
         let load = (1.0 + self.drive.acceleration(time)).max(0.0);
-        RelativeState { time, gap: -load / self.compliance.stiffness, velocity: 0.0 }
+        let Compliance { stiffness, unloading, .. } = self.compliance;
+        RelativeState { time, gap: -load / (stiffness * unloading).sqrt(), velocity: 0.0 }
     }
 
     /// The fastest rate of change in contact (rad^-1).
     #[must_use]
     pub fn rate(&self) -> f64 {
-        let Compliance { stiffness, damping } = self.compliance;
+        let Compliance { stiffness, damping, .. } = self.compliance;
         self.drive.highest_harmonic().max(stiffness.sqrt()).max(damping)
     }
 
     /// The force of a contact in this state, were it not cut off at zero.
     #[must_use]
     pub fn force(&self, state: RelativeState) -> f64 {
-        let Compliance { stiffness, damping } = self.compliance;
+        self.force_on(self.branch(state), state)
+    }
+
+    fn force_on(&self, branch: Branch, state: RelativeState) -> f64 {
+        let Compliance { stiffness, damping, .. } = self.compliance.on(branch);
+        if branch == Branch::Held {
+            return 1.0 + self.drive.acceleration(state.time);
+        }
         -(stiffness * state.gap + damping * state.velocity)
+    }
+
+    /// What the spring does in this state.
+    #[must_use]
+    pub fn branch(&self, state: RelativeState) -> Branch {
+        let load = || 1.0 + self.drive.acceleration(state.time);
+        if !self.compliance.is_hysteretic() || state.velocity < 0.0 {
+            Branch::Loading
+        } else if state.velocity > 0.0 || load() < -self.compliance.unloading * state.gap {
+            Branch::Unloading
+        } else if load() > -self.compliance.stiffness * state.gap {
+            Branch::Loading
+        } else {
+            Branch::Held
+        }
     }
 
     /// The next touch of a disk that feels no force, if it comes within `limit` (rad).
@@ -303,7 +389,7 @@ impl CompliantPlatform {
         }
         // The spring is not free yet: it is when the gap closes from below, or presses before.
         let height = self.free_gap(from);
-        let Compliance { stiffness, damping } = self.compliance;
+        let Compliance { stiffness, damping, .. } = self.compliance;
         let slope = -1.0 - self.drive.acceleration(time);
         let pull = self.force(from).min(0.0);
         let to = limit.min(2.0 * MAX_FLIGHT_DURATION);
@@ -338,10 +424,28 @@ impl CompliantPlatform {
     /// A disk in contact from this state on.
     #[must_use]
     pub fn press(&self, from: RelativeState) -> Pressed {
-        let Compliance { stiffness, damping } = self.compliance;
+        self.press_on(self.branch(from), from)
+    }
+
+    /// A disk in contact from this state on, whose spring does that.
+    #[must_use]
+    pub fn press_on(&self, branch: Branch, from: RelativeState) -> Pressed {
         let (here, harmonics) = self.drive.at_with_terms(from.time, 2, 1.0);
+        if branch == Branch::Held {
+            return Pressed {
+                from: RelativeState { velocity: 0.0, ..from },
+                branch,
+                platform: self.clone(),
+                force: self.drive.derivative(2, from.time) + 1.0,
+                velocity: here.velocity,
+                steady: 0.0,
+                transient: 0.0,
+            };
+        }
+        let spring = self.compliance.on(branch);
+        let Compliance { stiffness, damping, .. } = spring;
         let rounding = 8.0 * f64::EPSILON;
-        let force = match self.force(from) {
+        let force = match self.force_on(branch, from) {
             // A force that sets in again starts from zero.
             force if force.abs() <= rounding * stiffness * from.gap.abs() => 0.0,
             force => force,
@@ -354,7 +458,7 @@ impl CompliantPlatform {
         let (mut value, mut rate, mut steady) = (force - 1.0, slope, 0.0);
         let mut terms = Vec::with_capacity(harmonics.len() + 2);
         for harmonic in harmonics {
-            let Complex(re, im) = self.compliance.response(harmonic.frequency);
+            let Complex(re, im) = spring.response(harmonic.frequency);
             let (c, s) = (harmonic.cosine, harmonic.sine);
             let (cosine, sine) = (re * c + im * s, re * s - im * c);
             value -= cosine;
@@ -362,7 +466,7 @@ impl CompliantPlatform {
             steady += hypot(cosine, sine);
             terms.push(DampedSine::steady(cosine, sine, harmonic.frequency));
         }
-        let free = self.compliance.free(value, rate);
+        let free = spring.free(value, rate);
         let transient = free.iter().map(|term| hypot(term.cosine, term.sine)).sum();
         terms.extend(free.into_iter().filter(|term| term.cosine != 0.0 || term.sine != 0.0));
         let errors = [
@@ -372,6 +476,7 @@ impl CompliantPlatform {
         ];
         Pressed {
             from,
+            branch,
             platform: self.clone(),
             force: QuasiPolynomial::known([force, slope], errors, [0.0; 2], terms),
             velocity: here.velocity + from.velocity,
@@ -385,6 +490,7 @@ impl CompliantPlatform {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pressed {
     from: RelativeState,
+    branch: Branch,
     platform: CompliantPlatform,
     force: QuasiPolynomial,
     /// Of the disk, at the start.
@@ -430,7 +536,7 @@ impl Pressed {
     pub fn released(&self, span: f64) -> RelativeState {
         let state = self.after(span);
         let velocity = state.velocity.max(0.0);
-        let Compliance { stiffness, damping } = self.platform.compliance;
+        let Compliance { stiffness, damping, .. } = self.platform.compliance;
         RelativeState { gap: -damping / stiffness * velocity, velocity, ..state }
     }
 
@@ -440,16 +546,16 @@ impl Pressed {
         &self.platform
     }
 
-    /// The fastest rate of change (rad^-1).
+    /// What the spring does.
     #[must_use]
-    pub fn rate(&self) -> f64 {
-        self.platform.rate()
+    pub const fn branch(&self) -> Branch {
+        self.branch
     }
 
     /// Its state at the start.
     #[must_use]
-    pub const fn from(&self) -> RelativeState {
-        self.from
+    pub const fn from(&self) -> &RelativeState {
+        &self.from
     }
 
     /// The end of the contact, if it comes within `limit` (rad).
@@ -458,6 +564,9 @@ impl Pressed {
     /// [`Error::NoConvergence`] for a force that stays next to zero over more oscillations than can be searched.
     pub fn end(&self, limit: f64) -> Result<Option<ContactEnd>, Error> {
         finite("start of a contact", self.from.time)?;
+        if self.platform.compliance.is_hysteretic() {
+            return self.turn(limit);
+        }
         let start = self.force.at(0.0, 0.0);
         if start.value < -start.error || start.value <= 0.0 && start.slope < 0.0 {
             return Ok(Some(ContactEnd::Release(0.0)));
@@ -474,6 +583,67 @@ impl Pressed {
             return Ok(Some(ContactEnd::Release(root.at)));
         }
         Ok((settled.max(search) <= limit).then_some(ContactEnd::Settles(settled.max(search))))
+    }
+}
+
+impl Pressed {
+    /// The end of this branch of a spring without a damper.
+    fn turn(&self, limit: f64) -> Result<Option<ContactEnd>, Error> {
+        let Compliance { stiffness, unloading, .. } = self.platform.compliance;
+        let drive = &self.platform.drive;
+        let fall = |function: &QuasiPolynomial, to: f64| -> Result<Option<f64>, Error> {
+            let start = function.at(0.0, 0.0);
+            // On the edge of a branch the function that ends it starts at zero.
+            let ended = start.value <= 0.0 && (start.slope < 0.0 || start.slope == 0.0 && start.bend < 0.0);
+            Ok(if ended { Some(0.0) } else { decided(function, to)?.root.map(|root| root.at) })
+        };
+        let [first, second] = match self.branch {
+            Branch::Held => {
+                let to = limit.min(TAU);
+                let loads = fall(&(self.force.clone() * -1.0 + -stiffness * self.from.gap), to)?;
+                let unloads =
+                    fall(&(self.force.clone() + unloading * self.from.gap), loads.unwrap_or(to))?;
+                if loads.is_none() && unloads.is_none() && limit >= TAU {
+                    return Ok(Some(ContactEnd::Settles(TAU)));
+                }
+                [loads.map(|at| (at, Some(Branch::Loading))), unloads.map(|at| (at, Some(Branch::Unloading)))]
+            }
+            branch => {
+                let jet = self.force.at(0.0, 0.0);
+                let platform = drive.acceleration(self.from.time);
+                // A spring that held still until now sets out with its forces in balance.
+                let bend = match jet.value - 1.0 - platform {
+                    bend if bend.abs() <= 64.0 * f64::EPSILON * (1.0 + jet.value + platform.abs()) => 0.0,
+                    bend => bend,
+                };
+                let relative = self.velocity_change() + drive.derivative(1, self.from.time) * -1.0;
+                let sign = if branch == Branch::Loading { -1.0 } else { 1.0 };
+                let to = limit.min(MAX_FLIGHT_DURATION);
+                let speed = (relative * sign).starting_with([sign * self.from.velocity, sign * bend], [0.0; 2]);
+                let turned = fall(&speed, to)?;
+                let freed = match branch {
+                    Branch::Unloading => fall(&self.force, turned.unwrap_or(to))?,
+                    _ => None,
+                };
+                [turned.map(|at| (at, Some(self.turned_at(at)))), freed.map(|at| (at, None))]
+            }
+        };
+        // The second one was searched up to the first.
+        Ok(second.or(first).map(|(after, branch)| {
+            branch.map_or(ContactEnd::Release(after), |branch| ContactEnd::Turns(after, branch))
+        }))
+    }
+
+    /// What a spring does whose motion has come to an end.
+    fn turned_at(&self, after: f64) -> Branch {
+        let state = self.after(after);
+        self.platform.branch(RelativeState { velocity: 0.0, ..state })
+    }
+
+    /// The disk where the spring turns: it moves with the platform.
+    #[must_use]
+    pub fn turned(&self, after: f64) -> RelativeState {
+        RelativeState { velocity: 0.0, ..self.after(after) }
     }
 }
 

@@ -12,7 +12,7 @@
 use std::f64::consts::TAU;
 
 use bouncing_disk_core::Drive;
-use bouncing_disk_core::flight::{MAX_FLIGHT_DURATION, Pressed, TimeAhead};
+use bouncing_disk_core::flight::{Branch, MAX_FLIGHT_DURATION, Pressed, TimeAhead};
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 use bouncing_disk_core::numerics::quasi_polynomial::{FirstRoot, QuasiPolynomial};
 
@@ -93,7 +93,7 @@ impl Ride<'_> {
     fn rate(&self) -> f64 {
         match self {
             Self::Platform(drive) => drive.highest_harmonic(),
-            Self::Pressed(pressed, _) => pressed.rate(),
+            Self::Pressed(pressed, _) => pressed.platform().rate(),
         }
     }
 }
@@ -383,7 +383,15 @@ impl Touching<'_> {
         let (lifted, raised) = (self.ride.change(at, rest).1, drive.change(at, rest).1);
         let gap = start.height - here.height;
         let end = gap + rest * (start.axial_velocity - here.velocity) + (lifted - raised);
-        (periods * whole_work + work, periods * whole_loss + loss, [gap, end])
+        let mut lost = periods * whole_loss + loss;
+        if let Ride::Pressed(pressed, _) = self.ride
+            && pressed.branch() == Branch::Loading
+        {
+            // What the spring takes while it loads and does not give back.
+            let kept = compliant.compliance().stiffness() - compliant.compliance().unloading_stiffness();
+            lost += 0.5 * kept * (end - gap) * (end + gap);
+        }
+        (periods * whole_work + work, lost, [gap, end])
     }
 
     fn normal_work_within(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64) {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::{ChatterPolicy, Drive};
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
 use bouncing_disk_core::flight::{
-    ChatterDuration, ContactEnd, MAX_FLIGHT_DURATION, Pressed, RelativeState, TimeAhead, Touch,
+    Branch, ChatterDuration, ContactEnd, MAX_FLIGHT_DURATION, Pressed, RelativeState, TimeAhead, Touch,
 };
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
 
@@ -59,8 +59,19 @@ enum Stage {
 struct Contact {
     slip: Option<SlipDirection>,
     end: Option<TimeAhead>,
-    /// The end is that of the transient: the disk never leaves.
-    settles: bool,
+    /// What follows the end.
+    then: Then,
+}
+
+/// What follows the end of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Then {
+    /// The disk leaves, or is hit.
+    Leaves,
+    /// The transient of a contact that takes time is over: the disk never leaves.
+    Settles,
+    /// The spring of such a contact does this.
+    Turns(Branch),
 }
 
 /// The instant of an event, for the drive and for the record.
@@ -165,7 +176,7 @@ impl DrivenEngine {
                 ..engine.state
             };
             let end = TimeAhead { after: 0.0, time: at, velocity_jump: jump };
-            engine.stage = Stage::Contact(Contact { slip, end: Some(end), settles: false });
+            engine.stage = Stage::Contact(Contact { slip, end: Some(end), then: Then::Leaves });
         }
         Ok(engine)
     }
@@ -293,14 +304,20 @@ impl DrivenEngine {
         let touching = Touching { system: &self.system, ride: Ride::Pressed(&pressed, 0.0) };
         let slip = SlipDirection::of(self.state.angular_speed - self.system.angle.at(from.time).velocity)
             .or_else(|| touching.onset(from.time, None));
-        let (after, settles) = match pressed.end(f64::INFINITY)? {
-            Some(ContactEnd::Release(after)) => (after, false),
-            Some(ContactEnd::Settles(after)) => (after, true),
-            None => (f64::INFINITY, false),
+        self.press_on(pressed, slip)
+    }
+
+    fn press_on(&mut self, pressed: Pressed, slip: Option<SlipDirection>) -> Result<(), Error> {
+        let from = *pressed.from();
+        let (after, then) = match pressed.end(f64::INFINITY)? {
+            Some(ContactEnd::Release(after)) => (after, Then::Leaves),
+            Some(ContactEnd::Settles(after)) => (after, Then::Settles),
+            Some(ContactEnd::Turns(after, branch)) => (after, Then::Turns(branch)),
+            None => (f64::INFINITY, Then::Leaves),
         };
         let end = TimeAhead { after, time: self.system.time_after(from.time, after), velocity_jump: 0.0 };
         self.state.mode = mode_of(slip);
-        self.stage = Stage::Contact(Contact { slip, end: Some(end), settles });
+        self.stage = Stage::Contact(Contact { slip, end: Some(end), then });
         self.pressed = Some(pressed);
         Ok(())
     }
@@ -326,7 +343,7 @@ impl DrivenEngine {
             .or_else(|| self.touching(0.0).onset(at, None));
         self.state.mode = mode_of(slip);
         let end = self.ridden().contact_end(at, f64::INFINITY)?;
-        self.stage = Stage::Contact(Contact { slip, end, settles: false });
+        self.stage = Stage::Contact(Contact { slip, end, then: Then::Leaves });
         Ok(())
     }
 
@@ -481,7 +498,7 @@ impl DrivenEngine {
     /// The change of the spring's energy between two gaps, lost in the damper where no force acts.
     fn record_spring(&self, ledger: &mut EnergyLedger, from: f64, to: f64, lost: bool) {
         let Some(compliant) = &self.system.compliance else { return };
-        let half = 0.5 * compliant.compliance().stiffness();
+        let half = 0.5 * compliant.compliance().unloading_stiffness();
         let energy = |gap: f64| half * gap.min(0.0) * gap.min(0.0);
         ledger.record_spring([energy(from), energy(to)]);
         if lost {
@@ -494,12 +511,17 @@ impl DrivenEngine {
         let change = self.change(span, to.at);
         let mut ledger = self.ledger_of(span, to.at, change);
         let before = self.drifted(span, to.at, change);
-        if contact.settles {
+        if let Then::Turns(branch) = contact.then {
+            let record = self.moved(span, to, Event::Turn, change.angle, (before, before), ledger);
+            self.press_on(pressed.platform().press_on(branch, pressed.turned(span)), contact.slip)?;
+            return Ok(record);
+        }
+        if contact.then == Then::Settles {
             self.settled = Some(pressed.platform().steady()?);
             let event = Event::Attachment { impacts: 0, error_bound: 0.0 };
             let record = self.moved(span, to, event, change.angle, (before, before), ledger);
             self.pressed = None;
-            self.stage = Stage::Contact(Contact { end: None, settles: false, ..contact });
+            self.stage = Stage::Contact(Contact { end: None, then: Then::Leaves, ..contact });
             return Ok(record);
         }
         let released = pressed.released(span);
@@ -730,7 +752,7 @@ impl DrivenEngine {
         let end = contact.end.map(|end| TimeAhead { after: (end.after - span).max(0.0), ..end });
         self.stage = Stage::Contact(Contact { slip, end, ..contact });
         if let Some(pressed) = &self.pressed {
-            self.pressed = Some(pressed.platform().press(pressed.after(span)));
+            self.pressed = Some(pressed.platform().press_on(pressed.branch(), pressed.after(span)));
         }
         record
     }

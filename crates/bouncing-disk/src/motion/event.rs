@@ -59,6 +59,8 @@ pub enum Event {
     SlipJump(SlipDirection),
     /// In a contact that takes time: the force sets in again before the spring is free.
     Recontact,
+    /// In a contact that takes time without a damper: its spring begins to load, to unload, or to hold still.
+    Turn,
     /// A segment of a [`Schedule`](crate::driven::Schedule) ends.
     Joint,
 }
@@ -134,7 +136,7 @@ impl Display for Event {
             Self::StickToSlip(direction) | Self::SlipReversal(direction) | Self::SlipJump(direction) => {
                 write!(f, ", {direction}")
             }
-            Self::Separation | Self::SlipToStick | Self::Recontact | Self::Joint => Ok(()),
+            Self::Separation | Self::SlipToStick | Self::Recontact | Self::Turn | Self::Joint => Ok(()),
         }
     }
 }

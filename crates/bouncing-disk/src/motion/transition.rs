@@ -44,13 +44,15 @@ pub enum EventKind {
     SlipJump,
     /// [`Event::Recontact`].
     Recontact,
+    /// [`Event::Turn`].
+    Turn,
     /// [`Event::Joint`].
     Joint,
 }
 
 impl EventKind {
     /// All events.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Impact,
         Self::Attachment,
         Self::Separation,
@@ -60,6 +62,7 @@ impl EventKind {
         Self::Kick,
         Self::SlipJump,
         Self::Recontact,
+        Self::Turn,
         Self::Joint,
     ];
 }
@@ -127,6 +130,7 @@ impl Event {
             Self::Kick { .. } => EventKind::Kick,
             Self::SlipJump(_) => EventKind::SlipJump,
             Self::Recontact => EventKind::Recontact,
+            Self::Turn => EventKind::Turn,
             Self::Joint => EventKind::Joint,
         }
     }
@@ -162,6 +166,7 @@ impl Display for EventKind {
             Self::Kick => "kick",
             Self::SlipJump => "slip jump",
             Self::Recontact => "recontact",
+            Self::Turn => "turn",
             Self::Joint => "joint",
         })
     }

@@ -203,6 +203,7 @@ const fn collision_event(record: &EventRecord) -> Option<CollisionEvent> {
         | Event::SlipReversal(_)
         | Event::SlipJump(_)
         | Event::Recontact
+        | Event::Turn
         | Event::Joint => None,
     }
 }
