@@ -307,6 +307,18 @@ impl DrivenEngine {
         self.press_on(pressed, slip)
     }
 
+    /// `state` with the height and velocity at which a contact begins: what the roundings of long contacts
+    /// leave of the distance to the platform does not add up.
+    fn pressing(&self, pressed: &Pressed, state: DiskState) -> DiskState {
+        let from = pressed.from();
+        let platform = self.system.height.at(from.time);
+        DiskState {
+            height: platform.height + from.gap,
+            axial_velocity: platform.velocity + from.velocity,
+            ..state
+        }
+    }
+
     fn press_on(&mut self, pressed: Pressed, slip: Option<SlipDirection>) -> Result<(), Error> {
         let from = *pressed.from();
         let (after, then) = match pressed.end(f64::INFINITY)? {
@@ -512,8 +524,11 @@ impl DrivenEngine {
         let mut ledger = self.ledger_of(span, to.at, change);
         let before = self.drifted(span, to.at, change);
         if let Then::Turns(branch) = contact.then {
-            let record = self.moved(span, to, Event::Turn, change.angle, (before, before), ledger);
-            self.press_on(pressed.platform().press_on(branch, pressed.turned(span)), contact.slip)?;
+            let next = pressed.platform().press_on(branch, pressed.turned(span));
+            let after = self.pressing(&next, before);
+            record_jump(&mut ledger, &before, &after);
+            let record = self.moved(span, to, Event::Turn, change.angle, (before, after), ledger);
+            self.press_on(next, contact.slip)?;
             return Ok(record);
         }
         if contact.then == Then::Settles {
@@ -747,13 +762,15 @@ impl DrivenEngine {
             ledger.record_rotary_change(change.speed, platform_speed);
             before.angular_speed = platform_speed;
         }
-        let after = DiskState { mode: mode_of(slip), ..before };
+        let mut after = DiskState { mode: mode_of(slip), ..before };
+        let next = self.pressed.as_ref().map(|pressed| pressed.platform().press_on(pressed.branch(), pressed.after(span)));
+        if let Some(next) = &next {
+            after = self.pressing(next, after);
+        }
         let record = self.moved(span, to, event, change.angle, (before, after), ledger);
+        self.pressed = next;
         let end = contact.end.map(|end| TimeAhead { after: (end.after - span).max(0.0), ..end });
         self.stage = Stage::Contact(Contact { slip, end, ..contact });
-        if let Some(pressed) = &self.pressed {
-            self.pressed = Some(pressed.platform().press_on(pressed.branch(), pressed.after(span)));
-        }
         record
     }
 
