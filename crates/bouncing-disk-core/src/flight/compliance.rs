@@ -151,11 +151,7 @@ impl Compliance {
         let ratio = 0.5 * self.damping / frequency;
         let square = (1.0 - ratio) * (1.0 + ratio);
         let sine = square.abs().sqrt();
-        let angle = if square >= 0.0 {
-            atan2(sine, ratio)
-        } else {
-            ln_1p(sine + (ratio - 1.0))
-        };
+        let angle = if square >= 0.0 { atan2(sine, ratio) } else { ln_1p(sine + (ratio - 1.0)) };
         let share = if sine < CRITICAL { 1.0 } else { angle / sine };
         2.0 * share / frequency
     }
@@ -192,10 +188,7 @@ impl Compliance {
             with_time,
         };
         if omega <= CRITICAL * frequency {
-            [
-                own(value, 0.0, 0.0, decay, false),
-                own(slope + decay * value, 0.0, 0.0, decay, true),
-            ]
+            [own(value, 0.0, 0.0, decay, false), own(slope + decay * value, 0.0, 0.0, decay, true)]
         } else if square > 0.0 {
             [
                 own(value, (slope + decay * value) / omega, omega, decay, false),
@@ -522,7 +515,8 @@ impl Pressed {
     /// The disk after `span` (rad).
     #[must_use]
     pub fn after(&self, span: f64) -> RelativeState {
-        let (gained, lifted) = (self.velocity_change().at(span, span).value, self.lift().at(span, span).value);
+        let (gained, lifted) =
+            (self.velocity_change().at(span, span).value, self.lift().at(span, span).value);
         let (driven, raised) = self.platform.drive.change(self.from.time, span);
         RelativeState {
             time: self.platform.drive.reduced(self.from.time + span),
@@ -601,8 +595,7 @@ impl Pressed {
             Branch::Held => {
                 let to = limit.min(TAU);
                 let loads = fall(&(self.force.clone() * -1.0 + -stiffness * self.from.gap), to)?;
-                let unloads =
-                    fall(&(self.force.clone() + unloading * self.from.gap), loads.unwrap_or(to))?;
+                let unloads = fall(&(self.force.clone() + unloading * self.from.gap), loads.unwrap_or(to))?;
                 if loads.is_none() && unloads.is_none() && limit >= TAU {
                     return Ok(Some(ContactEnd::Settles(TAU)));
                 }
@@ -619,7 +612,8 @@ impl Pressed {
                 let relative = self.velocity_change() + drive.derivative(1, self.from.time) * -1.0;
                 let sign = if branch == Branch::Loading { -1.0 } else { 1.0 };
                 let to = limit.min(MAX_FLIGHT_DURATION);
-                let speed = (relative * sign).starting_with([sign * self.from.velocity, sign * bend], [0.0; 2]);
+                let speed =
+                    (relative * sign).starting_with([sign * self.from.velocity, sign * bend], [0.0; 2]);
                 let turned = fall(&speed, to)?;
                 let freed = match branch {
                     Branch::Unloading => fall(&self.force, turned.unwrap_or(to))?,

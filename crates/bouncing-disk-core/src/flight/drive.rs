@@ -193,12 +193,7 @@ impl Drive {
 
     /// [`Self::at`], and `factor` times the derivative of this order (at most 2) from there on, as far as it
     /// is sines.
-    pub(crate) fn at_with_terms(
-        &self,
-        time: f64,
-        order: u32,
-        factor: f64,
-    ) -> (DriveState, Vec<DampedSine>) {
+    pub(crate) fn at_with_terms(&self, time: f64, order: u32, factor: f64) -> (DriveState, Vec<DampedSine>) {
         let time = self.reduced(time);
         match &self.shape {
             Shape::Fourier(fourier) => fourier.at_with_terms(time, order, factor),

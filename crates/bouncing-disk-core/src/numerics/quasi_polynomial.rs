@@ -284,12 +284,8 @@ impl QuasiPolynomial {
                 (re / size, im / size)
             };
             let once = over((term.cosine, -term.sine));
-            let of = |(re, im): (f64, f64), with_time| DampedSine {
-                cosine: re,
-                sine: -im,
-                with_time,
-                ..*term
-            };
+            let of =
+                |(re, im): (f64, f64), with_time| DampedSine { cosine: re, sine: -im, with_time, ..*term };
             terms.push(of(once, term.with_time));
             if term.with_time {
                 let (re, im) = over(once);

@@ -108,7 +108,8 @@ pub(super) struct Touching<'a> {
 impl Touching<'_> {
     /// The rate at which the slip in `direction` grows, its derivative, and the rounding of both.
     pub(super) fn growth(&self, direction: SlipDirection, at: f64) -> ([f64; 2], [f64; 2]) {
-        let ([pull, pull_change], beta, d, mu) = (self.ride.acceleration(at), self.system.angle.at(at), direction.sign(), self.system.friction);
+        let ([pull, pull_change], beta, d, mu) =
+            (self.ride.acceleration(at), self.system.angle.at(at), direction.sign(), self.system.friction);
         let rate = -mu * (1.0 + pull) - d * (self.system.load + beta.acceleration);
         let size = mu * (1.0 + pull.abs()) + self.system.load.abs() + beta.acceleration.abs();
         let change = -(mu * pull_change + d * beta.jerk);
@@ -256,7 +257,10 @@ impl Touching<'_> {
         }
         let d = direction.sign();
         let (lifted, turned) = (self.ride.change(at, span).0, self.system.angle.change(at, span).0);
-        speed - ((self.system.friction + d * self.system.load) * span + self.system.friction * lifted + d * turned)
+        speed
+            - ((self.system.friction + d * self.system.load) * span
+                + self.system.friction * lifted
+                + d * turned)
     }
 
     /// The next joint of height or angle.
@@ -377,7 +381,8 @@ impl Touching<'_> {
         } else {
             (0.0, span)
         };
-        let (whole_work, whole_loss) = if periods > 0.0 { self.normal_work_within(start, at, TAU) } else { (0.0, 0.0) };
+        let (whole_work, whole_loss) =
+            if periods > 0.0 { self.normal_work_within(start, at, TAU) } else { (0.0, 0.0) };
         let (work, loss) = self.normal_work_within(start, at, rest);
         let here = drive.at(at);
         let (lifted, raised) = (self.ride.change(at, rest).1, drive.change(at, rest).1);

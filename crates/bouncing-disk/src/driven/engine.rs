@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use bouncing_disk_core::{ChatterPolicy, Drive};
 use bouncing_disk_core::chatter::{AfterImpact, ShortFlightCount};
 use bouncing_disk_core::flight::{
     Branch, ChatterDuration, ContactEnd, MAX_FLIGHT_DURATION, Pressed, RelativeState, TimeAhead, Touch,
 };
 use bouncing_disk_core::numerics::elementary::wrapped_angle;
+use bouncing_disk_core::{ChatterPolicy, Drive};
 
 use super::contact::{Ride, Touching};
 use super::{DrivenStart, DrivenSystem};
@@ -519,7 +519,13 @@ impl DrivenEngine {
     }
 
     /// The end of a contact that takes time, `span` after the last event.
-    fn release(&mut self, pressed: &Pressed, contact: Contact, span: f64, to: Clock) -> Result<EventRecord, Error> {
+    fn release(
+        &mut self,
+        pressed: &Pressed,
+        contact: Contact,
+        span: f64,
+        to: Clock,
+    ) -> Result<EventRecord, Error> {
         let change = self.change(span, to.at);
         let mut ledger = self.ledger_of(span, to.at, change);
         let before = self.drifted(span, to.at, change);
@@ -527,8 +533,12 @@ impl DrivenEngine {
             let next = pressed.platform().press_on(branch, pressed.turned(span));
             let after = self.pressing(&next, before);
             record_jump(&mut ledger, &before, &after);
-            let record = self.moved(span, to, Event::Turn, change.angle, (before, after), ledger);
-            self.press_on(next, contact.slip)?;
+            let mut record = self.moved(span, to, Event::Turn, change.angle, (before, after), ledger);
+            // Where the force drops, friction may not hold any more.
+            let touching = Touching { system: &self.system, ride: Ride::Pressed(&next, 0.0) };
+            let slip = contact.slip.or_else(|| touching.onset(to.at, None));
+            self.press_on(next, slip)?;
+            record.after.mode = self.state.mode;
             return Ok(record);
         }
         if contact.then == Then::Settles {
@@ -763,7 +773,10 @@ impl DrivenEngine {
             before.angular_speed = platform_speed;
         }
         let mut after = DiskState { mode: mode_of(slip), ..before };
-        let next = self.pressed.as_ref().map(|pressed| pressed.platform().press_on(pressed.branch(), pressed.after(span)));
+        let next = self
+            .pressed
+            .as_ref()
+            .map(|pressed| pressed.platform().press_on(pressed.branch(), pressed.after(span)));
         if let Some(next) = &next {
             after = self.pressing(next, after);
         }
@@ -804,7 +817,10 @@ impl DrivenEngine {
             }
             _ if self.settled.is_some() => {
                 let (from, to) = (self.ridden().at(self.now.at), self.ridden().at(at));
-                (state.height + (to.height - from.height), state.axial_velocity + (to.velocity - from.velocity))
+                (
+                    state.height + (to.height - from.height),
+                    state.axial_velocity + (to.velocity - from.velocity),
+                )
             }
             _ if span > 0.0 => (self.system.height.at(at).height, self.system.height.velocity_before(at)),
             _ => (state.height, state.axial_velocity),
@@ -842,8 +858,12 @@ impl DrivenEngine {
         if let Mode::Sliding(direction) = start.mode {
             if self.with_energy {
                 let slip = start.angular_speed - self.system.angle.at(self.now.at).velocity;
-                let work =
-                    self.touching(0.0).slide_work(direction, self.now.at, (direction.sign() * slip).max(0.0), span);
+                let work = self.touching(0.0).slide_work(
+                    direction,
+                    self.now.at,
+                    (direction.sign() * slip).max(0.0),
+                    span,
+                );
                 let mu = self.system.friction;
                 ledger.record_friction(
                     -direction.sign() * mu * work.carried,

@@ -220,6 +220,7 @@ mod tests {
             friction: 0.4,
             restitution: 0.05,
             load: 0.0,
+            compliance: None,
         };
         let phase = Phase::new(0.0).expect("finite");
         let start = DrivenStart::Contact { phase, angular_speed: 0.0 };

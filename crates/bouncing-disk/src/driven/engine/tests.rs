@@ -1,3 +1,5 @@
+mod compliance;
+
 use bouncing_disk_core::Drive;
 use proptest::prelude::*;
 
@@ -26,7 +28,12 @@ fn compare(
         let Ok(Some(record)) = engine.advance() else { break };
         // Whether a slip that only touches zero ends there, rounding decides.
         let rate = [SlipDirection::Forward, SlipDirection::Backward]
-            .map(|direction| Touching{ system: &driven, ride: Ride::Platform(&driven.height) }.growth(direction, record.time.phase.angle()).0[0].abs())
+            .map(|direction| {
+                Touching { system: &driven, ride: Ride::Platform(&driven.height) }
+                    .growth(direction, record.time.phase.angle())
+                    .0[0]
+                    .abs()
+            })
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let slip_ends = matches!(record.event, Event::SlipToStick | Event::SlipReversal(_));
@@ -208,6 +215,7 @@ fn systems() -> impl Strategy<Value = DrivenSystem> {
             friction,
             restitution,
             load,
+            compliance: None,
         },
     )
 }
@@ -242,8 +250,14 @@ fn the_comparison_meets_every_event() {
 fn kinks_leave_hit_and_turn_as_derived_by_hand() {
     let (u, b, quarter) = (0.3, 0.2, 0.25 * std::f64::consts::TAU);
     let track = |speed: f64| Waveform::Triangle.track("height", speed * quarter, 0.0).expect("legal");
-    let system =
-        DrivenSystem { height: track(u), angle: track(b), friction: 0.5, restitution: 0.4, load: 0.0 };
+    let system = DrivenSystem {
+        height: track(u),
+        angle: track(b),
+        friction: 0.5,
+        restitution: 0.4,
+        load: 0.0,
+        compliance: None,
+    };
     let still = DrivenSystem { height: track(0.0), ..system.clone() };
     let near = |one: f64, other: f64| (one - other).abs() < 1e-14;
     let start = |phase: f64, angular_speed| DrivenStart::Contact {
@@ -315,6 +329,7 @@ fn a_slip_that_friction_hardly_ends_is_too_long() {
         friction: 0.3,
         restitution: 0.5,
         load: -0.299_999_999_999_999_93,
+        compliance: None,
     };
     let start = DrivenStart::Contact {
         phase: bouncing_disk_core::Phase::new(0.0).expect("finite"),
@@ -336,6 +351,7 @@ fn a_state_of_flight_at_the_platform_is_one_of_contact() {
             friction: 0.3,
             restitution: 0.5,
             load: 0.0,
+            compliance: None,
         };
         let phase = phase_at(1.5 * std::f64::consts::PI);
         let at = system.height.at(phase.angle());
