@@ -169,7 +169,13 @@ pub struct QuasiPolynomial {
     sizes: [f64; 3],
     /// The fourth derivative of the undamped terms without t.
     steady_fourth: f64,
+    /// Where the function is this constant, and so much times t, plus the terms, it is evaluated so far from
+    /// the start: the polynomial that makes up for value and slope at the start is rounded by more than that.
+    line: Option<[f64; 2]>,
 }
+
+/// Radians of the fastest term after which a sum is evaluated as one.
+const FAR: f64 = 4.0;
 
 /// A root, and how fast the function falls through it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -255,14 +261,19 @@ impl QuasiPolynomial {
                 steady_fourth += size * ((rate * rate) * (rate * rate));
             }
         }
-        Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth }
+        Self { start, start_error, bend: 2.0 * c2, third: 6.0 * c3, terms, sizes, steady_fourth, line: None }
     }
 
     /// The function that bends as this one does, from another value and slope at t = 0, known to these
     /// errors.
     #[must_use]
     pub fn starting_with(self, start: [f64; 2], start_error: [f64; 2]) -> Self {
-        Self { start, start_error, ..self }
+        Self { start, start_error, line: None, ..self }
+    }
+
+    /// The function as a sum of its terms and this constant, which it is but for the rounding of its start.
+    pub(crate) fn as_sum(self, constant: f64) -> Self {
+        Self { line: Some([constant, 0.0]), ..self }
     }
 
     /// Adds `change` to the second derivative at all times.
@@ -271,12 +282,11 @@ impl QuasiPolynomial {
         self
     }
 
-    /// The integral from 0, from this value on; a cubic term counts as none.
+    /// The integral from 0, from this value on, of a sum of terms and a constant.
     pub(crate) fn integral(self, start: f64) -> Self {
-        let mut bend = self.start[1];
+        let mut constant = start;
         let mut terms = Vec::with_capacity(self.terms.len());
         for term in &self.terms {
-            bend -= term.at_zero()[1];
             let size = term.decay * term.decay + term.frequency * term.frequency;
             // Over i w - d.
             let over = |(re, im): (f64, f64)| {
@@ -290,10 +300,14 @@ impl QuasiPolynomial {
             if term.with_time {
                 let (re, im) = over(once);
                 terms.push(of((-re, -im), false));
+                constant += re;
+            } else {
+                constant -= once.0;
             }
         }
         let errors = [0.0, self.start_error[0]];
-        Self::known([start, self.start[0]], errors, [0.5 * bend, self.bend * (1.0 / 6.0)], terms)
+        let slope = self.line.map_or(0.0, |line| line[0]);
+        Self { line: Some([constant, slope]), ..Self::known([start, self.start[0]], errors, [0.0; 2], terms) }
     }
 
     /// `value` times the function plus `slope` times its derivative, of undamped terms.
@@ -318,6 +332,11 @@ impl QuasiPolynomial {
     /// Value, derivatives and their bounds at t >= 0; the bound on the fourth derivative holds up to `to`.
     #[must_use]
     pub fn at(&self, t: f64, to: f64) -> Jet {
+        if let Some(line) = self.line
+            && self.terms.iter().any(|term| (term.decay + term.frequency) * t > FAR)
+        {
+            return self.sum_at(line, t, to);
+        }
         let mut jet = Jet { fourth: self.steady_fourth, ..Jet::default() };
         let (mut growing, mut bends) = (0.0, 0.0);
         for term in &self.terms {
@@ -368,6 +387,38 @@ impl QuasiPolynomial {
         jet
     }
 
+    /// [`Self::at`] of a sum.
+    fn sum_at(&self, [constant, slope]: [f64; 2], t: f64, to: f64) -> Jet {
+        let mut jet = Jet { value: constant + t * slope, slope, ..Jet::default() };
+        let mut sizes = [constant.abs() + t * slope.abs(), slope.abs(), 0.0];
+        for term in &self.terms {
+            let (rate, grows) = (term.decay + term.frequency, f64::from(u8::from(term.with_time)));
+            let (sin, cos) = sin_cos(term.frequency * t);
+            let e = if term.decay > 0.0 { exp(-term.decay * t) } else { 1.0 };
+            let whole = (e * cos, e * sin);
+            // The derivatives of t exp(z) are (k + z) (i w - d)^(k - 1) exp(z).
+            let of = |k: u32| {
+                let here = if term.with_time { times((f64::from(k), 0.0), whole) } else { (0.0, 0.0) };
+                let along = term.part(term.turned(k, whole)) * if term.with_time { t } else { 1.0 };
+                along + if k > 0 { term.part(term.turned(k - 1, here)) } else { 0.0 }
+            };
+            jet.value += of(0);
+            jet.slope += of(1);
+            jet.bend += of(2);
+            jet.third += of(3);
+            let size = term.size() * e;
+            let cube = size * rate * rate * rate;
+            jet.fourth += cube * (rate * (1.0 - grows) + grows * (4.0 + rate * to));
+            // The angle is rounded, too.
+            let size = size * (1.0 + grows * t) * (1.0 + rate * t * 0.05);
+            sizes[0] += size;
+            sizes[1] += size * (rate + grows);
+            sizes[2] += size * (rate + grows) * (rate + grows);
+        }
+        [jet.error, jet.slope_error, jet.bend_error] = sizes.map(|size| ROUNDING * size);
+        jet
+    }
+
     /// The first root in (`from`, `to`].
     ///
     /// A function that starts at zero, exactly, must rise from there: the start is not a root.
@@ -384,6 +435,7 @@ impl Add<f64> for QuasiPolynomial {
 
     fn add(mut self, constant: f64) -> Self {
         self.start[0] += constant;
+        self.line = self.line.map(|[own, slope]| [own + constant, slope]);
         self
     }
 }
@@ -400,6 +452,7 @@ impl Add for QuasiPolynomial {
         self.bend += other.bend;
         self.third += other.third;
         self.steady_fourth += other.steady_fourth;
+        self.line = self.line.zip(other.line).map(|(a, b)| [a[0] + b[0], a[1] + b[1]]);
         self.terms.extend(other.terms);
         self
     }
@@ -422,6 +475,7 @@ impl Mul<f64> for QuasiPolynomial {
             terms: self.terms,
             sizes: self.sizes.map(|term| term * size),
             steady_fourth: self.steady_fourth * size,
+            line: self.line.map(|line| line.map(|value| value * factor)),
         }
     }
 }
