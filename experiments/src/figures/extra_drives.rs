@@ -393,7 +393,7 @@ mod tests {
             ),
             (
                 format!(
-                    "at Γ = {:.4} two bands, exponent {:.2}; 2-cycle over the corner, multiplier {:.1}",
+                    "at Γ = {:.4} two bands, exponent {:.2}; a 2-cycle across the corner, multiplier {:.1}",
                     on_arcs.axial_forcing, on_arcs.exponent, on_arcs.multiplier
                 ),
                 corner(&on_arcs) && arcs.attracts_to.is_none(),
