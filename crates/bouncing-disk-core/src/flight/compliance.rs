@@ -327,6 +327,13 @@ impl CompliantPlatform {
         -(stiffness * state.gap + damping * state.velocity)
     }
 
+    /// What the spring gives back from this gap, per mass, in units of (g/omega)^2.
+    #[must_use]
+    pub fn spring_energy(&self, gap: f64) -> f64 {
+        let indentation = gap.min(0.0);
+        0.5 * self.compliance.unloading * indentation * indentation
+    }
+
     /// What the spring does in this state.
     #[must_use]
     pub fn branch(&self, state: RelativeState) -> Branch {
@@ -429,7 +436,7 @@ impl CompliantPlatform {
                 from: RelativeState { velocity: 0.0, ..from },
                 branch,
                 platform: self.clone(),
-                force: self.drive.derivative(2, from.time).as_sum(0.0) + 1.0,
+                force: self.drive.derivative(2, from.time).summed_with(0.0) + 1.0,
                 velocity: here.velocity,
                 steady: 0.0,
                 transient: 0.0,
@@ -471,7 +478,7 @@ impl CompliantPlatform {
             from,
             branch,
             platform: self.clone(),
-            force: QuasiPolynomial::known([force, slope], errors, [0.0; 2], terms).as_sum(1.0),
+            force: QuasiPolynomial::known([force, slope], errors, [0.0; 2], terms).summed_with(1.0),
             velocity: here.velocity + from.velocity,
             steady,
             transient,

@@ -220,6 +220,16 @@ impl Drive {
         QuasiPolynomial::known([values[k], values[k + 1]], [errors[k], errors[k + 1]], bend, terms)
     }
 
+    /// The velocity from `time` on, as [`Self::derivative`]; of a Fourier sum as the sum of its terms.
+    #[must_use]
+    pub fn velocity_as_sum(&self, time: f64) -> QuasiPolynomial {
+        let velocity = self.derivative(1, time);
+        match self.shape {
+            Shape::Fourier(_) => velocity.summed_with(0.0),
+            Shape::Pieces(_) => velocity,
+        }
+    }
+
     /// By how much the velocity changes from `time` on in a `span` >= 0, but for kinks; and the height less
     /// the first velocity times the span: both accurate relative to themselves in a short span.
     #[must_use]

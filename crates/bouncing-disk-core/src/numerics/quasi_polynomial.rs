@@ -115,6 +115,38 @@ impl DampedSine {
     }
 }
 
+/// The integrals from 0 to t of exp(z s) and, if `weighted`, s exp(z s).
+fn exponential_integrals(z: (f64, f64), t: f64, weighted: bool) -> [(f64, f64); 2] {
+    let x = (z.0 * t, z.1 * t);
+    let scaled = |(re, im): (f64, f64), by: f64| (re * by, im * by);
+    if x == (0.0, 0.0) {
+        return [(t, 0.0), (0.5 * t * t, 0.0)];
+    }
+    if x.0.abs() + x.1.abs() < 0.5 {
+        // Sums of x^k/(k + 1)! and of x^k/(k! (k + 2)).
+        let (mut sum, mut second) = ((0.0, 0.0), (0.0, 0.0));
+        for k in (1..16).rev() {
+            sum = scaled(times(x, (1.0 + sum.0, sum.1)), 1.0 / f64::from(k + 1));
+        }
+        if weighted {
+            let mut power = (1.0, 0.0);
+            for k in 0..16 {
+                second.0 += power.0 / f64::from(k + 2);
+                second.1 += power.1 / f64::from(k + 2);
+                power = scaled(times(power, x), 1.0 / f64::from(k + 1));
+            }
+        }
+        return [scaled((1.0 + sum.0, sum.1), t), scaled(second, t * t)];
+    }
+    let size = z.0 * z.0 + z.1 * z.1;
+    let over = |value: (f64, f64)| scaled(times(value, (z.0, -z.1)), 1.0 / size);
+    let (sin, cos) = sin_cos(x.1);
+    let e = if x.0 == 0.0 { 1.0 } else { exp(x.0) };
+    let end = (e * cos, e * sin);
+    let whole = over((end.0 - 1.0, end.1));
+    [whole, if weighted { over((t * end.0 - whole.0, t * end.1 - whole.1)) } else { (0.0, 0.0) }]
+}
+
 fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (a.0 * b.0 - a.1 * b.1, a.0 * b.1 + a.1 * b.0)
 }
@@ -272,7 +304,7 @@ impl QuasiPolynomial {
     }
 
     /// The function as a sum of its terms and this constant, which it is but for the rounding of its start.
-    pub(crate) fn as_sum(self, constant: f64) -> Self {
+    pub(crate) fn summed_with(self, constant: f64) -> Self {
         Self { line: Some([constant, 0.0]), ..self }
     }
 
@@ -308,6 +340,15 @@ impl QuasiPolynomial {
         let errors = [0.0, self.start_error[0]];
         let slope = self.line.map_or(0.0, |line| line[0]);
         Self { line: Some([constant, slope]), ..Self::known([start, self.start[0]], errors, [0.0; 2], terms) }
+    }
+
+    /// The function plus a line.
+    #[must_use]
+    pub fn plus_line(mut self, constant: f64, slope: f64) -> Self {
+        self.start[0] += constant;
+        self.start[1] += slope;
+        self.line = self.line.map(|line| [line[0] + constant, line[1] + slope]);
+        self
     }
 
     /// `value` times the function plus `slope` times its derivative, of undamped terms.
@@ -385,6 +426,39 @@ impl QuasiPolynomial {
         jet.bend_error = ROUNDING * (0.125 * pull + s2) + bends;
         jet.slope_error = self.start_error[1] + ROUNDING * (0.125 * near + (t * s2).min(2.0 * s1) + growing);
         jet
+    }
+
+    /// The integral from 0 to t of the product with another function, in closed form; `None` unless both are
+    /// a line and damped sines without a factor t.
+    #[must_use]
+    pub fn product_integral(&self, other: &Self, t: f64) -> Option<f64> {
+        let ([a0, a1], [b0, b1]) = (self.line?, other.line?);
+        if self.terms.iter().chain(&other.terms).any(|term| term.with_time) {
+            return None;
+        }
+        let lines = t * (a0 * b0 + t * (0.5 * (a0 * b1 + a1 * b0) + t * a1 * b1 * (1.0 / 3.0)));
+        let line_with = |[c0, c1]: [f64; 2], term: &DampedSine| {
+            let [whole, weighted] = exponential_integrals((-term.decay, term.frequency), t, c1 != 0.0);
+            c0 * term.part(whole) + c1 * term.part(weighted)
+        };
+        let pair = |one: &DampedSine, more: &DampedSine| {
+            let decay = -(one.decay + more.decay);
+            let [sum, _] = exponential_integrals((decay, one.frequency + more.frequency), t, false);
+            let [difference, _] = exponential_integrals((decay, one.frequency - more.frequency), t, false);
+            let (a, b) = ((one.cosine, -one.sine), (more.cosine, -more.sine));
+            0.5 * (times(times(a, b), sum).0 + times(times(a, (b.0, -b.1)), difference).0)
+        };
+        let mut total = lines;
+        for one in &self.terms {
+            total += line_with([b0, b1], one);
+            for more in &other.terms {
+                total += pair(one, more);
+            }
+        }
+        for more in &other.terms {
+            total += line_with([a0, a1], more);
+        }
+        Some(total)
     }
 
     /// [`Self::at`] of a sum.

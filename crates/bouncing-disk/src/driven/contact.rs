@@ -331,6 +331,9 @@ impl Touching<'_> {
     }
 
     fn slide_work_within(&self, direction: SlipDirection, at: f64, speed: f64, span: f64) -> SlideWork {
+        if let Some(work) = self.pressed_slide_work(direction, at, speed, span) {
+            return work;
+        }
         let number = self.ride.rate().max(self.system.angle.highest_harmonic());
         let (mut here, mut passed, mut work) = (at, 0.0, SlideWork::default());
         let mut last = (at, 0.0, speed);
@@ -370,6 +373,29 @@ impl Touching<'_> {
         work
     }
 
+    /// [`Self::slide_work`] in a contact that takes time, in closed form.
+    fn pressed_slide_work(
+        &self,
+        direction: SlipDirection,
+        at: f64,
+        speed: f64,
+        span: f64,
+    ) -> Option<SlideWork> {
+        let Ride::Pressed(pressed, _) = self.ride else { return None };
+        let (d, mu, load) = (direction.sign(), self.system.friction, self.system.load);
+        let platform = self.system.angle.velocity_as_sum(at);
+        let gained = pressed.velocity_change();
+        let impulse = gained.at(span, span).value + span;
+        let ahead = speed + d * self.system.angle.velocity(at);
+        let slip = (gained * -mu + platform.clone() * -d).plus_line(ahead, -(mu + d * load));
+        let size = self.system.angle.bounds().speed + speed + mu * impulse.abs() + load.abs() * span;
+        Some(SlideWork {
+            carried: pressed.force().product_integral(&platform, span)?,
+            slipped: pressed.force().product_integral(&slip, span)?,
+            size: impulse.abs() * size,
+        })
+    }
+
     /// In a contact that takes time: the work of the platform over the next `span`, what the damper takes, and
     /// the gap at the start and at the end.
     pub(super) fn normal_work(&self, start: &DiskState, at: f64, span: f64) -> (f64, f64, [f64; 2]) {
@@ -403,10 +429,16 @@ impl Touching<'_> {
         let Some(compliant) = &self.system.compliance else { return (0.0, 0.0) };
         let drive = compliant.drive();
         let force = self.ride.derivative(2, at) + 1.0;
-        let platform = drive.derivative(1, at);
+        let platform = drive.velocity_as_sum(at);
         let disk = self.ride.derivative(1, at);
         let offset = start.axial_velocity - disk.at(0.0, 0.0).value;
         let relative = disk + offset + platform.clone() * -1.0;
+        let damping = compliant.compliance().damping();
+        if let Some(work) = force.product_integral(&platform, span)
+            && let Some(squares) = relative.product_integral(&relative, span)
+        {
+            return (work, damping * squares);
+        }
         let panels = whole(span * self.ride.rate().max(compliant.rate())) + 1.0;
         let half = 0.5 * span / panels;
         let (mut work, mut loss, mut panel) = (0.0, 0.0, 0.0);
@@ -421,7 +453,7 @@ impl Touching<'_> {
             }
             panel += 1.0;
         }
-        (work, loss * compliant.compliance().damping())
+        (work, damping * loss)
     }
 
     fn repeats(&self) -> bool {

@@ -400,6 +400,12 @@ impl DrivenEngine {
         (self.record_time(to), state)
     }
 
+    /// The energy of the spring of a contact that takes time, in the `state` so long after the last event.
+    pub(crate) fn spring_energy(&self, span: f64, state: &DiskState) -> f64 {
+        let Some(compliant) = &self.system.compliance else { return 0.0 };
+        compliant.spring_energy(state.height - self.system.height.at(self.later(span).at).height)
+    }
+
     /// The energy balance from the last event to `span` radians later, as for [`Self::state_after`].
     #[must_use]
     pub fn ledger_after(&self, span: f64) -> EnergyLedger {
@@ -510,8 +516,7 @@ impl DrivenEngine {
     /// The change of the spring's energy between two gaps, lost in the damper where no force acts.
     fn record_spring(&self, ledger: &mut EnergyLedger, from: f64, to: f64, lost: bool) {
         let Some(compliant) = &self.system.compliance else { return };
-        let half = 0.5 * compliant.compliance().unloading_stiffness();
-        let energy = |gap: f64| half * gap.min(0.0) * gap.min(0.0);
+        let energy = |gap| compliant.spring_energy(gap);
         ledger.record_spring([energy(from), energy(to)]);
         if lost {
             ledger.record_normal(0.0, energy(from) - energy(to));

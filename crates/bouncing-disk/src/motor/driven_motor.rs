@@ -73,6 +73,27 @@ impl DrivenMotor {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }
 
+    /// The motor with a contact that takes time: an isolated impact lasts for `contact_time` (s) and has the
+    /// sheet's restitution.
+    ///
+    /// # Errors
+    /// Those of [`DrivenSystem::with_contact_time`].
+    pub fn with_contact_time(mut self, contact_time: f64) -> Result<Self, Error> {
+        let omega = self.motor.system().platform().angular_frequency();
+        self.system = self.system.with_contact_time(contact_time * omega)?;
+        Ok(self)
+    }
+
+    /// As [`Self::with_contact_time`], with a spring that unloads at less stiffness in place of a damper.
+    ///
+    /// # Errors
+    /// As for [`Self::with_contact_time`].
+    pub fn with_hysteretic_contact(mut self, contact_time: f64) -> Result<Self, Error> {
+        let omega = self.motor.system().platform().angular_frequency();
+        self.system = self.system.with_hysteretic_contact(contact_time * omega)?;
+        Ok(self)
+    }
+
     /// The data sheet.
     #[must_use]
     pub const fn motor(&self) -> &Motor {
@@ -260,6 +281,33 @@ mod tests {
             let near = |(own, sine): (&f64, &f64)| (own - sine).abs() <= 1e-8 * sine.abs();
             assert!(own.speeds.iter().zip(&sine.speeds).all(near), "{own:?} {sine:?}");
         }
+    }
+
+    /// A short contact gives the speed of rigid impacts; one of a period taps the rotor in every period at the
+    /// crest, so that the lag of its predecessors beats the paper's.
+    #[test]
+    fn the_contact_time_decides_on_the_best_lag() {
+        let period = 1.0 / 70e3;
+        let speed = |lag: f64, share: f64| {
+            let motor = Motor::paper_70_khz().with(|sheet| sheet.phase_lag = lag).expect("legal");
+            let rigid = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).expect("legal");
+            let motor =
+                if share > 0.0 { rigid.with_contact_time(share * period).expect("legal") } else { rigid };
+            let settings = TransientSettings { duration: 0.4, intervals: 4, ..TransientSettings::default() };
+            let curve = motor.transient(Phase::new(0.3).expect("finite"), &settings, &Unobserved);
+            curve.expect("no failure").speeds[3]
+        };
+        let crest = -std::f64::consts::FRAC_PI_2;
+        assert!(speed(crest, 1.0) > 1.2 * speed(0.0, 1.0));
+        assert!(speed(crest, 0.05) < 0.3 * speed(0.0, 0.05));
+        let motor = DrivenMotor::new(Motor::paper_70_khz(), Waveform::Sine, Waveform::Sine).expect("legal");
+        let known = &motor.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure")[0];
+        let short = motor.with_contact_time(0.02 * period).expect("legal");
+        let own = &short.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure")[0];
+        let (own, known) = (own.steady().expect("known"), known.steady().expect("known"));
+        let error = own.speed.standard_error + known.speed.standard_error;
+        assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
+        assert!(own.energy_residual < 1e-9, "{own:?}");
     }
 
     /// On a stator too slow to throw it the rotor creeps under a load, as on the sine.

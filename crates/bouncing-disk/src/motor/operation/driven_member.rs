@@ -34,6 +34,8 @@ struct Rotor {
     /// Energy given by the perturbations.
     given: f64,
     impacts: u64,
+    /// Impacts, and what of the events of a contact that takes time recurs without an impact.
+    recurrences: u64,
     /// At the end of the last window.
     before: Totals,
 }
@@ -66,6 +68,7 @@ impl Driven {
                 ledger: EnergyLedger::default(),
                 given: 0.0,
                 impacts: 0,
+                recurrences: 0,
                 before: Totals::default(),
             };
             rotor.before = rotor.totals(&reached);
@@ -133,11 +136,12 @@ impl Rotor {
         work: &mut WorkCount<'_>,
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
-        let before = self.impacts;
+        let before = self.recurrences;
+        let anywhere = self.engine.system().compliance.is_some();
         loop {
-            let (now, done) = (self.engine.time(), self.impacts - before);
+            let (now, done) = (self.engine.time(), self.recurrences - before);
             let lasts = now.order(&end).is_ge() && done >= *impacts.start();
-            if (lasts || done >= *impacts.end()) && self.engine.launches() {
+            if (lasts || done >= *impacts.end()) && (anywhere || self.engine.launches()) {
                 return Ok((now, false));
             }
             if self.engine.lies_for_ever() {
@@ -162,7 +166,11 @@ impl Rotor {
         let Some(record) = self.engine.advance_within(limit)? else { return Ok(false) };
         self.ledger += record.ledger;
         match record.event {
-            Event::Impact { .. } | Event::Kick { .. } => self.impacts += 1,
+            Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
+                self.impacts += 1;
+                self.recurrences += 1;
+            }
+            Event::Turn => self.recurrences += 1,
             Event::Separation => {
                 let speed = self.perturbation * self.generator.unit();
                 let before = self.engine.state().axial_velocity;
@@ -185,7 +193,9 @@ impl Rotor {
             ledger,
             given: self.given,
             impacts: self.impacts,
-            axial_energy: 0.5 * state.axial_velocity * state.axial_velocity + state.height,
+            axial_energy: 0.5 * state.axial_velocity * state.axial_velocity
+                + state.height
+                + self.engine.spring_energy(span, &state),
             angle: state.angle,
             angular_speed: state.angular_speed,
         }
