@@ -115,8 +115,11 @@ impl DampedSine {
     }
 }
 
-/// The integrals from 0 to t of exp(z s) and, if `weighted`, s exp(z s).
-fn exponential_integrals(z: (f64, f64), t: f64, weighted: bool) -> [(f64, f64); 2] {
+/// Amplitude, exponent z, and exp(z t) at the end of an integral.
+type Oscillation = ((f64, f64), (f64, f64), (f64, f64));
+
+/// The integrals from 0 to t of exp(z s) and, if `weighted`, s exp(z s), with the exponential at the end.
+fn exponential_integrals(z: (f64, f64), t: f64, end: (f64, f64), weighted: bool) -> [(f64, f64); 2] {
     let x = (z.0 * t, z.1 * t);
     let scaled = |(re, im): (f64, f64), by: f64| (re * by, im * by);
     if x == (0.0, 0.0) {
@@ -140,9 +143,6 @@ fn exponential_integrals(z: (f64, f64), t: f64, weighted: bool) -> [(f64, f64); 
     }
     let size = z.0 * z.0 + z.1 * z.1;
     let over = |value: (f64, f64)| scaled(times(value, (z.0, -z.1)), 1.0 / size);
-    let (sin, cos) = sin_cos(x.1);
-    let e = if x.0 == 0.0 { 1.0 } else { exp(x.0) };
-    let end = (e * cos, e * sin);
     let whole = over((end.0 - 1.0, end.1));
     [whole, if weighted { over((t * end.0 - whole.0, t * end.1 - whole.1)) } else { (0.0, 0.0) }]
 }
@@ -437,28 +437,45 @@ impl QuasiPolynomial {
             return None;
         }
         let lines = t * (a0 * b0 + t * (0.5 * (a0 * b1 + a1 * b0) + t * a1 * b1 * (1.0 / 3.0)));
-        let line_with = |[c0, c1]: [f64; 2], term: &DampedSine| {
-            let [whole, weighted] = exponential_integrals((-term.decay, term.frequency), t, c1 != 0.0);
-            c0 * term.part(whole) + c1 * term.part(weighted)
+        let [own, others] = [self, other].map(|sum| sum.oscillations(t));
+        let line_with = |[c0, c1]: [f64; 2], &(a, z, end): &Oscillation| {
+            let [whole, weighted] = exponential_integrals(z, t, end, c1 != 0.0);
+            c0 * times(a, whole).0 + c1 * times(a, weighted).0
         };
-        let pair = |one: &DampedSine, more: &DampedSine| {
-            let decay = -(one.decay + more.decay);
-            let [sum, _] = exponential_integrals((decay, one.frequency + more.frequency), t, false);
-            let [difference, _] = exponential_integrals((decay, one.frequency - more.frequency), t, false);
-            let (a, b) = ((one.cosine, -one.sine), (more.cosine, -more.sine));
-            0.5 * (times(times(a, b), sum).0 + times(times(a, (b.0, -b.1)), difference).0)
+        let pair = |&(a, z, end): &Oscillation, &(b, y, other): &Oscillation| {
+            let both = |b, y: (f64, f64), other| {
+                let [whole, _] = exponential_integrals((z.0 + y.0, z.1 + y.1), t, times(end, other), false);
+                times(times(a, b), whole).0
+            };
+            0.5 * (both(b, y, other) + both((b.0, -b.1), (y.0, -y.1), (other.0, -other.1)))
         };
         let mut total = lines;
-        for one in &self.terms {
+        for one in &own {
             total += line_with([b0, b1], one);
-            for more in &other.terms {
+            for more in &others {
                 total += pair(one, more);
             }
         }
-        for more in &other.terms {
+        for more in &others {
             total += line_with([a0, a1], more);
         }
         Some(total)
+    }
+
+    /// The terms, one for each exponent: amplitude, exponent, and the exponential at t.
+    fn oscillations(&self, t: f64) -> Vec<Oscillation> {
+        let mut found: Vec<Oscillation> = Vec::with_capacity(self.terms.len());
+        for term in &self.terms {
+            let z = (-term.decay, term.frequency);
+            if let Some((a, ..)) = found.iter_mut().find(|(_, known, _)| *known == z) {
+                *a = (a.0 + term.cosine, a.1 - term.sine);
+                continue;
+            }
+            let (sin, cos) = sin_cos(z.1 * t);
+            let e = if z.0 < 0.0 { exp(z.0 * t) } else { 1.0 };
+            found.push(((term.cosine, -term.sine), z, (e * cos, e * sin)));
+        }
+        found
     }
 
     /// [`Self::at`] of a sum.
