@@ -5,6 +5,7 @@
 mod attack;
 mod campaign;
 mod cases;
+mod drive_oracle;
 mod driven;
 mod drives;
 mod drops;

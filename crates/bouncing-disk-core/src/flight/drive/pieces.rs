@@ -431,6 +431,12 @@ impl Pieces {
                 let near = |distance: f64| distance.abs() <= root.error + rounding;
                 found.on_kink = near(root.at - left) && self.jumps[next] != 0.0
                     || at_joint && near(root.at) && self.jumps[piece] != 0.0;
+                let leaves = root.slope - self.jumps[next];
+                if (root.at - left).abs() <= root.error && leaves > 0.0 {
+                    // A crest or a corner that is hit, or missed.
+                    let bound = root.error * leaves.max(-root.slope);
+                    found.doubt = found.doubt.or(Some(Doubt { at: elapsed + root.at, bound }));
+                }
                 found.piece = Some((self.starts[piece], self.starts[piece + 1]));
                 found.root = Some(Root { at: elapsed + root.at, error: root.error, ..root });
                 return Ok(found);
@@ -562,7 +568,11 @@ impl Stretch {
         let (value, slope, [error, slope_error]) = self.end(t);
         let bend = self.bend + t * self.third;
         let jet = Jet { value, slope, bend, third: self.third, error, slope_error, ..Jet::default() };
-        let (error, doubt) = jet.root_error();
+        let (mut error, doubt) = jet.root_error();
+        if self.starts_on_platform() && t < 1.0e-140 {
+            // The error of the gap underflows.
+            error = 4.0 * t * (slope_error / slope.abs());
+        }
         Root { at: t, error: error + ROUNDING * t, slope, doubt, evaluations: 1 }
     }
 
