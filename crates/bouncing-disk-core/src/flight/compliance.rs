@@ -547,6 +547,13 @@ impl Pressed {
         &self.platform
     }
 
+    /// The fastest rate of change (rad^-1).
+    #[must_use]
+    pub fn rate(&self) -> f64 {
+        let Compliance { stiffness, damping, .. } = self.platform.compliance.on(self.branch);
+        self.platform.drive.highest_harmonic().max(stiffness.sqrt()).max(damping)
+    }
+
     /// What the spring does.
     #[must_use]
     pub const fn branch(&self) -> Branch {

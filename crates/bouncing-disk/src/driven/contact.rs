@@ -24,6 +24,10 @@ use crate::motion::state::{DiskState, SlipDirection};
 /// Rounding of a rate, in units of its terms.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
+/// Radians of the fastest change after which integrals are taken in closed form: before, the sines of which
+/// force and slip are the sum are much larger than these, and so is their rounding.
+const LONG: f64 = 4.0;
+
 /// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
 const GAUSS: [(f64, f64); 4] = [
     (0.183_434_642_495_649_8, 0.362_683_783_378_362),
@@ -93,7 +97,7 @@ impl Ride<'_> {
     fn rate(&self) -> f64 {
         match self {
             Self::Platform(drive) => drive.highest_harmonic(),
-            Self::Pressed(pressed, _) => pressed.platform().rate(),
+            Self::Pressed(pressed, _) => pressed.rate(),
         }
     }
 }
@@ -382,13 +386,18 @@ impl Touching<'_> {
         span: f64,
     ) -> Option<SlideWork> {
         let Ride::Pressed(pressed, _) = self.ride else { return None };
+        if span * pressed.rate() < LONG {
+            return None;
+        }
         let (d, mu, load) = (direction.sign(), self.system.friction, self.system.load);
         let platform = self.system.angle.velocity_as_sum(at);
         let gained = pressed.velocity_change();
         let impulse = gained.at(span, span).value + span;
         let ahead = speed + d * self.system.angle.velocity(at);
         let slip = (gained * -mu + platform.clone() * -d).plus_line(ahead, -(mu + d * load));
-        let size = self.system.angle.bounds().speed + speed + mu * impulse.abs() + load.abs() * span;
+        // The impulse is a difference of the platform's speeds.
+        let carried = mu * (impulse.abs() + self.system.height.bounds().speed);
+        let size = self.system.angle.bounds().speed + speed + carried + load.abs() * span;
         Some(SlideWork {
             carried: pressed.force().product_integral(&platform, span)?,
             slipped: pressed.force().product_integral(&slip, span)?,
@@ -434,12 +443,13 @@ impl Touching<'_> {
         let offset = start.axial_velocity - disk.at(0.0, 0.0).value;
         let relative = disk + offset + platform.clone() * -1.0;
         let damping = compliant.compliance().damping();
-        if let Some(work) = force.product_integral(&platform, span)
+        if span * self.ride.rate() >= LONG
+            && let Some(work) = force.product_integral(&platform, span)
             && let Some(squares) = relative.product_integral(&relative, span)
         {
             return (work, damping * squares);
         }
-        let panels = whole(span * self.ride.rate().max(compliant.rate())) + 1.0;
+        let panels = whole(span * self.ride.rate()) + 1.0;
         let half = 0.5 * span / panels;
         let (mut work, mut loss, mut panel) = (0.0, 0.0, 0.0);
         while panel < panels {
