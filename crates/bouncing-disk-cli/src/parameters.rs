@@ -26,7 +26,10 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// put a wrong file right. The second is the table `[drive]`.
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
 
-    /// A file that is read to the same parameters, with comments.
+    /// Whether the file has a table `[contact]`.
+    fn has_contact(&self) -> bool;
+
+    /// A file that is read to the same parameters, with comments, but for the tables.
     fn template(&self) -> String;
 }
 
@@ -88,8 +91,9 @@ impl<D: Described> SourceArgs<D> {
     ) -> Result<Option<(D, DriveParameters)>> {
         let (parameters, drive) = self.driven()?;
         if self.template {
-            if !drive.is_sine() {
-                let copy = "--template writes no table [drive]: copy that of the file".to_owned();
+            let tables = [("[drive]", !drive.is_sine()), ("[contact]", parameters.has_contact())];
+            if let Some((table, _)) = tables.into_iter().find(|(_, given)| *given) {
+                let copy = format!("--template writes no table {table}: copy that of the file");
                 return Err(Failure::Usage(copy));
             }
             output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
@@ -135,6 +139,13 @@ const DRIVE: &str = "\
 # [drive]
 # height = \"triangle\"
 # angle = \"sine\"
+
+# How long an impact lasts (time, s), or what reports estimate it from; geometries: plane, ring, layer.
+# [contact]
+# materials = [\"steel\", \"aluminium\"]
+# geometry = \"ring\"
+# ball_radius = 0.01
+# ring_radius = 0.00125
 ";
 
 /// A key and the number that it is given on the command line. Whether there is such a key, and whether the

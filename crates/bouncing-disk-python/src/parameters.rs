@@ -290,6 +290,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         friction: a.real("friction")?,
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
+        contact: None,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }

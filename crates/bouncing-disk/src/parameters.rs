@@ -21,6 +21,7 @@
 //! [`Scales`] turns results without units into SI. The motion that follows from a system is in
 //! [`motion`](crate::motion). Equations and units: docs/model.md.
 
+pub(crate) mod contact;
 pub(crate) mod dimensionless;
 pub(crate) mod disk;
 pub(crate) mod driven_platform;
@@ -30,6 +31,8 @@ pub(crate) mod scales;
 pub(crate) mod stroke;
 pub(crate) mod system;
 
+pub use contact::estimate::{ContactStatement, ContactWarning, LiftOff};
+pub use contact::{Contact, Geometry, Material};
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 pub use scales::Scales;

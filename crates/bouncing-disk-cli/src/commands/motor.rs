@@ -6,6 +6,7 @@ mod settings;
 pub(super) mod sweep;
 pub(super) mod transient;
 
+use bouncing_disk::parameters::ContactStatement;
 use clap::Subcommand;
 
 use super::prelude::*;
@@ -60,6 +61,10 @@ fn report(args: &ReportArgs, context: Context) -> Result<()> {
     list.push("peak_acceleration_over_preload", report.peak_acceleration, "1");
     list.push("regime", report.regime.to_string(), "1");
     list.push("periods_per_flight", report.periods_per_flight, "periods");
+    list.push("impact_speed", report.impact_speed, "m/s");
+    for (name, value) in ContactStatement::rows(report.contact.as_ref()) {
+        list.push(name, value, "1");
+    }
     list.push("largest_torque", report.largest_torque, "N m");
     list.push("static_deflection", report.static_deflection, "m");
     list.push("preload_change_bound", report.preload_change_bound, "1");

@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterPolicy, Phase};
 use bouncing_disk::motion::{PhaseSpan, Snapshot};
-use bouncing_disk::parameters::DriveParameters;
+use bouncing_disk::parameters::{ContactStatement, DriveParameters};
 use bouncing_disk::toss::{
     InitialSpin, MultiTossSettings, OrbitClass, TOSS_START, TossOrbit, TossPerformance, multi_toss,
     single_toss, toss_trajectory,
 };
-use bouncing_disk::{Engine, InitialCondition, System};
+use bouncing_disk::{Engine, Event, InitialCondition, System};
 use bouncing_disk_plot::Figure;
 use serde::Serialize;
 
@@ -98,8 +98,8 @@ fn single(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let trajectory = toss_trajectory(system, args.spin)?;
     let periods = trajectory.end().since(&trajectory.start()).periods;
     let samples = samples(system, trajectory.uniform(instants(args.samples, periods) as usize));
-    let text = quantities(system, &toss).to_text();
-    deliver((system, None), args, context, &samples, text, ("performance", stored(&toss)?))
+    let told = (String::new(), quantities(system, &toss), landing_speed(system, args.spin));
+    deliver((system, None), args, context, &samples, told, ("performance", stored(&toss)?))
 }
 
 /// The numbers of a toss, in the order in which the paper speaks of them.
@@ -129,8 +129,19 @@ fn many(system: &System, args: &TossArgs, context: Context) -> Result<()> {
     let instants = instants(args.samples, args.periods) as usize;
     let motion = engine.sample(span, instants, &context.watch("motion of the toss"))?;
     let orbit = multi_toss(system, start, settings, &context.watch("toss"))?;
-    let text = described(system, &orbit).to_text();
-    deliver((system, None), args, context, &samples(system, motion), text, ("orbit", stored(&orbit)?))
+    let told = (String::new(), described(system, &orbit), landing_speed(system, args.spin));
+    deliver((system, None), args, context, &samples(system, motion), told, ("orbit", stored(&orbit)?))
+}
+
+/// The speed of the impact that ends the first flight (m/s); `None` if there is no flight.
+fn landing_speed(system: &System, spin: InitialSpin) -> Option<f64> {
+    let trajectory = toss_trajectory(system, spin).ok()?;
+    match trajectory.records().last()?.event {
+        Event::Impact { axial_impact_velocity, .. } => {
+            Some(axial_impact_velocity.abs() * system.scales().velocity)
+        }
+        _ => None,
+    }
 }
 
 /// At rest on the platform at its lowest point, as a single toss starts.
@@ -220,7 +231,7 @@ fn deliver(
     args: &TossArgs,
     context: Context,
     samples: &[Sample],
-    text: String,
+    (table, mut list, landing_speed): (String, Quantities, Option<f64>),
     found: (&'static str, json::Data<'_>),
 ) -> Result<()> {
     let many = |value: u64| args.many.then_some(value);
@@ -236,12 +247,20 @@ fn deliver(
     if let Some(drive) = drive {
         job["drive"] = json!(drive);
     }
+    let contact = system.contact_statement(landing_speed);
+    for (name, value) in ContactStatement::rows(contact.as_ref()) {
+        list.push(name, value, "1");
+    }
+    for warning in contact.iter().flat_map(ContactStatement::warnings) {
+        list.push("warning", warning.to_string(), "1");
+    }
+    let text = table + &list.to_text();
     let period = args.many.then(|| TAU / system.platform().angular_frequency());
     let report = Report {
         provenance: provenance("bouncing-disk toss", &job)?,
         text,
         table: write_table(samples),
-        data: vec![found, ("motion", json::list(|| samples.iter()))],
+        data: vec![found, ("contact", stored(&contact)?), ("motion", json::list(|| samples.iter()))],
         figure: Some(Box::new(move || picture(samples, period))),
     };
     report.deliver(&args.output, context)

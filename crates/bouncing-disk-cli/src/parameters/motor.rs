@@ -32,6 +32,10 @@ impl Described for Motor {
         read.map_err(|error| error.to_string())
     }
 
+    fn has_contact(&self) -> bool {
+        self.parameters().contact.is_some()
+    }
+
     fn template(&self) -> String {
         let sheet = self.parameters();
         let mut text = "# The data sheet of a motor. SI units.\n\n".to_owned();

@@ -3,7 +3,7 @@
 use bouncing_disk::System;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::driven::{Schedule, ScheduledEngine};
-use bouncing_disk::parameters::DriveParameters;
+use bouncing_disk::parameters::{Contact, DriveParameters};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
@@ -28,12 +28,14 @@ const FIELDS: [(&str, &str, &str); 10] = [
 
 /// A file, which may lack parameters that --set gives.
 #[derive(Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields, default, expecting = "the tables platform, disk and drive")]
+#[serde(deny_unknown_fields, default, expecting = "the tables platform, disk, drive and contact")]
 struct File {
     platform: PlatformTable,
     disk: DiskTable,
     #[serde(skip_serializing)]
     drive: DriveParameters,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    contact: Option<Contact>,
 }
 
 #[derive(Serialize, Deserialize, Default)]
@@ -97,6 +99,10 @@ impl Described for System {
         Ok((system, file.drive))
     }
 
+    fn has_contact(&self) -> bool {
+        self.contact().is_some()
+    }
+
     fn template(&self) -> String {
         let tables = tables(self).unwrap_or_default();
         let mut text = "# A disk on a platform that vibrates and twists. SI units.\n".to_owned();
@@ -129,6 +135,17 @@ mod tests {
             assert_eq!(read(&system.template(), Format::Toml), Ok(system));
             assert_eq!(read(&serde_json::to_string(&system).unwrap(), Format::Json), Ok(system));
         }
+    }
+
+    #[test]
+    fn a_contact_is_read_with_its_system() {
+        let with = |entry: &str| {
+            read(&format!("{}[contact]\n{entry}\n", System::pizza_toss().template()), Format::Toml)
+        };
+        assert_eq!(with("time = 0.02").map(|system| system.contact_time()), Ok(Some(0.02)));
+        assert!(with("time = 0").unwrap_err().contains("contact.time = 0 is outside"));
+        let known = "is unknown; the known ones are steel, aluminium, ";
+        assert!(with("materials = ['cheese', 'skin']").unwrap_err().contains(known));
     }
 
     #[test]

@@ -21,6 +21,7 @@ use std::f64::consts::{PI, SQRT_2, TAU};
 use crate::error::{Error, check, finite, not_negative, positive, restitution};
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::motor::data_sheet::rise_bound::highest_rise;
+use crate::parameters::contact::Contact;
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::platform::PlatformParameters;
 use crate::parameters::system::System;
@@ -214,7 +215,12 @@ impl MotorParameters {
             load_acceleration: 0.0,
         };
         let rotor = rotor.with_load_torque(self.load_torque, mass)?;
-        let system = System::new(stator.build()?, rotor.build()?)?;
+        let contact = self.contact.map(|contact| match (contact.mass, contact.time) {
+            (Some(_), _) => Err(Error::BothGiven { one: "mass", other: "contact.mass" }),
+            (None, Some(_)) => Ok(contact),
+            (None, None) => Ok(Contact { mass: Some(mass), ..contact }),
+        });
+        let system = System::new(stator.build()?, rotor.build()?)?.with_contact(contact.transpose()?)?;
         Ok(Motor { parameters: self, system, mass })
     }
 

@@ -110,7 +110,7 @@ impl System {
     pub fn with_platform(&self, change: impl FnOnce(&mut PlatformParameters)) -> Result<Self, Error> {
         let mut parameters = self.platform().parameters();
         change(&mut parameters);
-        Self::new(parameters.build()?, *self.disk())
+        Self::new(parameters.build()?, *self.disk())?.with_contact(self.contact().copied())
     }
 
     /// The same system with other parameters of the disk.
@@ -120,7 +120,7 @@ impl System {
     pub fn with_disk(&self, change: impl FnOnce(&mut DiskParameters)) -> Result<Self, Error> {
         let mut parameters = self.disk().parameters();
         change(&mut parameters);
-        Self::new(*self.platform(), parameters.build()?)
+        Self::new(*self.platform(), parameters.build()?)?.with_contact(self.contact().copied())
     }
 
     /// The same system with a load `torque` (N m) on a disk of `mass` (kg).

@@ -5,6 +5,7 @@ use bouncing_disk_core::read_checked;
 use std::fmt::{self, Display, Formatter};
 
 use crate::error::Error;
+use crate::parameters::contact::Contact;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DriveParameters;
@@ -20,6 +21,8 @@ pub struct System {
     disk: Disk,
     #[cfg_attr(feature = "serde", serde(skip))]
     dimensionless: DimensionlessSystem,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    contact: Option<Contact>,
 }
 
 impl System {
@@ -43,14 +46,19 @@ impl System {
         }
         .build()?;
         Scales::new(&platform, &disk).check()?;
-        Ok(Self { platform, disk, dimensionless })
+        Ok(Self { platform, disk, dimensionless, contact: None })
     }
 
     /// The system of a file, whose platform must be that of Eq. (1).
     #[cfg_attr(not(feature = "serde"), allow(dead_code, reason = "only a file may have a drive"))]
-    fn of_file(platform: Platform, disk: Disk, drive: DriveParameters) -> Result<Self, Error> {
+    fn of_file(
+        platform: Platform,
+        disk: Disk,
+        drive: DriveParameters,
+        contact: Option<Contact>,
+    ) -> Result<Self, Error> {
         drive.sine()?;
-        Self::new(platform, disk)
+        Self::new(platform, disk)?.with_contact(contact)
     }
 
     /// The platform.
@@ -75,6 +83,33 @@ impl System {
     #[must_use]
     pub fn scales(&self) -> Scales {
         Scales::new(&self.platform, &self.disk)
+    }
+
+    /// The table `[contact]`, with the mass of the disk if it has materials.
+    #[must_use]
+    pub const fn contact(&self) -> Option<&Contact> {
+        self.contact.as_ref()
+    }
+
+    /// How long an impact lasts (s), if that is given.
+    #[must_use]
+    pub fn contact_time(&self) -> Option<f64> {
+        self.contact.and_then(|contact| contact.contact_time())
+    }
+
+    /// The same system with another table `[contact]`.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a number that is not positive; [`Error::NeitherGiven`], [`Error::NotGiven`] and
+    /// [`Error::BothGiven`] name what is missing or too much.
+    pub fn with_contact(&self, contact: Option<Contact>) -> Result<Self, Error> {
+        if let Some(contact) = contact {
+            contact.check()?;
+            if contact.time.is_none() && contact.mass.is_none() {
+                return Err(Error::NotGiven { field: "contact.mass" });
+            }
+        }
+        Ok(Self { contact, ..*self })
     }
 
     /// P = A omega^2/g, the platform's peak acceleration in units of the preload acceleration.
@@ -121,6 +156,8 @@ read_checked!(System as UncheckedSystem {
     disk: Disk,
     #[serde(default)]
     drive: DriveParameters,
+    #[serde(default)]
+    contact: Option<Contact>,
 } => System::of_file);
 
 impl Display for System {

@@ -29,12 +29,14 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
         }
         _ => None,
     };
-    let end = if args.many { args.periods as f64 * period } else { landing(motion.clone())? };
+    let landing = landing(motion.clone());
+    let speed = landing.as_ref().ok().map(|(_, speed)| *speed);
+    let end = if args.many { args.periods as f64 * period } else { landing?.0 };
     let instants = instants(args.samples, (end / period) as u64) as usize;
     let (impacts, samples) = sampled(motion, end, instants)?;
     if let Some(toss) = toss {
-        let text = quantities(system, &toss).to_text();
-        return deliver(own, args, context, &samples, text, ("performance", stored(&toss)?));
+        let told = (String::new(), quantities(system, &toss), speed);
+        return deliver(own, args, context, &samples, told, ("performance", stored(&toss)?));
     }
     let Ok(platform) = platform else {
         let columns = Columns::<Impact>::new()
@@ -43,7 +45,8 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
             .column("impact_velocity", "m/s", |row| row.impact_velocity_m_s)
             .column("angular_speed", "rad/s", |row| row.angular_speed_rad_s);
         let text = columns.to_text(&impacts);
-        return deliver(own, args, context, &samples, text, ("impacts", stored(&impacts)?));
+        let told = (text, Quantities::default(), speed);
+        return deliver(own, args, context, &samples, told, ("impacts", stored(&impacts)?));
     };
     let of_disk = DrivenSystem::new(&platform, system.disk())?;
     let phase = Phase::new(TOSS_START)?;
@@ -53,8 +56,8 @@ pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, con
     };
     let start = DrivenStart::Contact { phase, angular_speed };
     let orbit = multi_toss(of_disk, start, &args.settings(), &context.watch("toss"))?;
-    let text = described(system, &orbit).to_text();
-    deliver(own, args, context, &samples, text, ("orbit", stored(&orbit)?))
+    let told = (String::new(), described(system, &orbit), speed);
+    deliver(own, args, context, &samples, told, ("orbit", stored(&orbit)?))
 }
 
 /// The motion from rest on the platform; a periodic drive starts at the lowest point of the sine.
@@ -73,12 +76,13 @@ fn motion(system: &System, drive: &DriveParameters, spin: InitialSpin) -> Result
     })
 }
 
-/// When the disk comes down for the first time (s).
-fn landing(motion: ScheduledEngine) -> Result<f64> {
-    for event in motion.take(MOST_EVENTS) {
-        let event = event?;
-        if matches!(event.record.event, Event::Impact { .. }) {
-            return Ok(event.time);
+/// When the disk comes down for the first time (s), and at which speed (m/s).
+fn landing(mut motion: ScheduledEngine) -> Result<(f64, f64)> {
+    for _ in 0..MOST_EVENTS {
+        let Some(event) = motion.advance()? else { break };
+        if let Event::Impact { axial_impact_velocity, .. } = event.record.event {
+            let unit = motion.scales_of(event.segment).map_or(f64::NAN, |scales| scales.velocity);
+            return Ok((event.time, axial_impact_velocity.abs() * unit));
         }
     }
     Err(Failure::Failed(format!(

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField, distance};
 use crate::motor::data_sheet::parameters::MotorParameters;
+use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
 
 /// Why the text of a data sheet gives no motor.
@@ -103,8 +104,13 @@ impl Motor {
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
-        let lines: Vec<_> =
+        let mut lines: Vec<_> =
             given(&self.parameters()).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
+        if let Some(contact) = self.parameters().contact {
+            let entries: Vec<_> =
+                contact.entries().iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+            lines.push(format!("  \"contact\": {{{}}}", entries.join(", ")));
+        }
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
 
@@ -174,14 +180,16 @@ impl Motor {
     #[cfg(feature = "toml")]
     #[must_use]
     pub fn to_toml(&self) -> String {
-        given(&self.parameters())
-            .map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()))
-            .collect()
+        let sheet = self.parameters();
+        let lines = given(&sheet).map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()));
+        let entries = sheet.contact.iter().flat_map(Contact::entries);
+        let contact = sheet.contact.map(|_| "[contact]\n".to_owned()).into_iter();
+        lines.chain(contact).chain(entries.map(|(key, value)| format!("{key} = {value}\n"))).collect()
     }
 }
 
-/// The fields that a text names, and their values; `None` for `null`. And its drive.
-type Given = (BTreeMap<MotorField, Option<f64>>, Option<DriveParameters>);
+/// The fields that a text names, and their values; `None` for `null`. And its tables.
+type Given = (BTreeMap<MotorField, Option<f64>>, Option<DriveParameters>, Option<Contact>);
 
 /// A key of a data sheet.
 #[derive(Clone, Copy, serde::Deserialize)]
@@ -189,16 +197,19 @@ type Given = (BTreeMap<MotorField, Option<f64>>, Option<DriveParameters>);
 enum Key {
     Field(MotorField),
     Drive,
+    Contact,
 }
 
 impl TryFrom<String> for Key {
     type Error = UnknownMotorField;
 
     fn try_from(name: String) -> Result<Self, UnknownMotorField> {
-        match distance(&name.to_ascii_lowercase(), "drive") {
-            0 if name == "drive" => Ok(Self::Drive),
-            0 | 1 => Err(UnknownMotorField::instead_of(&name, "drive")),
-            _ => name.parse().map(Self::Field),
+        let near = |table| distance(&name.to_ascii_lowercase(), table) < 2;
+        match ["drive", "contact"].into_iter().find(|table| near(table)) {
+            Some("drive") if name == "drive" => Ok(Self::Drive),
+            Some("contact") if name == "contact" => Ok(Self::Contact),
+            Some(table) => Err(UnknownMotorField::instead_of(&name, table)),
+            None => name.parse().map(Self::Field),
         }
     }
 }
@@ -214,7 +225,7 @@ impl<'de> Visitor<'de> for Entries {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Given, A::Error> {
-        let (mut given, mut drive) = Given::default();
+        let (mut given, mut drive, mut contact) = Given::default();
         while let Some(key) = map.next_key::<Key>()? {
             let twice = |name: &str| A::Error::custom(format_args!("the key \"{name}\" is there twice"));
             match key {
@@ -224,19 +235,21 @@ impl<'de> Visitor<'de> for Entries {
                 }
                 Key::Drive if drive.is_some() => return Err(twice("drive")),
                 Key::Drive => drive = Some(map.next_value()?),
+                Key::Contact if contact.is_some() => return Err(twice("contact")),
+                Key::Contact => contact = Some(map.next_value()?),
             }
         }
-        Ok((given, drive))
+        Ok((given, drive, contact))
     }
 }
 
 /// The motor of a text and of the `changes`, which take the place of what the text says before anything is
 /// checked.
 fn motor_of(
-    (mut given, drive): Given,
+    (mut given, drive, contact): Given,
     changes: &[(MotorField, f64)],
 ) -> Result<(Motor, DriveParameters), Error> {
-    let mut sheet = MotorParameters::EMPTY;
+    let mut sheet = MotorParameters { contact, ..MotorParameters::EMPTY };
     for (field, value) in &given {
         (field.field().set)(&mut sheet, *value);
     }
@@ -400,6 +413,24 @@ mod tests {
         let legal = |drive| format!("{sheet}[drive]\nheight = \"{drive}\"\n");
         assert_eq!(Motor::from_toml(&legal("triangle")), Err(Error::DriveNotSine.into()));
         assert_eq!(Motor::from_toml(&legal("sine")), Ok(Motor::paper_70_khz()));
+    }
+
+    #[cfg(feature = "toml")]
+    #[test]
+    fn a_contact_is_read_as_it_is_written() {
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.contact = Some(Contact::PAPER)).expect("legal");
+        assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
+        assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor));
+        for (from, to, told) in [
+            ("\"steel\"", "\"stel\"", "\"stel\" is unknown; did you mean \"steel\"?"),
+            ("\"steel\"", "\"cheese\"", "\"cheese\" is unknown; the known ones are steel, aluminium, "),
+            ("[contact]", "[contacts]", "did you mean \"contact\"?"),
+            ("ball_radius = 0.01", "ball_radius = -0.01", "contact.ball_radius = -0.01 is outside"),
+            ("ball_radius", "ball_radus", "did you mean \"ball_radius\"?"),
+        ] {
+            let error = Motor::from_toml(&motor.to_toml().replace(from, to)).expect_err(to).to_string();
+            assert!(error.contains(told), "{to}: {error}");
+        }
     }
 
     /// What takes the place of a value is all that is looked at: of one that is illegal, missing, or one of

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use crate::parameters::contact::Contact;
 use crate::parameters::system::System;
 
 /// The data sheet of a motor, not yet checked. Alternatives are optional; of each pair exactly one is given:
@@ -62,6 +63,10 @@ pub struct MotorParameters {
     /// Load torque T_L (N m), any finite number; a positive load decelerates a positive rotation. Default 0.
     #[cfg_attr(feature = "serde", serde(default))]
     pub load_torque: f64,
+    /// How long an impact lasts, or materials and geometry; the mass is that of the rotor. No default: without it
+    /// a report cannot tell whether rigid impacts are valid.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub contact: Option<Contact>,
 }
 
 impl MotorParameters {
@@ -84,6 +89,7 @@ impl MotorParameters {
         friction: f64::NAN,
         restitution: f64::NAN,
         load_torque: 0.0,
+        contact: None,
     };
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
@@ -116,6 +122,7 @@ impl MotorParameters {
             friction: disk.friction(),
             restitution: disk.restitution(),
             load_torque: disk.load_acceleration() * (mass * gyration_radius * gyration_radius),
+            contact: system.contact().map(|contact| Contact { mass: None, ..*contact }),
             ..Self::EMPTY
         }
     }

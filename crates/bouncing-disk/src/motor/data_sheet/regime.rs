@@ -112,6 +112,8 @@ struct Seen {
     long_flights: u64,
     /// Radians in long flights.
     flown: f64,
+    /// Sum of the speeds of the impacts that end them (g/omega).
+    speeds: f64,
     separations: u64,
     /// Radians from the first separation to the last one.
     elapsed: f64,
@@ -137,6 +139,7 @@ impl Seen {
                     if duration > LONG_FLIGHT {
                         seen.long_flights += 1;
                         seen.flown += duration;
+                        seen.speeds -= impact.velocity;
                     }
                     impacts += 1;
                 }
@@ -156,9 +159,11 @@ impl Seen {
         Ok(seen)
     }
 
-    /// Mean periods of the stator in a long flight.
-    fn periods_per_flight(&self) -> Option<f64> {
-        (self.long_flights > 0).then(|| self.flown / (TAU * self.long_flights as f64))
+    /// The means over the long flights.
+    fn flights(&self) -> Option<MeanFlight> {
+        let count = self.long_flights as f64;
+        let mean = MeanFlight { periods: self.flown / (TAU * count), impact_speed: self.speeds / count };
+        (self.long_flights > 0).then_some(mean)
     }
 
     /// Mean periods of the stator between two separations.
@@ -167,11 +172,20 @@ impl Seen {
     }
 }
 
-/// The regime, and the mean number of the stator's periods in a long flight.
+/// Means over the flights longer than half a period, as a chatter has infinitely many short ones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MeanFlight {
+    /// Periods of the stator.
+    pub(crate) periods: f64,
+    /// Speed of the impact at its end (g/omega).
+    pub(crate) impact_speed: f64,
+}
+
+/// The regime, and the long flights.
 pub(crate) fn regime(
     system: &DimensionlessSystem,
     observer: &dyn Observer,
-) -> Result<(MotorRegime, Option<f64>), Error> {
+) -> Result<(MotorRegime, Option<MeanFlight>), Error> {
     let map = system.map();
     let Some(separation) = map.vibration().separation_phase() else {
         return Ok((MotorRegime::NoLiftOff, None));
@@ -204,7 +218,7 @@ pub(crate) fn regime(
         }
         OrbitClass::Undecided { impacts, .. } => long.unwrap_or(MotorRegime::Undecided { impacts }),
     };
-    Ok((regime, seen.periods_per_flight()))
+    Ok((regime, seen.flights()))
 }
 
 /// Whether the perturbed motion repeats a short cycle, judged as `MotorStatistics` does.

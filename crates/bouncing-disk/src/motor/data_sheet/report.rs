@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::regime::{MotorRegime, regime};
 use crate::motor::data_sheet::warning::MotorWarning;
+use crate::parameters::contact::estimate::ContactStatement;
 
 /// The derived quantities of a data sheet, and the behaviour of the motor ([`Motor::report`]). It prints as
 /// several lines.
@@ -27,6 +28,10 @@ pub struct MotorReport {
     /// chatter has infinitely many short ones. From a perturbed motion of 20 000 to 200 000 impacts. `None`
     /// where no flight is that long.
     pub periods_per_flight: Option<f64>,
+    /// Mean speed of the impacts that end these flights (m/s).
+    pub impact_speed: Option<f64>,
+    /// How long these impacts last; `None` if the data sheet does not have what that needs.
+    pub contact: Option<ContactStatement>,
     /// mu m g a_e (N m), which no motor exceeds in the mean.
     pub largest_torque: f64,
     /// Static deflection of the preload's spring (m); `None` without a spring.
@@ -47,18 +52,23 @@ impl Motor {
     /// # Errors
     /// Those of the core, for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
-        let (regime, periods_per_flight) = regime(self.system().dimensionless(), observer)?;
+        let (regime, flight) = regime(self.system().dimensionless(), observer)?;
         let system = self.system();
+        let impact_speed = flight.map(|mean| mean.impact_speed * system.scales().velocity);
+        let contact = system.contact_statement(impact_speed);
+        let of_contact = contact.iter().flat_map(ContactStatement::warnings).map(MotorWarning::Contact);
         Ok(MotorReport {
             axial_forcing: system.axial_forcing(),
             angular_forcing: system.angular_forcing(),
             peak_acceleration: system.peak_acceleration(),
             regime,
-            periods_per_flight,
+            periods_per_flight: flight.map(|mean| mean.periods),
+            impact_speed,
+            contact,
             largest_torque: self.largest_torque(),
             static_deflection: self.static_deflection(),
             preload_change_bound: self.preload_change_bound(),
-            warnings: self.warnings(),
+            warnings: self.warnings().into_iter().chain(of_contact).collect(),
         })
     }
 }
@@ -70,6 +80,9 @@ impl Display for MotorReport {
         write!(f, "\nregime: {}", self.regime)?;
         if let Some(periods) = self.periods_per_flight {
             write!(f, "\na flight lasts {} periods in the mean", rough(periods))?;
+        }
+        for (name, value) in ContactStatement::rows(self.contact.as_ref()) {
+            write!(f, "\n{}: {value}", name.replace('_', " "))?;
         }
         write_torque_and_spring(f, self.largest_torque, self.static_deflection, self.preload_change_bound)?;
         write_warnings(f, &self.warnings)

@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{Field, MotorField};
+use crate::parameters::contact::estimate::ContactWarning;
 
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;
@@ -71,6 +72,8 @@ pub enum MotorWarning {
         /// The unit of both: rad/s or s.
         unit: &'static str,
     },
+    /// Impacts take time ([`Motor::report`]).
+    Contact(ContactWarning),
 }
 
 impl Display for MotorWarning {
@@ -105,6 +108,7 @@ impl Display for MotorWarning {
                 "the preload may change by {} % while the rotor flies (a bound); the model keeps it constant",
                 rough(100.0 * bound)
             ),
+            Self::Contact(warning) => warning.fmt(f),
             Self::OtherScale { measured, drive, unit } => {
                 let quantity = if unit == "s" { "rise time" } else { "speed" };
                 write!(
