@@ -13,7 +13,7 @@
 //! Between two events all is polynomials and damped sines, and the events are their first roots
 //! (docs/numerics/contacts.md). The platform is a Fourier sum.
 
-use core::f64::consts::{FRAC_PI_2, TAU};
+use core::f64::consts::{E, FRAC_PI_2, TAU};
 
 use super::drive::Drive;
 use super::drive::landing::{DrivenImpact, decided};
@@ -28,6 +28,22 @@ use crate::numerics::roots::bisection;
 
 /// Damping this near to the critical one counts as critical: the restitution differs by less than a rounding.
 const CRITICAL: f64 = 1.0e-8;
+
+/// A spring that holds still moves when the load is beyond what holds it by this share of the loads: a load
+/// that touches the edge within its rounding does not move it.
+const EDGE: f64 = 128.0 * f64::EPSILON;
+
+/// Rates that differ by less than this share of themselves: the difference of their exponentials is an
+/// integral over the rates between them, which the rule below gives to rounding while the motion matters.
+const NEAR: f64 = 3.0e-2;
+
+/// Nodes and weights of the Gauss-Legendre rule of four points on [-1, 1]; the weights add up to 1.
+const GAUSS: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
+    (-0.339_981_043_584_856_26, 0.326_072_577_431_273_07),
+    (0.339_981_043_584_856_26, 0.326_072_577_431_273_07),
+    (0.861_136_311_594_052_6, 0.173_927_422_568_726_93),
+];
 
 /// A transient that has decayed to this share of the force is rounding.
 const SETTLED: f64 = 1.0e-18;
@@ -69,11 +85,13 @@ impl Compliance {
     /// falls to zero, and has this restitution.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a contact time outside [1e-6, 1e4] rad, or a restitution outside [0.001, 1).
+    /// [`Error::OutOfRange`] for a contact time outside [1e-6, 1e4] rad, or a restitution outside
+    /// [0.001, 1 - 1e-6].
     pub fn new(contact_time: f64, restitution: f64) -> Result<Self, Error> {
         within("contact time", contact_time, 1.0e-6, 1.0e4, "[1e-6, 1e4] (rad of the drive)")?;
-        let most = 1.0_f64.next_down();
-        within("restitution of a contact that takes time", restitution, 0.001, most, "[0.001, 1)")?;
+        // At a resonance free and forced oscillation, 1/(1 - e) times as large as the platform's, cancel.
+        let legal = "[0.001, 1 - 1e-6]";
+        within("restitution of a contact that takes time", restitution, 0.001, 1.0 - 1.0e-6, legal)?;
         // Damping ratio cos u, or cosh u beyond the critical one: the restitution is exp(-2 u cot u), or
         // exp(-2 u coth u).
         let lost = -0.5 * ln(restitution);
@@ -174,35 +192,61 @@ impl Compliance {
         Complex(k, d).over(Complex(k - number * number, d))
     }
 
-    /// h0 and h1 as value and slope of a free oscillation.
-    fn free(&self, value: f64, slope: f64) -> [DampedSine; 2] {
+    /// A free oscillation from this value and slope on.
+    fn free(&self, value: f64, slope: f64) -> Vec<DampedSine> {
         let frequency = self.stiffness.sqrt();
         let decay = 0.5 * self.damping;
         let square = (frequency - decay) * (frequency + decay);
         let omega = square.abs().sqrt();
-        let own = |cosine, sine, frequency, decay, with_time| DampedSine {
-            cosine,
-            sine,
-            frequency,
-            decay,
+        let own = |cosine, decay, with_time| DampedSine {
             with_time,
+            decay,
+            ..DampedSine::steady(cosine, 0.0, 0.0)
         };
+        let rise = slope + decay * value;
+        let fast = decay + omega;
+        let slow = self.stiffness / fast;
         if omega <= CRITICAL * frequency {
-            [own(value, 0.0, 0.0, decay, false), own(slope + decay * value, 0.0, 0.0, decay, true)]
+            vec![own(value, decay, false), own(rise, decay, true)]
+        } else if omega < NEAR * frequency {
+            let between = GAUSS.map(|(node, weight)| {
+                if square < 0.0 {
+                    return own(weight * rise, decay + omega * node, true);
+                }
+                DampedSine { frequency: omega * node.abs(), ..own(weight * rise, decay, true) }
+            });
+            let mut terms = between.to_vec();
+            if square < 0.0 {
+                terms.extend([slow, fast].map(|decay| own(0.5 * value, decay, false)));
+            } else {
+                terms.push(DampedSine { frequency: omega, ..own(value, decay, false) });
+            }
+            terms
         } else if square > 0.0 {
-            [
-                own(value, (slope + decay * value) / omega, omega, decay, false),
-                own(0.0, 0.0, 0.0, decay, false),
-            ]
+            vec![DampedSine { decay, ..DampedSine::steady(value, rise / omega, omega) }]
         } else {
-            let fast = decay + omega;
-            let slow = self.stiffness / fast;
             let share = 1.0 / (fast - slow);
-            [
-                own((slope + fast * value) * share, 0.0, 0.0, slow, false),
-                own(-(slope + slow * value) * share, 0.0, 0.0, fast, false),
+            vec![
+                own((slope + fast * value) * share, slow, false),
+                own(-(slope + slow * value) * share, fast, false),
             ]
         }
+    }
+
+    /// The force of a spring without a damper that starts without value and slope, as a harmonic pulls at it
+    /// that is next to its resonance.
+    fn resonance(&self, harmonic: &DampedSine) -> Vec<DampedSine> {
+        let (own, driven) = (self.stiffness.sqrt(), harmonic.frequency);
+        let (half, middle) = (0.5 * (own - driven), 0.5 * (own + driven));
+        let size = 0.5 * self.stiffness / middle;
+        let mut terms = GAUSS
+            .map(|(node, weight)| {
+                let (cosine, sine) = (-size * weight * harmonic.sine, size * weight * harmonic.cosine);
+                DampedSine { with_time: true, ..DampedSine::steady(cosine, sine, middle + half * node) }
+            })
+            .to_vec();
+        terms.push(DampedSine::steady(0.0, size * harmonic.sine / own, own));
+        terms
     }
 
     /// The slower rate of decay of a free oscillation.
@@ -338,15 +382,26 @@ impl CompliantPlatform {
     #[must_use]
     pub fn branch(&self, state: RelativeState) -> Branch {
         let load = || 1.0 + self.drive.acceleration(state.time);
+        let spare = || self.spare(state.gap);
         if !self.compliance.is_hysteretic() || state.velocity < 0.0 {
             Branch::Loading
-        } else if state.velocity > 0.0 || load() < -self.compliance.unloading * state.gap {
+        } else if state.velocity > 0.0 || load() < -self.compliance.unloading * state.gap - spare() {
             Branch::Unloading
-        } else if load() > -self.compliance.stiffness * state.gap {
+        } else if load() > -self.compliance.stiffness * state.gap + spare() {
             Branch::Loading
         } else {
             Branch::Held
         }
+    }
+
+    /// By how much the load must be beyond the force of a disk at rest that it moves it: where it lies on the
+    /// platform without a force, by more than what [`Drive::holds`] takes for a rounding.
+    fn spare(&self, gap: f64) -> f64 {
+        let bounds = self.drive.bounds();
+        if gap == 0.0 {
+            return 2.0 * bounds.doubtful_pull(TAU);
+        }
+        EDGE * (1.0 + bounds.acceleration + self.compliance.stiffness * gap.abs())
     }
 
     /// The next touch of a disk that feels no force, if it comes within `limit` (rad).
@@ -393,10 +448,12 @@ impl CompliantPlatform {
         let slope = -1.0 - self.drive.acceleration(time);
         let pull = self.force(from).min(0.0);
         let to = limit.min(2.0 * MAX_FLIGHT_DURATION);
-        let presses = height
-            .clone()
-            .with_its_slope(stiffness, damping)
-            .starting_with([-pull, stiffness * velocity + damping * slope], [0.0; 2]);
+        let rise = stiffness * velocity + damping * slope;
+        let presses =
+            height.clone().with_its_slope(stiffness, damping).starting_with([-pull, rise], [0.0; 2]);
+        if pull == 0.0 && (rise < 0.0 || rise == 0.0 && presses.at(0.0, 0.0).bend < 0.0) {
+            return Ok(Some(at(0.0, gap, velocity)));
+        }
         let pressed = decided(&presses, to)?.root.map_or(f64::INFINITY, |root| root.at);
         let freed = decided(&(height.clone() * -1.0), to.min(pressed))?.root;
         if let Some(freed) = freed {
@@ -440,6 +497,7 @@ impl CompliantPlatform {
                 velocity: here.velocity,
                 steady: 0.0,
                 transient: 0.0,
+                fading: 0.0,
             };
         }
         let spring = self.compliance.on(branch);
@@ -451,13 +509,18 @@ impl CompliantPlatform {
             force => force,
         };
         let mut slope = -(stiffness * from.velocity + damping * (force - 1.0 - here.acceleration));
-        if from.gap == 0.0 && from.velocity == 0.0 {
+        if from.gap == 0.0 && from.velocity == 0.0 && self.drive.holds(from.time) {
             // A disk that is put down does not leave by a rounding.
             slope = slope.max(0.0);
         }
         let (mut value, mut rate, mut steady) = (force - 1.0, slope, 0.0);
         let mut terms = Vec::with_capacity(harmonics.len() + 2);
         for harmonic in harmonics {
+            let near = (harmonic.frequency - spring.stiffness.sqrt()).abs() < NEAR * harmonic.frequency;
+            if near && spring.is_hysteretic() {
+                terms.extend(spring.resonance(&harmonic));
+                continue;
+            }
             let Complex(re, im) = spring.response(harmonic.frequency);
             let (c, s) = (harmonic.cosine, harmonic.sine);
             let (cosine, sine) = (re * c + im * s, re * s - im * c);
@@ -467,7 +530,13 @@ impl CompliantPlatform {
             terms.push(DampedSine::steady(cosine, sine, harmonic.frequency));
         }
         let free = spring.free(value, rate);
-        let transient = free.iter().map(|term| hypot(term.cosine, term.sine)).sum();
+        let slow = spring.slow_decay();
+        // t exp(-d t) is below 2/(e d) exp(-d t/2).
+        let grows = free.iter().any(|term| term.with_time);
+        let transient = free
+            .iter()
+            .map(|term| hypot(term.cosine, term.sine) * if term.with_time { 2.0 / (E * slow) } else { 1.0 })
+            .sum();
         terms.extend(free.into_iter().filter(|term| term.cosine != 0.0 || term.sine != 0.0));
         let errors = [
             if from.gap == 0.0 || force == 0.0 { 0.0 } else { rounding * stiffness * from.gap.abs() },
@@ -482,6 +551,7 @@ impl CompliantPlatform {
             velocity: here.velocity + from.velocity,
             steady,
             transient,
+            fading: if grows { 0.5 * slow } else { slow },
         }
     }
 }
@@ -498,6 +568,8 @@ pub struct Pressed {
     /// Bound on the oscillation of the force that stays, and on that which decays.
     steady: f64,
     transient: f64,
+    /// The rate at which the latter decays.
+    fading: f64,
 }
 
 impl Pressed {
@@ -566,6 +638,13 @@ impl Pressed {
         &self.from
     }
 
+    /// Whether the disk lies on the platform, which holds it but for a rounding: time must pass before it
+    /// leaves.
+    fn is_put_down(&self) -> bool {
+        let RelativeState { time, gap, velocity } = self.from;
+        gap == 0.0 && velocity == 0.0 && self.platform.drive.holds(time)
+    }
+
     /// The end of the contact, if it comes within `limit` (rad).
     ///
     /// # Errors
@@ -576,17 +655,21 @@ impl Pressed {
             return self.turn(limit);
         }
         let start = self.force.at(0.0, 0.0);
-        if start.value < -start.error || start.value <= 0.0 && start.slope < 0.0 {
+        let falls = start.slope < 0.0 || start.slope == 0.0 && start.bend <= 0.0;
+        let (mut force, put_down) = (self.force.clone(), self.is_put_down());
+        if start.value < -start.error || start.value <= 0.0 && falls && !put_down {
             return Ok(Some(ContactEnd::Release(0.0)));
         }
-        let decay = self.platform.compliance.slow_decay();
+        if put_down && falls {
+            force = force + self.platform.spare(0.0);
+        }
         let spare = 1.0 - self.steady;
         // When the transient is smaller than what the steady force keeps, or than a rounding.
-        let until = |left: f64| ln((self.transient / left).max(1.0)) / decay;
+        let until = |left: f64| ln((self.transient / left).max(1.0)) / self.fading;
         let settled = until(SETTLED * (1.0 + self.steady));
         let search = if spare > 0.0 { until(spare).min(settled) } else { settled + TAU };
         if search > 0.0
-            && let Some(root) = decided(&self.force, search.min(limit))?.root
+            && let Some(root) = decided(&force, search.min(limit))?.root
         {
             return Ok(Some(ContactEnd::Release(root.at)));
         }
@@ -608,8 +691,12 @@ impl Pressed {
         let [first, second] = match self.branch {
             Branch::Held => {
                 let to = limit.min(TAU);
-                let loads = fall(&(self.force.clone() * -1.0 + -stiffness * self.from.gap), to)?;
-                let unloads = fall(&(self.force.clone() + unloading * self.from.gap), loads.unwrap_or(to))?;
+                let spare = self.platform.spare(self.from.gap);
+                let edge = |sign: f64, stiffness: f64| {
+                    self.force.clone() * sign + (sign * stiffness * self.from.gap + spare)
+                };
+                let loads = fall(&edge(-1.0, stiffness), to)?;
+                let unloads = fall(&edge(1.0, unloading), loads.unwrap_or(to))?;
                 if loads.is_none() && unloads.is_none() && limit >= TAU {
                     return Ok(Some(ContactEnd::Settles(TAU)));
                 }
@@ -633,7 +720,9 @@ impl Pressed {
                     Branch::Unloading => fall(&self.force, turned.unwrap_or(to))?,
                     _ => None,
                 };
-                [turned.map(|at| (at, Some(self.turned_at(at)))), freed.map(|at| (at, None))]
+                // What would go back at once has not moved.
+                let to = |at| if at > 0.0 { self.turned_at(at) } else { Branch::Held };
+                [turned.map(|at| (at, Some(to(at)))), freed.map(|at| (at, None))]
             }
         };
         // The second one was searched up to the first.

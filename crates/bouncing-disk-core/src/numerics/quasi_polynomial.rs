@@ -81,22 +81,7 @@ impl DampedSine {
         let (sin, cos) = sin_cos(z.1);
         let e = if self.decay > 0.0 { exp(z.0) } else { 1.0 };
         let whole = (e * cos, e * sin);
-        // exp(z) - 1 - z and exp(z) - 1, accurate relative to themselves.
-        let (second, first) = if rate * t < 0.5 {
-            let mut sum = (1.0 / 15.0, 0.0);
-            for k in (3..15).rev() {
-                sum = times(
-                    (sum.0 * z.0 - sum.1 * z.1 + 1.0, sum.0 * z.1 + sum.1 * z.0),
-                    (1.0 / f64::from(k), 0.0),
-                );
-            }
-            let sum = (0.5 * (1.0 + (sum.0 * z.0 - sum.1 * z.1)), 0.5 * (sum.0 * z.1 + sum.1 * z.0));
-            let second = times(times(z, z), sum);
-            (second, (z.0 + second.0, z.1 + second.1))
-        } else {
-            let first = (whole.0 - 1.0, whole.1);
-            ((first.0 - z.0, first.1 - z.1), first)
-        };
+        let (second, first) = exponential(z, whole, rate * t);
         let power = rate * rate * rate;
         if self.with_time {
             let scaled = |k: f64| times((k + z.0, z.1), whole);
@@ -145,6 +130,26 @@ fn exponential_integrals(z: (f64, f64), t: f64, end: (f64, f64), weighted: bool)
     let over = |value: (f64, f64)| scaled(times(value, (z.0, -z.1)), 1.0 / size);
     let whole = over((end.0 - 1.0, end.1));
     [whole, if weighted { over((t * end.0 - whole.0, t * end.1 - whole.1)) } else { (0.0, 0.0) }]
+}
+
+/// exp(z) - 1 - z and exp(z) - 1, accurate relative to themselves, of a number z of at most this `size` with
+/// the exponential `whole`.
+fn exponential(z: (f64, f64), whole: (f64, f64), size: f64) -> ((f64, f64), (f64, f64)) {
+    if size < 0.5 {
+        let mut sum = (1.0 / 15.0, 0.0);
+        for k in (3..15).rev() {
+            sum = times(
+                (sum.0 * z.0 - sum.1 * z.1 + 1.0, sum.0 * z.1 + sum.1 * z.0),
+                (1.0 / f64::from(k), 0.0),
+            );
+        }
+        let sum = (0.5 * (1.0 + (sum.0 * z.0 - sum.1 * z.1)), 0.5 * (sum.0 * z.1 + sum.1 * z.0));
+        let second = times(times(z, z), sum);
+        (second, (z.0 + second.0, z.1 + second.1))
+    } else {
+        let first = (whole.0 - 1.0, whole.1);
+        ((first.0 - z.0, first.1 - z.1), first)
+    }
 }
 
 fn times(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
@@ -480,7 +485,8 @@ impl QuasiPolynomial {
 
     /// [`Self::at`] of a sum.
     fn sum_at(&self, [constant, slope]: [f64; 2], t: f64, to: f64) -> Jet {
-        let mut jet = Jet { value: constant + t * slope, slope, ..Jet::default() };
+        // Each term less its value at the start: slow ones keep their digits beside a fast one.
+        let mut jet = Jet { value: self.start[0] + t * slope, slope, ..Jet::default() };
         let mut sizes = [constant.abs() + t * slope.abs(), slope.abs(), 0.0];
         for term in &self.terms {
             let (rate, grows) = (term.decay + term.frequency, f64::from(u8::from(term.with_time)));
@@ -493,7 +499,11 @@ impl QuasiPolynomial {
                 let along = term.part(term.turned(k, whole)) * if term.with_time { t } else { 1.0 };
                 along + if k > 0 { term.part(term.turned(k - 1, here)) } else { 0.0 }
             };
-            jet.value += of(0);
+            jet.value += if term.with_time {
+                of(0)
+            } else {
+                term.part(exponential((-term.decay * t, term.frequency * t), whole, rate * t).1)
+            };
             jet.slope += of(1);
             jet.bend += of(2);
             jet.third += of(3);
@@ -767,7 +777,8 @@ pub(crate) fn first_root(at: impl Fn(f64) -> Jet, from: f64, to: f64) -> Result<
             // The longest step that is certain, of a few tries.
             let mut h = left.min(trial).min(if guess > 0.0 { 0.98 * guess } else { jet.scale() });
             let mut clear = false;
-            while h > f64::EPSILON * t && h > 0.0 {
+            // A share of the least double is the least double.
+            while h > f64::EPSILON * t && h > f64::MIN_POSITIVE {
                 clear = if from_zero { jet.clears_from_zero(h) } else { jet.clears(h) };
                 if clear {
                     break;

@@ -5,6 +5,7 @@
 mod attack;
 mod campaign;
 mod cases;
+mod contacts;
 mod drive_oracle;
 mod driven;
 mod drives;

@@ -135,7 +135,7 @@ impl Drive {
 
 impl DriveBounds {
     /// A pull that is smaller may be the rounding of its terms, or of the time.
-    pub(super) fn doubtful_pull(&self, time: f64) -> f64 {
+    pub(crate) fn doubtful_pull(&self, time: f64) -> f64 {
         DOUBTFUL_PULL * (1.0 + self.acceleration) + ROUNDING * (TAU + time.abs()) * self.jerk
     }
 }
