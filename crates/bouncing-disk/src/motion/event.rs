@@ -15,7 +15,8 @@ use std::fmt::{self, Display, Formatter};
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub enum Event {
-    /// The disk hits the platform.
+    /// The disk hits the platform. In a contact that takes time the contact begins: its impulses follow until
+    /// the separation.
     Impact {
         /// Relative axial velocity w_A (disk minus platform) just before, <= 0, in units of g/omega.
         axial_impact_velocity: f64,
@@ -30,7 +31,8 @@ pub enum Event {
         /// Impacts summed.
         impacts: u64,
         /// Bound on the error of the attachment phase (rad); infinite for the cut of a chatter with constant
-        /// restitution, as in the paper, and where no bound is known.
+        /// restitution, as in the paper, and where no bound is known. Zero for a contact that takes time: by
+        /// definition it attaches where its transient is 1e-18 of the force.
         #[cfg_attr(
             feature = "serde",
             serde(deserialize_with = "bouncing_disk_core::stored::infinite_if_none")

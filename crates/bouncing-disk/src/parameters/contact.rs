@@ -50,19 +50,19 @@ materials! {
     Titanium: 100.0, 120.0, 0.33;
     /// Gere, all glasses.
     Glass: 48.0, 83.0, 0.22;
-    /// Lead zirconate titanate, poled: from 1/s33 to 1/s11 of soft and hard grades in manufacturers' tables.
+    /// Lead zirconate titanate, poled, along and across: orders of magnitude, not taken from a table.
     Pzt: 48.0, 90.0, 0.31;
     /// Film: `DuPont`, Kapton HN data sheet (2.5 GPa); up to 3 GPa for other films.
     Polyimide: 2.5, 3.0, 0.34;
-    /// Cured, without filler: Ashby, Engineering Materials 1.
+    /// Cured, without filler: orders of magnitude, not taken from a table.
     Epoxy: 2.0, 4.0, 0.37;
     /// Gere; so near to incompressible that the bulk modulus is 0.2 to 1.3 GPa.
     Rubber: 0.0007, 0.004, 0.4995;
-    /// Wheat dough: three times the shear modulus of small oscillations, 1 to 30 kPa by water and frequency
-    /// (as in Ng, McKinley and Padmanabhan, Appl. Rheol. 16, 265 (2006)). Bubbles make it compressible.
+    /// Wheat dough: three times a shear modulus of small oscillations of 1 to 30 kPa, by water and frequency;
+    /// orders of magnitude, not taken from a table. Bubbles make it compressible.
     Dough: 3.0e-6, 1.0e-4, 0.45;
-    /// From soft tissue in vivo (Pailler-Mattei, Bec and Zahouani, Med. Eng. Phys. 30, 599 (2008)) to epidermis
-    /// (Geerligs et al., J. Biomech. 44, 1176 (2011)).
+    /// From soft tissue, an order of magnitude that is not taken from a table, to epidermis (Geerligs et al.,
+    /// J. Biomech. 44, 1176 (2011)).
     Skin: 5.0e-6, 2.0e-3, 0.45;
 }
 
@@ -132,12 +132,6 @@ impl Contact {
         mass: None,
         speed: None,
     };
-
-    /// How long an impact lasts (s), if that is given.
-    #[must_use]
-    pub const fn contact_time(&self) -> Option<f64> {
-        self.time
-    }
 
     /// Checks the numbers, and that all that is needed is given and nothing else. The mass comes later.
     pub(crate) fn check(&self) -> Result<(), Error> {

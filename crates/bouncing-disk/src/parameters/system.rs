@@ -94,7 +94,7 @@ impl System {
     /// How long an impact lasts (s), if that is given.
     #[must_use]
     pub fn contact_time(&self) -> Option<f64> {
-        self.contact.and_then(|contact| contact.contact_time())
+        self.contact.and_then(|contact| contact.time)
     }
 
     /// The same system with another table `[contact]`.
