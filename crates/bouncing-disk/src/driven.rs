@@ -98,14 +98,14 @@ impl DrivenSystem {
     }
 
     /// This system with a contact that takes time: an isolated impact lasts for `contact_time` (rad) and has
-    /// the system's restitution.
+    /// the system's restitution. A [`ChatterPolicy`](crate::core::ChatterPolicy) has no effect on it: a chatter
+    /// is a finite number of contacts. [`multi_toss`] refuses it.
     ///
     /// # Errors
     /// Those of [`Compliance::new`] and [`CompliantPlatform::new`].
-    pub fn with_contact_time(mut self, contact_time: f64) -> Result<Self, Error> {
+    pub fn with_contact_time(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::new(contact_time, self.restitution)?;
-        self.compliance = Some(CompliantPlatform::new(self.height.clone(), compliance)?);
-        Ok(self)
+        self.with_compliance(compliance)
     }
 
     /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at less stiffness
@@ -113,8 +113,12 @@ impl DrivenSystem {
     ///
     /// # Errors
     /// As for [`Self::with_contact_time`].
-    pub fn with_hysteretic_contact(mut self, contact_time: f64) -> Result<Self, Error> {
+    pub fn with_hysteretic_contact(self, contact_time: f64) -> Result<Self, Error> {
         let compliance = Compliance::hysteretic(contact_time, self.restitution)?;
+        self.with_compliance(compliance)
+    }
+
+    fn with_compliance(mut self, compliance: Compliance) -> Result<Self, Error> {
         self.compliance = Some(CompliantPlatform::new(self.height.clone(), compliance)?);
         Ok(self)
     }

@@ -81,6 +81,10 @@ pub enum Branch {
 }
 
 impl Compliance {
+    /// Least and largest restitution of a contact that takes time. At a resonance free and forced oscillation,
+    /// 1/(1 - e) times as large as the platform's, cancel.
+    pub const RESTITUTIONS: [f64; 2] = [0.001, 1.0 - 1.0e-6];
+
     /// The contact in which an isolated impact without weight lasts for `contact_time` (rad), until the force
     /// falls to zero, and has this restitution.
     ///
@@ -89,9 +93,8 @@ impl Compliance {
     /// [0.001, 1 - 1e-6].
     pub fn new(contact_time: f64, restitution: f64) -> Result<Self, Error> {
         within("contact time", contact_time, 1.0e-6, 1.0e4, "[1e-6, 1e4] (rad of the drive)")?;
-        // At a resonance free and forced oscillation, 1/(1 - e) times as large as the platform's, cancel.
-        let legal = "[0.001, 1 - 1e-6]";
-        within("restitution of a contact that takes time", restitution, 0.001, 1.0 - 1.0e-6, legal)?;
+        let ([least, most], legal) = (Self::RESTITUTIONS, "[0.001, 1 - 1e-6]");
+        within("restitution of a contact that takes time", restitution, least, most, legal)?;
         // Damping ratio cos u, or cosh u beyond the critical one: the restitution is exp(-2 u cot u), or
         // exp(-2 u coth u).
         let lost = -0.5 * ln(restitution);
@@ -290,7 +293,7 @@ pub struct Touch {
     pub state: RelativeState,
 }
 
-/// How a contact ends.
+/// How a contact ends, or goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ContactEnd {
     /// The force falls to zero after this time (rad).
@@ -306,7 +309,7 @@ impl CompliantPlatform {
     /// This drive with this contact.
     ///
     /// # Errors
-    /// [`Error::NotOfKind`] for a drive that is no periodic Fourier sum.
+    /// [`Error::NotOfKind`] for a drive that is not a periodic Fourier sum.
     pub fn new(drive: Drive, compliance: Compliance) -> Result<Self, Error> {
         if !drive.is_periodic() || drive.next_joint(0.0).is_some() {
             let expected = "a periodic Fourier sum: a contact that takes time has no other drive";
@@ -348,13 +351,6 @@ impl CompliantPlatform {
         let load = (1.0 + self.drive.acceleration(time)).max(0.0);
         let Compliance { stiffness, unloading, .. } = self.compliance;
         RelativeState { time, gap: -load / (stiffness * unloading).sqrt(), velocity: 0.0 }
-    }
-
-    /// The fastest rate of change in contact (rad^-1).
-    #[must_use]
-    pub fn rate(&self) -> f64 {
-        let Compliance { stiffness, damping, .. } = self.compliance;
-        self.drive.highest_harmonic().max(stiffness.sqrt()).max(damping)
     }
 
     /// The force of a contact in this state, were it not cut off at zero.
@@ -494,7 +490,6 @@ impl CompliantPlatform {
                 branch,
                 platform: self.clone(),
                 force: self.drive.derivative(2, from.time).summed_with(0.0) + 1.0,
-                velocity: here.velocity,
                 steady: 0.0,
                 transient: 0.0,
                 fading: 0.0,
@@ -548,7 +543,6 @@ impl CompliantPlatform {
             branch,
             platform: self.clone(),
             force: QuasiPolynomial::known([force, slope], errors, [0.0; 2], terms).summed_with(1.0),
-            velocity: here.velocity + from.velocity,
             steady,
             transient,
             fading: if grows { 0.5 * slow } else { slow },
@@ -563,8 +557,6 @@ pub struct Pressed {
     branch: Branch,
     platform: CompliantPlatform,
     force: QuasiPolynomial,
-    /// Of the disk, at the start.
-    velocity: f64,
     /// Bound on the oscillation of the force that stays, and on that which decays.
     steady: f64,
     transient: f64,
@@ -675,9 +667,7 @@ impl Pressed {
         }
         Ok((settled.max(search) <= limit).then_some(ContactEnd::Settles(settled.max(search))))
     }
-}
 
-impl Pressed {
     /// The end of this branch of a spring without a damper.
     fn turn(&self, limit: f64) -> Result<Option<ContactEnd>, Error> {
         let Compliance { stiffness, unloading, .. } = self.platform.compliance;

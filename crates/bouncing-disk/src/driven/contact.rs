@@ -354,21 +354,13 @@ impl Touching<'_> {
                 self.ride.derivative(2, here) + 1.0,
                 self.system.angle.derivative(1, here),
             );
-            let half = 0.5 * stretch / panels;
-            let mut panel = 0.0;
-            while panel < panels {
-                let middle = (2.0 * panel + 1.0) * half;
-                for (node, weight) in GAUSS {
-                    for x in [middle - half * node, middle + half * node] {
-                        let force = half * weight * force.at(x, stretch).value;
-                        let (carrier, slip) = (carrier.at(x, stretch).value, slip.at(x, stretch).value);
-                        work.carried += force * carrier;
-                        work.slipped += force * slip;
-                        work.size += force.abs() * (carrier.abs() + slip.abs());
-                    }
-                }
-                panel += 1.0;
-            }
+            at_nodes(stretch, panels, |x, weight| {
+                let force = weight * force.at(x, stretch).value;
+                let (carrier, slip) = (carrier.at(x, stretch).value, slip.at(x, stretch).value);
+                work.carried += force * carrier;
+                work.slipped += force * slip;
+                work.size += force.abs() * (carrier.abs() + slip.abs());
+            });
             match joint {
                 Some(joint) if joint.after < left => (here, passed) = (joint.time, passed + joint.after),
                 _ => break,
@@ -449,20 +441,12 @@ impl Touching<'_> {
         {
             return (work, damping * squares);
         }
-        let panels = whole(span * self.ride.rate()) + 1.0;
-        let half = 0.5 * span / panels;
-        let (mut work, mut loss, mut panel) = (0.0, 0.0, 0.0);
-        while panel < panels {
-            let middle = (2.0 * panel + 1.0) * half;
-            for (node, weight) in GAUSS {
-                for x in [middle - half * node, middle + half * node] {
-                    let velocity = relative.at(x, span).value;
-                    work += half * weight * force.at(x, span).value * platform.at(x, span).value;
-                    loss += half * weight * velocity * velocity;
-                }
-            }
-            panel += 1.0;
-        }
+        let (mut work, mut loss) = (0.0, 0.0);
+        at_nodes(span, whole(span * self.ride.rate()) + 1.0, |x, weight| {
+            let velocity = relative.at(x, span).value;
+            work += weight * force.at(x, span).value * platform.at(x, span).value;
+            loss += weight * velocity * velocity;
+        });
         (work, damping * loss)
     }
 
@@ -475,6 +459,22 @@ impl DrivenSystem {
     /// Time `span` after `at`: in [0, 2 pi) unless the motion is a ramp.
     pub(super) fn time_after(&self, at: f64, span: f64) -> f64 {
         if self.is_ramp() { at + span } else { wrapped_angle(at + span) }
+    }
+}
+
+/// Calls `add` with each node, and its weight, of the rule of eight points in each of the equal panels of a
+/// span.
+fn at_nodes(span: f64, panels: f64, mut add: impl FnMut(f64, f64)) {
+    let half = 0.5 * span / panels;
+    let mut panel = 0.0;
+    while panel < panels {
+        let middle = (2.0 * panel + 1.0) * half;
+        for (node, weight) in GAUSS {
+            for x in [middle - half * node, middle + half * node] {
+                add(x, half * weight);
+            }
+        }
+        panel += 1.0;
     }
 }
 

@@ -327,9 +327,13 @@ impl DrivenEngine {
             Some(ContactEnd::Turns(after, branch)) => (after, Then::Turns(branch)),
             None => (f64::INFINITY, Then::Leaves),
         };
-        let end = TimeAhead { after, time: self.system.time_after(from.time, after), velocity_jump: 0.0 };
+        let ahead = |after| {
+            let time = self.system.time_after(from.time, after);
+            TimeAhead { after, time, velocity_jump: 0.0 }
+        };
+        let end = after.is_finite().then(|| ahead(after));
         self.state.mode = mode_of(slip);
-        self.stage = Stage::Contact(Contact { slip, end: Some(end), then });
+        self.stage = Stage::Contact(Contact { slip, end, then });
         self.pressed = Some(pressed);
         Ok(())
     }
@@ -450,18 +454,14 @@ impl DrivenEngine {
 
     /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
-        let velocity = match self.stage {
-            Stage::Separated => speed,
-            Stage::Flight { gap: 0.0, velocity } if velocity >= 0.0 => velocity + speed,
-            Stage::Flight { gap, velocity } if gap < 0.0 => {
-                self.state.axial_velocity += speed;
-                self.stage = Stage::Flight { gap, velocity: velocity + speed };
-                return;
-            }
+        let (gap, velocity) = match self.stage {
+            Stage::Separated => (0.0, speed),
+            // A contact that takes time ends before its spring is free.
+            Stage::Flight { gap, velocity } if gap <= 0.0 && velocity >= 0.0 => (gap, velocity + speed),
             _ => return,
         };
         self.state.axial_velocity += speed;
-        self.stage = Stage::Flight { gap: 0.0, velocity };
+        self.stage = Stage::Flight { gap, velocity };
     }
 
     fn fly(&mut self, gap: f64, velocity: f64, limit: f64) -> Result<Option<EventRecord>, Error> {

@@ -67,13 +67,18 @@ pub fn single_toss(
 /// [`multi_toss`](crate::toss::multi_toss) on a platform that moves in any way; kicks count as impacts.
 ///
 /// # Errors
-/// As [`multi_toss`](crate::toss::multi_toss); those of [`DrivenEngine::new`] and [`DrivenMap::new`].
+/// As [`multi_toss`](crate::toss::multi_toss); those of [`DrivenEngine::new`] and [`DrivenMap::new`];
+/// [`Error::OutOfRange`] for a contact that takes time, as cycles and exponents are those of rigid impacts.
 pub fn multi_toss(
     system: DrivenSystem,
     start: DrivenStart,
     settings: &MultiTossSettings,
     observer: &dyn Observer,
 ) -> Result<TossOrbit, Error> {
+    if let Some(compliant) = &system.compliance {
+        let legal = "(none: tosses are classified by rigid impacts)";
+        check(false, "contact time", compliant.compliance().contact_time(), legal)?;
+    }
     let map = DrivenMap::new(system.height().clone(), system.restitution)?;
     let twist_speed = system.angle().bounds().speed;
     let mut engine = DrivenEngine::new(system, start, settings.policy)?;
@@ -129,6 +134,16 @@ mod tests {
         assert!(matches!(late, Err(Error::OutOfRange { field: "phase of the start", .. })), "{late:?}");
         let stays = single_toss(&(*still.platform()).into(), still.disk(), start, InitialSpin::AbsoluteRest);
         assert!(matches!(stays, Err(Error::NeverLeaves { .. })));
+    }
+
+    #[test]
+    fn tosses_with_contacts_that_take_time_are_refused() {
+        let soft = DrivenSystem::try_from(*System::pizza_toss().dimensionless()).expect("legal");
+        let soft = soft.with_contact_time(0.3).expect("legal");
+        let start =
+            DrivenStart::Contact { phase: Phase::new(TOSS_START).expect("finite"), angular_speed: 0.0 };
+        let refused = multi_toss(soft, start, &MultiTossSettings::default(), &Unobserved);
+        assert!(matches!(refused, Err(Error::OutOfRange { field: "contact time", .. })), "{refused:?}");
     }
 
     /// By hand, on straight lines: 2 omega Phi/pi and 2 omega A/pi, by the work of both and of the lift.

@@ -26,9 +26,6 @@ const WEDGE: f64 = 0.5 * FRAC_PI_2 * (1.0 / (FRAC_PI_4 + 0.5) + 1.0 / (FRAC_PI_4
 /// The sharpest edge of a ring (m).
 const SHARPEST: f64 = 1.0e-6;
 
-/// The restitution from which on the damping is that of the next larger one: [`Compliance`] ends there.
-const LEAST_RESTITUTION: f64 = 0.001;
-
 /// Whether the contact lets a disk leave that rests on the vibrating platform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
@@ -258,7 +255,8 @@ impl System {
         let (omega, disk) = (self.platform().angular_frequency(), self.disk());
         let peak = self.peak_acceleration();
         let damped = |law: fn(f64, f64) -> Result<Compliance, bouncing_disk_core::Error>| {
-            law(1.0, disk.restitution().max(LEAST_RESTITUTION)).ok()
+            let [least, most] = Compliance::RESTITUTIONS;
+            law(1.0, disk.restitution().clamp(least, most)).ok()
         };
         let damper = damped(Compliance::new)?;
         // Units of m, 1/omega and g/omega^2 make the two ways to give a contact one.
@@ -440,6 +438,10 @@ mod tests {
             assert!((low / periods - 1.0).abs() < 1e-12 && (high / periods - 1.0).abs() < 1e-12);
             assert_eq!(statement.warnings().is_empty(), periods < 0.1);
         }
+        // Beyond the restitutions of the core the damping is that of the nearest one.
+        let contact = Contact { time: Some(1e-5), ..Contact::default() };
+        let elastic = Motor::paper_70_khz().with(|sheet| sheet.restitution = 1.0 - 1e-9).unwrap();
+        assert!(elastic.system().with_contact(Some(contact)).unwrap().contact_statement(None).is_some());
         let peak = Motor::paper_70_khz().system().peak_acceleration();
         let stiffness = Compliance::new(18.0 * TAU, 0.5).unwrap().stiffness();
         let high = of(18.0).indentation_over_amplitude[1];
