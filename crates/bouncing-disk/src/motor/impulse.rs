@@ -21,6 +21,8 @@
 //! thousand times the largest by friction in a motor ([`ImpulseTrain::hold_share`] is the inverse), so that
 //! no range of loads stalls it.
 
+mod compliant;
+
 use std::convert::Infallible;
 use std::f64::consts::TAU;
 
