@@ -20,6 +20,7 @@ mod chattering;
 pub(crate) mod driven_map;
 pub(crate) mod impact_map;
 mod inverse;
+mod release;
 pub(crate) mod restitution_law;
 mod trapping_region;
 

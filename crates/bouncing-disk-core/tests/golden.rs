@@ -29,6 +29,11 @@ fn orbits_on_drives() {
 }
 
 #[test]
+fn orbits_with_compliance() {
+    assert_none(&results::orbits_with_compliance());
+}
+
+#[test]
 fn basin_labels() {
     assert_none(&results::basin_labels());
 }

@@ -45,6 +45,7 @@ pub fn golden_differences() -> Vec<String> {
         golden::chaotic_orbit(),
         golden::orbits_with_chatter(PAPER_CHATTER),
         golden::orbits_on_drives(),
+        golden::orbits_with_compliance(),
         golden::basin_labels(),
     ]
     .concat()

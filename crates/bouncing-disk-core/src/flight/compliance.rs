@@ -182,7 +182,7 @@ impl Compliance {
     }
 
     /// The spring and damper on a branch.
-    const fn on(&self, branch: Branch) -> Self {
+    pub(crate) const fn on(&self, branch: Branch) -> Self {
         match branch {
             Branch::Unloading => Self { stiffness: self.unloading, ..*self },
             Branch::Loading | Branch::Held => *self,
@@ -196,7 +196,7 @@ impl Compliance {
     }
 
     /// A free oscillation from this value and slope on.
-    fn free(&self, value: f64, slope: f64) -> Vec<DampedSine> {
+    pub(crate) fn free(&self, value: f64, slope: f64) -> Vec<DampedSine> {
         let frequency = self.stiffness.sqrt();
         let decay = 0.5 * self.damping;
         let square = (frequency - decay) * (frequency + decay);
@@ -359,7 +359,7 @@ impl CompliantPlatform {
         self.force_on(self.branch(state), state)
     }
 
-    fn force_on(&self, branch: Branch, state: RelativeState) -> f64 {
+    pub(crate) fn force_on(&self, branch: Branch, state: RelativeState) -> f64 {
         let Compliance { stiffness, damping, .. } = self.compliance.on(branch);
         if branch == Branch::Held {
             return 1.0 + self.drive.acceleration(state.time);

@@ -7,14 +7,21 @@ use glam::{DMat2, DVec2};
 
 use crate::chatter::accumulation::Accumulation;
 use crate::chatter::policy::{AfterImpact, ChatterPolicy, ShortFlightCount};
-use crate::flight::drive::landing::DrivenImpact;
+use crate::flight::compliance::{Compliance, CompliantPlatform, RelativeState};
+use crate::flight::drive::landing::{DrivenImpact, Start};
 use crate::flight::drive::{Drive, TimeAhead};
 use crate::flight::platform::phase::Phase;
 use crate::map::impact_map::ImpactState;
+use crate::map::release::Cycle;
 use crate::numerics::elementary::wrapped_angle;
 use crate::numerics::error::{Error, within};
 
-/// The vertical impact map of a disk with a constant restitution on a [`Drive`].
+/// The vertical impact map of a disk with a constant restitution r on a [`Drive`].
+///
+/// With a [contact that takes time](Self::with_contact_time) it is the map from one release to the next, at
+/// which the force falls to zero. A release at the speed v is given as the impact with the velocity -v/r, at
+/// the phase of the release: a rigid impact would rebound like that. Every fall of the force to zero counts,
+/// also where it sets in again before the spring is free.
 ///
 /// ```
 /// use bouncing_disk_core::{ChatterPolicy, Drive, DrivenEvent, DrivenMap, ImpactState};
@@ -29,6 +36,7 @@ use crate::numerics::error::{Error, within};
 pub struct DrivenMap {
     drive: Drive,
     restitution: f64,
+    compliant: Option<CompliantPlatform>,
 }
 
 impl DrivenMap {
@@ -47,7 +55,45 @@ impl DrivenMap {
             "infinite: a ramp has no impact map",
         )?;
         within("restitution", restitution, 0.0, 1.0_f64.next_down(), "[0, 1)")?;
-        Ok(Self { drive, restitution })
+        Ok(Self { drive, restitution, compliant: None })
+    }
+
+    /// This map with a contact that takes time: an isolated impact lasts for `contact_time` (rad) and has the
+    /// restitution of the map, both until the force falls to zero.
+    ///
+    /// ```
+    /// use bouncing_disk_core::{Drive, DrivenMap, ImpactState, Phase};
+    /// use std::f64::consts::TAU;
+    ///
+    /// // Orbits of period 1 at Gamma = 0.45, with impacts that last for a hundredth of a period and without.
+    /// let rigid = DrivenMap::new(Drive::fourier(&[(0.45 * std::f64::consts::PI, 0.0)])?, 0.5)?;
+    /// let guess = [ImpactState::new(Phase::new(0.74)?, -4.19)?];
+    /// let soft = rigid.clone().with_contact_time(0.01 * TAU)?.refine(&guess)?;
+    /// let rigid = rigid.refine(&guess)?;
+    /// assert!((soft.states[0].phase().angle() - rigid.states[0].phase().angle()).abs() < 0.1);
+    /// # Ok::<(), bouncing_disk_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`Compliance::new`] and [`CompliantPlatform::new`].
+    pub fn with_contact_time(self, contact_time: f64) -> Result<Self, Error> {
+        let compliance = Compliance::new(contact_time, self.restitution)?;
+        self.with_compliance(compliance)
+    }
+
+    /// As [`Self::with_contact_time`], with a spring that [unloads](Compliance::hysteretic) at less stiffness
+    /// in place of the damper.
+    ///
+    /// # Errors
+    /// As for [`Self::with_contact_time`].
+    pub fn with_hysteretic_contact(self, contact_time: f64) -> Result<Self, Error> {
+        let compliance = Compliance::hysteretic(contact_time, self.restitution)?;
+        self.with_compliance(compliance)
+    }
+
+    fn with_compliance(self, compliance: Compliance) -> Result<Self, Error> {
+        let compliant = Some(CompliantPlatform::new(self.drive.clone(), compliance)?);
+        Ok(Self { compliant, ..self })
     }
 
     /// The drive of the platform.
@@ -62,12 +108,29 @@ impl DrivenMap {
         self.restitution
     }
 
-    /// The impact that follows the one in `state`, without any chattering policy.
+    /// The platform with its contact, if that takes time.
+    #[must_use]
+    pub const fn compliant(&self) -> Option<&CompliantPlatform> {
+        self.compliant.as_ref()
+    }
+
+    /// The impact that follows the one in `state`, without any chattering policy. With a contact that takes
+    /// time its duration includes the contact, and its error is infinite: no bound is known.
     ///
     /// # Errors
     /// [`Error::NoLiftOff`] if the disk stays on the platform, and those of [`Drive::first_impact`].
     pub fn step(&self, state: ImpactState) -> Result<DrivenImpact, Error> {
-        self.drive.first_impact_from(state.phase().angle(), 0.0, -self.restitution * state.velocity())
+        let (time, speed) = (state.phase().angle(), -self.restitution * state.velocity());
+        let Some(platform) = &self.compliant else { return self.drive.first_impact_from(time, 0.0, speed) };
+        self.released(&platform.fly_and_press(platform.released_at(time, speed), None)?)
+    }
+
+    fn released(&self, cycle: &Cycle) -> Result<DrivenImpact, Error> {
+        if let Some(Accumulation { phase, .. }) = cycle.accumulation() {
+            let peak_acceleration = self.drive.bounds().acceleration;
+            return Err(Error::NoLiftOff { phase: phase.angle(), peak_acceleration });
+        }
+        Ok(cycle.impact(self.restitution))
     }
 
     /// [`Self::step`] with the derivative of the next (phase, velocity) by the present (phase, velocity).
@@ -76,6 +139,15 @@ impl DrivenMap {
     /// # Errors
     /// Those of [`Self::step`]; [`Error::ImpactOnKink`] where this impact or the next is on a kink.
     pub fn step_with_derivative(&self, state: ImpactState) -> Result<(DrivenImpact, DMat2), Error> {
+        if let Some(platform) = &self.compliant {
+            let from = platform.released_at(state.phase().angle(), -self.restitution * state.velocity());
+            let mut derivative = platform.change_at_release(from);
+            let cycle = platform.fly_and_press(from, Some(&mut derivative))?;
+            // The velocity of the impact is -1/r times the speed of the release.
+            let [to, back] = [-1.0 / self.restitution, -self.restitution]
+                .map(|y| DMat2::from_diagonal(DVec2::new(1.0, y)));
+            return Ok((self.released(&cycle)?, to * derivative * back));
+        }
         let landing = self.step(state)?;
         let on_kink = |phase: f64| Err(Error::ImpactOnKink { phase });
         if landing.on_kink {
@@ -120,11 +192,22 @@ impl DrivenMap {
         policy: ChatterPolicy,
     ) -> Result<DrivenOrbit, Error> {
         let mut orbit = self.start(policy);
-        orbit.next = Next::Report(self.drive.first_impact_from(time, gap, relative_velocity)?);
+        let Some(platform) = &self.compliant else {
+            orbit.next = Next::Report(self.drive.first_impact_from(time, gap, relative_velocity)?);
+            return Ok(orbit);
+        };
+        let Start { time, gap, velocity, .. } = Start::new(time, gap, relative_velocity)?;
+        let from = RelativeState { time: wrapped_angle(time), gap, velocity };
+        let cycle = platform.fly_and_press(from, None)?;
+        orbit.next = match cycle.accumulation() {
+            Some(accumulation) => Next::Attach(accumulation, 0.0),
+            None => Next::Report(cycle.impact(self.restitution)),
+        };
         Ok(orbit)
     }
 
-    /// The orbit of a disk that rests on the platform at `time`.
+    /// The orbit of a disk that rests on the platform at `time`; in a contact that takes time it is as deep
+    /// as its weight and the platform's acceleration press it ([`CompliantPlatform::resting`]).
     #[must_use]
     pub fn of_contact(&self, time: f64, policy: ChatterPolicy) -> DrivenOrbit {
         DrivenOrbit { next: Next::Contact(wrapped_angle(time)), ..self.start(policy) }
@@ -142,7 +225,8 @@ impl DrivenMap {
 pub enum DrivenEvent {
     /// The disk hits the platform.
     Impact(DrivenImpact),
-    /// A chatter ends: the disk comes to rest on the platform.
+    /// A chatter ends: the disk comes to rest on the platform. In a contact that takes time it stays there for
+    /// ever; the error is infinite where only 4096 turns of the spring without a release say so.
     Attachment {
         /// When. Under [`ChatterPolicy::Cut`] the last impact itself; the error is infinite where no bound
         /// proves that the disk stays.
@@ -224,7 +308,11 @@ impl DrivenOrbit {
     /// # Errors
     /// Those of [`Drive::first_impact`] and [`Drive::contact_end`]. An error ends the orbit.
     pub fn advance(&mut self) -> Result<Option<DrivenEvent>, Error> {
-        match core::mem::replace(&mut self.next, Next::End) {
+        let next = core::mem::replace(&mut self.next, Next::End);
+        if self.map.compliant.is_some() {
+            return self.advance_compliant(next);
+        }
+        match next {
             Next::Launch { time, separates: true, .. } => {
                 let landing = self.map.drive.impact_after_separation_within(time, f64::INFINITY)?;
                 Ok(landing.map(|landing| self.report(landing)))
@@ -258,6 +346,37 @@ impl DrivenOrbit {
         }
     }
 
+    /// The next event of a contact that takes time.
+    fn advance_compliant(&mut self, next: Next) -> Result<Option<DrivenEvent>, Error> {
+        let Some(platform) = &self.map.compliant else { return Ok(None) };
+        let (cycle, last_speed) = match next {
+            Next::Launch { time, speed, .. } => {
+                (platform.fly_and_press(platform.released_at(time, speed), None)?, speed)
+            }
+            Next::Contact(time) => (platform.press_until_released(platform.resting(time), None)?, 0.0),
+            Next::Report(landing) => return Ok(Some(self.report(landing))),
+            Next::Attach(accumulation, last_speed) => {
+                return Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }));
+            }
+            Next::End => return Ok(None),
+        };
+        if let Some(accumulation) = cycle.accumulation() {
+            return Ok(Some(DrivenEvent::Attachment { accumulation, last_speed }));
+        }
+        let event = self.report(cycle.impact(self.map.restitution));
+        Ok(Some(match (next, event) {
+            (Next::Contact(_), DrivenEvent::Impact(DrivenImpact { impact, .. })) => {
+                DrivenEvent::Separation(ContactChange {
+                    duration: impact.duration(),
+                    phase: impact.phase,
+                    turns: impact.turns,
+                    velocity: -self.map.restitution * impact.velocity,
+                })
+            }
+            (_, event) => event,
+        }))
+    }
+
     fn report(&mut self, landing: DrivenImpact) -> DrivenEvent {
         let impact = &landing.impact;
         // Only flights far below one period count as short.
@@ -268,6 +387,11 @@ impl DrivenOrbit {
 
     /// Decides what follows an impact with relative `velocity` that ends a flight of this duration.
     fn after(&mut self, time: f64, velocity: f64, duration: f64) {
+        if self.map.compliant.is_some() {
+            let speed = -self.map.restitution * velocity;
+            self.next = Next::Launch { time, speed, separates: false };
+            return;
+        }
         let surface = (&self.map.drive, self.map.restitution);
         let attach = |duration, error_bound| {
             let angle = time + duration;

@@ -17,6 +17,7 @@ mod oracle;
 #[path = "../paper/mod.rs"]
 mod paper;
 mod properties;
+mod releases;
 mod seams;
 mod shards;
 mod sums;

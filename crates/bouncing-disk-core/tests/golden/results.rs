@@ -243,6 +243,32 @@ pub(crate) fn orbits_with_chatter(paper_policy: ChatterPolicy) -> Vec<String> {
     one("orbits with chatter", digest, 0x4ef0_e214_d440_d948)
 }
 
+/// Events of orbits of one map.
+fn add_orbits(digest: &mut Digest, map: &DrivenMap) {
+    for k in 0..20 {
+        let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
+        let mut orbit = map.orbit(start, ChatterPolicy::Complete);
+        for _ in 0..300 {
+            match orbit.advance().expect("no failure") {
+                Some(DrivenEvent::Impact(landing)) => {
+                    add_state(digest, landing.impact.into());
+                    digest.number(landing.impact.remainder);
+                }
+                Some(DrivenEvent::Attachment { accumulation, last_speed }) => {
+                    digest.number(accumulation.phase.angle());
+                    digest.number(last_speed);
+                }
+                Some(DrivenEvent::Separation(change) | DrivenEvent::Kick(change)) => {
+                    digest.number(change.phase.angle());
+                    digest.number(change.velocity);
+                }
+                Some(_) => digest.bytes(b"another event"),
+                None => break,
+            }
+        }
+    }
+}
+
 /// Orbits on platforms that move in other ways than a sine, with their contacts.
 pub(crate) fn orbits_on_drives() -> Vec<String> {
     let samples: Vec<f64> = (0..64).map(|k| 2.0 * first(k) * second(k)).collect();
@@ -256,31 +282,22 @@ pub(crate) fn orbits_on_drives() -> Vec<String> {
     ];
     let mut digest = Digest::new();
     for drive in drives {
-        let map = DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal");
-        for k in 0..20 {
-            let start = ImpactState::from_normalised(TAU * first(k), 2.0 * second(k)).expect("legal");
-            let mut orbit = map.orbit(start, ChatterPolicy::Complete);
-            for _ in 0..300 {
-                match orbit.advance().expect("no failure") {
-                    Some(DrivenEvent::Impact(landing)) => {
-                        add_state(&mut digest, landing.impact.into());
-                        digest.number(landing.impact.remainder);
-                    }
-                    Some(DrivenEvent::Attachment { accumulation, last_speed }) => {
-                        digest.number(accumulation.phase.angle());
-                        digest.number(last_speed);
-                    }
-                    Some(DrivenEvent::Separation(change) | DrivenEvent::Kick(change)) => {
-                        digest.number(change.phase.angle());
-                        digest.number(change.velocity);
-                    }
-                    Some(_) => digest.bytes(b"another event"),
-                    None => break,
-                }
-            }
-        }
+        add_orbits(&mut digest, &DrivenMap::new(drive.expect("legal"), RESTITUTION).expect("legal"));
     }
     one("orbits on drives", digest, 0x461c_4c22_578d_7a1f)
+}
+
+/// Orbits with contacts that take time, of both laws, on a sine and on another drive.
+pub(crate) fn orbits_with_compliance() -> Vec<String> {
+    let mut digest = Digest::new();
+    for harmonics in [&[(20.0, 0.0)][..], &[(1.4, 0.0), (0.2, 1.0)]] {
+        for contact_time in [0.1, 3.0, 7.0] {
+            let map = DrivenMap::new(Drive::fourier(harmonics).expect("legal"), RESTITUTION).expect("legal");
+            add_orbits(&mut digest, &map.clone().with_contact_time(contact_time).expect("legal"));
+            add_orbits(&mut digest, &map.with_hysteretic_contact(contact_time).expect("legal"));
+        }
+    }
+    one("orbits with compliance", digest, 0xafa7_04ee_08bb_0b1f)
 }
 
 /// W3 of docs/performance.md on a smaller grid.

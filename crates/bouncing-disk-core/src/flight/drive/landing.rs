@@ -54,6 +54,17 @@ pub(crate) struct Start {
 }
 
 impl Start {
+    /// A start by numbers of a user.
+    pub(crate) fn new(time: f64, gap: f64, velocity: f64) -> Result<Self, Error> {
+        finite("time", time)?;
+        within("gap", gap, 0.0, 1.0e17, "[0, 1e17] (units of g/omega^2)")?;
+        within("relative_velocity", velocity, -1.0e9, 1.0e9, "[-1e9, 1e9] (units of g/omega)")?;
+        if gap == 0.0 {
+            not_negative("relative velocity of a launch", velocity)?;
+        }
+        Ok(Self { time, gap, velocity, separates: false })
+    }
+
     /// The second derivative of the gap: where a contact ends, a platform that still pushes by no more than a
     /// rounding does not push.
     pub(super) fn bend(&self, bend: f64, bounds: &DriveBounds) -> f64 {
@@ -112,13 +123,7 @@ impl Drive {
         relative_velocity: f64,
         limit: f64,
     ) -> Result<Option<DrivenImpact>, Error> {
-        finite("time", time)?;
-        within("gap", gap, 0.0, 1.0e17, "[0, 1e17] (units of g/omega^2)")?;
-        within("relative_velocity", relative_velocity, -1.0e9, 1.0e9, "[-1e9, 1e9] (units of g/omega)")?;
-        if gap == 0.0 {
-            not_negative("relative velocity of a launch", relative_velocity)?;
-        }
-        self.land(Start { time, gap, velocity: relative_velocity, separates: false }, limit)
+        self.land(Start::new(time, gap, relative_velocity)?, limit)
     }
 
     /// The impact of a disk that leaves a contact at `time` because the force falls to zero there, within

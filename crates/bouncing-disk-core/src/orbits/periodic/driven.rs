@@ -102,7 +102,8 @@ impl DrivenMap {
     }
 
     /// No impact of a periodic orbit is faster: from w the disk rises with at most V + r w, falls by the
-    /// height of the platform more than it rises, and meets the platform's V.
+    /// height of the platform more than it rises, and meets the platform's V. (That holds for rigid impacts;
+    /// with a contact that takes time it is the range of the starts of a search.)
     #[must_use]
     pub fn impact_speed_bound(&self) -> f64 {
         let (r, bounds) = (self.restitution(), self.drive().bounds());
