@@ -50,7 +50,9 @@ impl From<bouncing_disk::core::Error> for Failure {
     fn from(error: bouncing_disk::core::Error) -> Self {
         use bouncing_disk::core::Error;
         match error {
-            Error::OutOfRange { .. } | Error::TooLarge { .. } => Self::Usage(error.to_string()),
+            Error::OutOfRange { .. } | Error::TooLarge { .. } | Error::NotOfKind { .. } => {
+                Self::Usage(error.to_string())
+            }
             // Some calls count in work that has no name for a user.
             Error::Stopped { done, total } => {
                 let share = if total == 0 { 0.0 } else { 100.0 * done as f64 / total as f64 };
@@ -75,6 +77,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::Waveform { .. }
             | Error::WaveformJump { .. }
             | Error::DriveNotSine
+            | Error::SoftContact
             | Error::ScheduledDrive
             | Error::Segment { .. }
             | Error::ScheduleJump { .. }

@@ -29,6 +29,9 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// Whether the file has a table `[contact]`.
     fn has_contact(&self) -> bool;
 
+    /// That contacts take no time.
+    fn rigid(&self) -> Result<(), bouncing_disk::Error>;
+
     /// A file that is read to the same parameters, with comments, but for the tables.
     fn template(&self) -> String;
 }
@@ -62,9 +65,9 @@ impl<D: Described> SourceArgs<D> {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
     }
 
-    /// The parameters of what is computed for a sine only.
+    /// The parameters of what is computed for a sine and rigid impacts only.
     pub(crate) fn get(&self) -> Result<D> {
-        sine(self.driven()?)
+        self.driven().and_then(rigid).and_then(sine)
     }
 
     fn driven(&self) -> Result<(D, DriveParameters)> {
@@ -83,8 +86,18 @@ impl<D: Described> SourceArgs<D> {
         })
     }
 
-    /// The parameters; `None` if the template was asked for, which is then written.
+    /// [`Self::soft_unless_template`] of what is computed for rigid impacts only.
     pub(crate) fn driven_unless_template(
+        &self,
+        output: &OutputArgs,
+        context: Context,
+    ) -> Result<Option<(D, DriveParameters)>> {
+        self.soft_unless_template(output, context)?.map(rigid).transpose()
+    }
+
+    /// The parameters, also with contacts that take time; `None` if the template was asked for, which is then
+    /// written.
+    pub(crate) fn soft_unless_template(
         &self,
         output: &OutputArgs,
         context: Context,
@@ -103,8 +116,18 @@ impl<D: Described> SourceArgs<D> {
         Ok(Some((parameters, drive)))
     }
 
-    /// The same, if the result can be written.
+    /// [`Self::begin_soft`] of what is computed for rigid impacts only.
     pub(crate) fn begin_driven(
+        &self,
+        output: &OutputArgs,
+        picture: bool,
+        context: Context,
+    ) -> Result<Option<(D, DriveParameters)>> {
+        self.begin_soft(output, picture, context)?.map(rigid).transpose()
+    }
+
+    /// [`Self::soft_unless_template`], if the result can be written.
+    pub(crate) fn begin_soft(
         &self,
         output: &OutputArgs,
         picture: bool,
@@ -113,7 +136,7 @@ impl<D: Described> SourceArgs<D> {
         if !self.template {
             output.check(picture, &self.inputs(), None)?;
         }
-        self.driven_unless_template(output, context)
+        self.soft_unless_template(output, context)
     }
 
     /// [`Self::driven_unless_template`] of what is computed for a sine only.
@@ -127,21 +150,33 @@ impl<D: Described> SourceArgs<D> {
     }
 }
 
-fn sine<D>((parameters, drive): (D, DriveParameters)) -> Result<D> {
+/// What is given, if impacts are rigid.
+pub(crate) fn rigid<D: Described>(given: (D, DriveParameters)) -> Result<(D, DriveParameters)> {
+    given.0.rigid()?;
+    Ok(given)
+}
+
+/// The parameters, if the platform moves as a sine.
+pub(crate) fn sine<D>((parameters, drive): (D, DriveParameters)) -> Result<D> {
     drive.sine()?;
     Ok(parameters)
 }
 
 /// The end of a template.
 const DRIVE: &str = "\
-# How the platform moves in place of the sine, for toss, diagram, orbits, basins, motor transient and motor curve.
+# How the platform moves in place of the sine, for toss, diagram, orbits, basins, and motor transient, curve, stall and
+# phase-lag.
 # Shapes: sine, triangle, parabolas, cubics, { sawtooth = 0.3 }, { fourier = [[1.0, 0.0], [0.1, 1.5]] }, { sampled = [...] }
 # [drive]
 # height = \"triangle\"
 # angle = \"sine\"
 
-# How long an impact lasts (time, s), or what reports estimate it from; geometries: plane, ring, layer.
+# How long an impact lasts (s), for toss and motor transient, curve, stall, phase-lag and sweep; or what reports estimate
+# it from, while impacts are rigid: geometries plane, ring, layer.
 # [contact]
+# time = 1e-5
+# law = \"damper\" # or hysteresis
+# or
 # materials = [\"steel\", \"aluminium\"]
 # geometry = \"ring\"
 # ball_radius = 0.01

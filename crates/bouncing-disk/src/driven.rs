@@ -33,6 +33,7 @@ use bouncing_disk_core::Drive;
 use bouncing_disk_core::flight::{Compliance, CompliantPlatform};
 
 use crate::error::Error;
+use crate::parameters::contact::ContactLaw;
 use crate::parameters::dimensionless::DimensionlessSystem;
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
@@ -68,20 +69,30 @@ impl DrivenSystem {
     ///
     /// # Errors
     /// [`Error::Waveform`] for accelerations beyond 1e8 preloads; [`Error::OutOfRange`] if a unit is too small or
-    /// too large for a double.
+    /// too large for a double. With contacts that take time those of [`Self::with_contact_time`].
     pub fn new(platform: &DrivenPlatform, disk: &Disk) -> Result<Self, Error> {
         let scales = platform.scales(disk);
         scales.check()?;
         let sine = platform.platform();
         let (height, angle) = (sine.amplitude() / scales.length, sine.twist_amplitude() / scales.angle);
-        Ok(Self {
+        let rigid = Self {
             height: platform.height().track("height", height, 0.0)?,
             angle: platform.angle().track("angle", angle, sine.phase_lag())?,
             friction: disk.friction(),
             restitution: disk.restitution(),
             load: disk.load_acceleration() / scales.angular_acceleration,
             compliance: None,
-        })
+        };
+        rigid.with_contact(platform.contact(), sine.angular_frequency())
+    }
+
+    /// This system with contacts of this law and time (s), on a platform of this angular frequency.
+    fn with_contact(self, contact: Option<(ContactLaw, f64)>, angular_frequency: f64) -> Result<Self, Error> {
+        match contact {
+            None => Ok(self),
+            Some((ContactLaw::Damper, time)) => self.with_contact_time(time * angular_frequency),
+            Some((ContactLaw::Hysteresis, time)) => self.with_hysteretic_contact(time * angular_frequency),
+        }
     }
 
     /// This system of a stator with the load, friction and phase lag of another motor on it.

@@ -145,10 +145,17 @@ pub enum Error {
     /// A file with a drive where only the sine can be computed.
     #[error(
         "this analysis holds for the sine of Eq. (1) only, and the table [drive] gives another motion: remove the table, or use \
-         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients and \
-         torque-speed curves"
+         one of the analyses that accept any drive: tosses, orbit diagrams, periodic orbits, basins, motor transients, \
+         torque-speed curves, stall and best phase lag"
     )]
     DriveNotSine,
+    /// A contact that takes time where only rigid impacts can be computed.
+    #[error(
+        "this analysis holds for rigid impacts only, and the table [contact] has a time: remove the time, or use one of \
+         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best phase lag and \
+         sweeps"
+    )]
+    SoftContact,
     /// A schedule in place of a periodic motion.
     #[error(
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"

@@ -32,7 +32,7 @@ pub(crate) mod stroke;
 pub(crate) mod system;
 
 pub use contact::estimate::{ContactStatement, ContactWarning, LiftOff};
-pub use contact::{Contact, Geometry, Material};
+pub use contact::{Contact, ContactLaw, Geometry, Material};
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 pub use scales::Scales;

@@ -10,6 +10,7 @@ use bouncing_disk::parameters::ContactStatement;
 use clap::Subcommand;
 
 use super::prelude::*;
+use crate::parameters::sine;
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum MotorCommand {
@@ -52,7 +53,8 @@ pub(crate) struct ReportArgs {
 }
 
 fn report(args: &ReportArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.begin(&args.output, false, context)? else { return Ok(()) };
+    let given = args.motor.begin_soft(&args.output, false, context)?.map(sine).transpose()?;
+    let Some(motor) = given else { return Ok(()) };
     let report = motor.report(&context.watch("motor report"))?;
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");

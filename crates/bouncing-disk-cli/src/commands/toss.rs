@@ -39,7 +39,7 @@ pub(super) fn instants(given: Option<u32>, periods: u64) -> u32 {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The first toss from rest is that of Sec. III of the paper. For a file whose [drive] is a schedule, the command prints the \
-impacts up to the first landing. With --many the disk is followed through all tosses that come \
+impacts up to the first landing. A contact.time, of soft hands, makes contacts take time in a single toss. With --many the disk is followed through all tosses that come \
 after it (Sec. IV). .csv and pictures show the motion, .json has both the motion and the numbers; with --many a picture of more \
 than 20 periods of the platform shows the last 20 of them. Units are SI; energies \
 are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
@@ -47,6 +47,7 @@ are per unit mass (J/kg). See docs/model.md and docs/tutorial.md.
 Examples:
   bouncing-disk toss
   bouncing-disk toss --set disk.friction=0.05 --out toss.png
+  bouncing-disk toss --set contact.time=0.05
   bouncing-disk toss --many --set platform.angular_frequency=12")]
 pub(crate) struct TossArgs {
     #[command(flatten)]
@@ -75,9 +76,9 @@ pub(crate) struct TossArgs {
 }
 
 pub(super) fn run(args: &TossArgs, context: Context) -> Result<()> {
-    let given = args.system.begin_driven(&args.output, true, context)?;
+    let given = args.system.begin_soft(&args.output, true, context)?;
     let Some((system, drive)) = given else { return Ok(()) };
-    if !drive.is_sine() {
+    if !drive.is_sine() || system.soft_contact().is_some() {
         return driven::run(&system, &drive, args, context);
     }
     if args.many { many(&system, args, context) } else { single(&system, args, context) }
@@ -244,7 +245,7 @@ fn deliver(
         "examined_impacts": many(args.examined as u64),
         "periods": many(args.periods),
     });
-    if let Some(drive) = drive {
+    if let Some(drive) = drive.filter(|drive| !drive.is_sine()) {
         job["drive"] = json!(drive);
     }
     let contact = system.contact_statement(landing_speed);

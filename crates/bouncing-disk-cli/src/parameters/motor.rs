@@ -36,6 +36,10 @@ impl Described for Motor {
         self.parameters().contact.is_some()
     }
 
+    fn rigid(&self) -> Result<(), bouncing_disk::Error> {
+        self.system().rigid()
+    }
+
     fn template(&self) -> String {
         let sheet = self.parameters();
         let mut text = "# The data sheet of a motor. SI units.\n\n".to_owned();
@@ -45,7 +49,8 @@ impl Described for Motor {
             }
         }
         text += "\n# What else there may be; of fields that say the same, only one.\n";
-        for field in MotorField::ALL.into_iter().filter(|field| field.value(&sheet).is_none()) {
+        let outside = |field: &MotorField| *field != MotorField::ContactTime && field.value(&sheet).is_none();
+        for field in MotorField::ALL.into_iter().filter(outside) {
             let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();
             let instead = if excluded.is_empty() {
                 String::new()
@@ -78,6 +83,7 @@ fn described(field: MotorField) -> String {
         MotorField::Friction => "coefficient of friction mu",
         MotorField::Restitution => "coefficient of restitution, in [0, 1)",
         MotorField::LoadTorque => "load torque; a positive one decelerates a positive rotation",
+        MotorField::ContactTime => "how long an impact lasts",
     };
     match field.unit() {
         "1" => meaning.to_owned(),

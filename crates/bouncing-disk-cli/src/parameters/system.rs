@@ -13,7 +13,7 @@ use crate::range::Words;
 pub(crate) type SystemArgs = SourceArgs<System>;
 
 /// The parameters: table and key, unit, meaning.
-const FIELDS: [(&str, &str, &str); 10] = [
+const FIELDS: [(&str, &str, &str); 11] = [
     ("platform.amplitude", "m", "amplitude A of the height"),
     ("platform.twist_amplitude", "rad", "amplitude Phi of the angle"),
     ("platform.angular_frequency", "rad/s", "angular frequency omega"),
@@ -24,6 +24,7 @@ const FIELDS: [(&str, &str, &str); 10] = [
     ("disk.restitution", "1", "coefficient of restitution, in [0, 1)"),
     ("disk.preload_acceleration", "m/s^2", "preload acceleration g; gravity, where nothing else presses"),
     ("disk.load_acceleration", "rad/s^2", "angular deceleration by a load, T/(m a_g^2)"),
+    ("contact.time", "s", "how long an impact lasts"),
 ];
 
 /// A file, which may lack parameters that --set gives.
@@ -71,6 +72,14 @@ fn build(mut tables: Table, settings: &[Setting]) -> Result<System, String> {
         else {
             return Err(unknown(key, paths()));
         };
+        // A time takes the place of materials.
+        if table == "contact" {
+            let law = tables.get(table).and_then(|contact| contact.get("law").cloned());
+            tables.insert(
+                table.to_owned(),
+                law.map(|law| ("law".to_owned(), law)).into_iter().collect::<Table>().into(),
+            );
+        }
         if let Some(Value::Table(table)) = tables.get_mut(table) {
             table.insert(name.to_owned(), (*value).into());
         }
@@ -91,7 +100,7 @@ impl Described for System {
         file.drive.check().map_err(|error| error.to_string())?;
         let system = build(tables(&file)?, settings)?;
         if file.drive.is_schedule() {
-            let motion = Schedule::of_drive(*system.platform(), &file.drive).and_then(|schedule| {
+            let motion = Schedule::of_drive(&system, &file.drive).and_then(|schedule| {
                 ScheduledEngine::at_rest(&schedule, system.disk(), 0.0, ChatterPolicy::Complete)
             });
             motion.map_err(|error| error.to_string())?;
@@ -103,11 +112,15 @@ impl Described for System {
         self.contact().is_some()
     }
 
+    fn rigid(&self) -> Result<(), bouncing_disk::Error> {
+        Self::rigid(self)
+    }
+
     fn template(&self) -> String {
         let tables = tables(self).unwrap_or_default();
         let mut text = "# A disk on a platform that vibrates and twists. SI units.\n".to_owned();
         let mut last = "";
-        for (path, unit, meaning) in FIELDS {
+        for (path, unit, meaning) in FIELDS.into_iter().filter(|(path, ..)| *path != "contact.time") {
             let (table, name) = path.split_once('.').unwrap_or_default();
             if table != last {
                 text += &format!("\n[{table}]\n");
@@ -124,6 +137,7 @@ impl Described for System {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bouncing_disk::parameters::ContactLaw;
 
     fn read(text: &str, format: Format) -> Result<System, String> {
         System::read(text, format, &[]).map(|(system, _)| system)
@@ -142,7 +156,10 @@ mod tests {
         let with = |entry: &str| {
             read(&format!("{}[contact]\n{entry}\n", System::pizza_toss().template()), Format::Toml)
         };
-        assert_eq!(with("time = 0.02").map(|system| system.contact_time()), Ok(Some(0.02)));
+        assert_eq!(
+            with("time = 0.02").map(|system| system.soft_contact()),
+            Ok(Some((ContactLaw::Damper, 0.02)))
+        );
         assert!(with("time = 0").unwrap_err().contains("contact.time = 0 is outside"));
         let known = "is unknown; the known ones are steel, aluminium, ";
         assert!(with("materials = ['cheese', 'skin']").unwrap_err().contains(known));

@@ -75,7 +75,7 @@ fn drives() {
         let lines = if command == "toss" {
             ["verdicts", "doublings", "design", "toss --template"]
         } else {
-            ["motor report", "motor stall", "motor traps", "motor sweep --over friction=0.1:0.2:2"]
+            ["motor report", "motor traps", "motor sweep --over friction=0.1:0.2:2", ""]
         };
         let (template, sine) = lines.split_last().unwrap();
         for line in sine {
@@ -101,6 +101,68 @@ fn drives() {
             folder.all_refused(2, &[(&format!("{command} {name}.toml"), told)]);
         }
     }
+}
+
+/// A contact is legal or refused by name, and never ignored.
+#[test]
+fn contacts() {
+    let folder = Folder::new();
+    for (command, soft, takes_none) in [
+        (
+            "toss",
+            "0.02",
+            &["toss --many", "verdicts", "doublings", "design", "diagram", "orbits", "basins"][..],
+        ),
+        ("motor report", "1e-5", &["motor traps"][..]),
+    ] {
+        let template = folder.done(&format!("{command} --template"));
+        let file = |name: &str, contact: &str| {
+            folder.write(&format!("{name}.toml"), &format!("{template}\n[contact]\n{contact}\n"));
+        };
+        let time = format!("time = {soft}");
+        file("soft", &time);
+        for line in takes_none {
+            let told = "holds for rigid impacts only, and the table [contact] has a time";
+            folder.all_refused(2, &[(&format!("{line} soft.toml"), told)]);
+        }
+        let restitution = if command == "toss" { "disk.restitution=0" } else { "restitution=0" };
+        let line = format!("{command} soft.toml --set {restitution}");
+        folder.all_refused(
+            2,
+            &[(&line, "soft.toml with --set: restitution of a contact that takes time = 0 is")],
+        );
+        for (name, contact, told) in [
+            ("zero", "time = 0", "zero.toml: contact.time = 0 is outside"),
+            ("negative", "time = -1e-5", "negative.toml: contact.time = -1e-5 is outside"),
+            ("nan", "time = nan", "nan.toml: contact.time = NaN is outside"),
+            ("long", "time = 1e6", "long.toml: contact time = "),
+            ("both", &format!("{time}\nmaterials = ['steel', 'steel']"), "both.toml: both contact.time and"),
+            ("law", "law = 'damper'", "law.toml: contact.time is not given"),
+            ("cheese", "materials = ['cheese', 'steel']", "cheese.toml: "),
+            ("laws", &format!("{time}\nlaw = 'dampr'"), "\"dampr\" is unknown; did you mean \"damper\"?"),
+            ("empty", "", "empty.toml: neither contact.time nor contact.materials is given"),
+        ] {
+            file(name, contact);
+            folder.all_refused(2, &[(&format!("{command} {name}.toml"), told)]);
+        }
+        file("triangle", &format!("{time}\n[drive]\nheight = 'triangle'"));
+        let line = if command == "toss" { "toss triangle.toml" } else { "motor curve triangle.toml" };
+        folder.all_refused(
+            2,
+            &[(line, "a periodic Fourier sum: a contact that takes time has no other drive")],
+        );
+        if command == "toss" {
+            file("joined", &format!("{time}\n[drive]\nsegments = [{{}}, {{}}]"));
+            folder.all_refused(2, &[("toss joined.toml", "segments that join have rigid impacts")]);
+        }
+    }
+    let lines = [
+        ("motor curve --set contact.time=0", "--set: contact.time = 0 is outside"),
+        ("toss --set contact.time=-1", "--set: contact.time = -1 is outside"),
+        ("motor curve --set contact_time=1e-5", "did you mean \"contact.time\"?"),
+        ("motor sweep --over contact.time=0:1e-5:2", "contact.time = 0 is outside"),
+    ];
+    folder.all_refused(2, &lines);
 }
 
 #[test]

@@ -14,7 +14,7 @@ use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{
     DrivenMotor, MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,
 };
-use bouncing_disk::parameters::{DrivenPlatform, Waveform};
+use bouncing_disk::parameters::{Contact, DrivenPlatform, Waveform};
 use bouncing_disk::toss::{
     InitialSpin, MultiTossSettings, TOSS_START, TossConstraints, best_toss, single_toss,
 };
@@ -143,6 +143,69 @@ fn tosses_and_motors_on_drives() {
     let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
     let members = TransientMember::of_ensemble(motor.motor().system(), &settings, 5).unwrap();
     let curves = motor.transients(&members, &Unobserved).unwrap();
+    assert_eq!(written(line)["curves"], stored(&curves));
+    for part in ["1", "2"] {
+        folder.done(&format!("{line} --chunk {part}/2 --out {part}.json"));
+    }
+    assert_eq!(written("merge 1.json 2.json")["curves"], stored(&curves));
+}
+
+#[test]
+fn contacts_that_take_time() {
+    let folder = Folder::new();
+    let written = |line: &str| -> Value {
+        folder.done(&format!("{line} --out a.json --force"));
+        serde_json::from_slice(&folder.read("a.json")).unwrap()
+    };
+    let soft = |time: f64| Contact { time: Some(time), ..Contact::default() };
+    let toss = System::pizza_toss().with_contact(Some(soft(0.05))).unwrap();
+    let hand = DrivenPlatform::from(*toss.platform()).with_contact(toss.soft_contact());
+    let phase = Phase::new(TOSS_START).unwrap();
+    let own = driven::single_toss(&hand, toss.disk(), phase, InitialSpin::AbsoluteRest).unwrap();
+    let found = written("toss --set contact.time=0.05");
+    assert_eq!(found["performance"], stored(&own));
+    assert!(found["performance"] != written("toss")["performance"]);
+    // The disk sinks into the hand.
+    let below = |own: &Value| own["disk_height_m"].as_f64() < own["platform_height_m"].as_f64();
+    assert!(found["motion"].as_array().unwrap().iter().any(below));
+
+    let materials = "[contact]\nmaterials = ['steel', 'aluminium']\ngeometry = 'plane'\nball_radius = 0.01\n";
+    folder.write("motor.toml", &(folder.done("motor report --template") + materials));
+    let settings = OperatingSettings { relative_error: 0.3, members: 4, ..OperatingSettings::default() };
+    let accuracy = "--relative-error 0.3 --members 4";
+    let line = format!("motor curve motor.toml --loads 0:1e-5:2 --no-spread {accuracy}");
+    let rigid = Motor::paper_70_khz();
+    let curve = rigid.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    assert_eq!(written(&line)["operations"], stored(&curve));
+    // Too stiff for the numbers.
+    let stiff = folder.command(&format!("{line} --set contact.time=1e-12")).output().unwrap();
+    assert_eq!(String::from_utf8(stiff.stdout).unwrap(), folder.done(&line));
+    assert!(
+        String::from_utf8(stiff.stderr)
+            .unwrap()
+            .contains("warning: impacts are rigid: contact.time is below")
+    );
+    let motor = rigid.with(|sheet| sheet.contact = Some(soft(1e-5))).unwrap();
+    let driven = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).unwrap();
+    // Far from settled, for the sake of time.
+    let settings = OperatingSettings { most_impacts: 5_000, ..settings };
+    let time = "--most-impacts 5000 --set contact.time=1e-5";
+    let curve = driven.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    assert_eq!(written(&format!("{line} {time}"))["operations"], stored(&curve));
+    let swept =
+        written(&format!("motor sweep {accuracy} --most-impacts 5000 --over contact.time=1e-5:2e-5:2"));
+    let alone = driven.torque_speed_curve(&[0.0], &settings, &Unobserved).unwrap();
+    assert_eq!(swept["cells"][0], stored(&alone)[0]);
+    let stall = driven.stall_load(&settings, &Unobserved).unwrap_err().to_string();
+    assert!(folder.refused(&format!("motor stall {accuracy} {time}"), 1).contains(&stall), "{stall}");
+    folder.write(
+        "soft.toml",
+        &(folder.done("motor report --template") + "[contact]\ntime = 1e-5\nlaw = 'hysteresis'\n"),
+    );
+    let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
+    let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
+    let curves = driven.with_hysteretic_contact(1e-5).unwrap().transients(&members, &Unobserved).unwrap();
+    let line = "motor transient soft.toml --members 5 --duration 0.02 --intervals 4";
     assert_eq!(written(line)["curves"], stored(&curves));
     for part in ["1", "2"] {
         folder.done(&format!("{line} --chunk {part}/2 --out {part}.json"));

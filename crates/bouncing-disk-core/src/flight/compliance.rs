@@ -85,6 +85,9 @@ impl Compliance {
     /// 1/(1 - e) times as large as the platform's, cancel.
     pub const RESTITUTIONS: [f64; 2] = [0.001, 1.0 - 1.0e-6];
 
+    /// Least and largest contact time (rad).
+    pub const CONTACT_TIMES: [f64; 2] = [1.0e-6, 1.0e4];
+
     /// The contact in which an isolated impact without weight lasts for `contact_time` (rad), until the force
     /// falls to zero, and has this restitution.
     ///
@@ -92,7 +95,8 @@ impl Compliance {
     /// [`Error::OutOfRange`] for a contact time outside [1e-6, 1e4] rad, or a restitution outside
     /// [0.001, 1 - 1e-6].
     pub fn new(contact_time: f64, restitution: f64) -> Result<Self, Error> {
-        within("contact time", contact_time, 1.0e-6, 1.0e4, "[1e-6, 1e4] (rad of the drive)")?;
+        let ([least, most], legal) = (Self::CONTACT_TIMES, "[1e-6, 1e4] (rad of the drive)");
+        within("contact time", contact_time, least, most, legal)?;
         let ([least, most], legal) = (Self::RESTITUTIONS, "[0.001, 1 - 1e-6]");
         within("restitution of a contact that takes time", restitution, least, most, legal)?;
         // Damping ratio cos u, or cosh u beyond the critical one: the restitution is exp(-2 u cot u), or

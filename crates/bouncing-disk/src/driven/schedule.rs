@@ -15,8 +15,8 @@ use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::{
     AfterSchedule, DriveParameters, DrivenPlatform, ScheduleSegment, Waveform,
 };
-use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
+use crate::parameters::system::System;
 
 /// A jump of the height at a joint that is smaller than this share of the heights is rounding.
 const JOINT_ROUNDING: f64 = 1.0e-9;
@@ -76,19 +76,26 @@ impl Part {
 }
 
 impl Schedule {
-    /// This platform with the schedule of a file's table.
+    /// The platform of a system, with its contact, and the schedule of a file's table.
     ///
     /// # Errors
     /// Those of [`DrivenPlatform::new`]; the rest is checked by [`ScheduledEngine::at_rest`].
-    pub fn of_drive(platform: Platform, drive: &DriveParameters) -> Result<Self, Error> {
+    pub fn of_drive(system: &System, drive: &DriveParameters) -> Result<Self, Error> {
         let DriveParameters { height, angle, start_phase, segments, then } = drive.clone();
-        Ok(Self { platform: DrivenPlatform::new(platform, height, angle)?, start_phase, segments, then })
+        let platform = DrivenPlatform::new(*system.platform(), height, angle)?;
+        let platform = platform.with_contact(system.soft_contact());
+        Ok(Self { platform, start_phase, segments, then })
     }
 
     fn parts(&self, disk: &Disk) -> Result<Vec<Part>, Error> {
         finite("start_phase", self.start_phase)?;
         let count = self.segments.len();
         check(count > 0, "number of segments", 0.0, "[1, inf): start_phase and then need segments")?;
+        if let (Some((_, time)), true) =
+            (self.platform.contact(), count > 1 || self.then == AfterSchedule::Rest)
+        {
+            check(false, "contact.time", time, "(none: segments that join have rigid impacts)")?;
+        }
         let mut parts: Vec<Part> = Vec::with_capacity(count + 1);
         let mut cycles = self.start_phase / TAU;
         for (index, segment) in self.segments.iter().enumerate() {
@@ -155,20 +162,21 @@ impl Schedule {
                 Drive::ramped_fourier(&harmonics, duration).map_err(|source| Error::Waveform { of, source })
             }
         };
+        let rigid = DrivenSystem {
+            height: track("height", self.platform.height(), hand.amplitude() / scales.length, 0.0)?,
+            angle: track(
+                "angle",
+                self.platform.angle(),
+                hand.twist_amplitude() / scales.angle,
+                hand.phase_lag() + lag,
+            )?,
+            friction: disk.friction(),
+            restitution: disk.restitution(),
+            load: disk.load_acceleration() / scales.angular_acceleration,
+            compliance: None,
+        };
         Ok(Part {
-            system: DrivenSystem {
-                height: track("height", self.platform.height(), hand.amplitude() / scales.length, 0.0)?,
-                angle: track(
-                    "angle",
-                    self.platform.angle(),
-                    hand.twist_amplitude() / scales.angle,
-                    hand.phase_lag() + lag,
-                )?,
-                friction: disk.friction(),
-                restitution: disk.restitution(),
-                load: disk.load_acceleration() / scales.angular_acceleration,
-                compliance: None,
-            },
+            system: rigid.with_contact(self.platform.contact(), hand.angular_frequency() * frequency)?,
             start: if ramp_to.is_some() { 0.0 } else { phase_at(phase).angle() },
             duration,
             scales,

@@ -18,10 +18,12 @@ use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::rotor::transient::{Bins, FLIGHTS_OF_EVENT, SpeedCurve, TransientSettings, curve};
+use crate::parameters::contact::{Contact, ContactLaw};
 use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 use crate::parameters::system::System;
 
-/// A [`Motor`] whose stator moves by waveforms in place of the sines of Eq. (1).
+/// A [`Motor`] whose stator moves by waveforms in place of the sines of Eq. (1), or whose contacts take the time
+/// that its sheet has in the table `[contact]`.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -56,9 +58,10 @@ impl DrivenMotor {
     }
 
     fn on(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
+        let stator = stator.with_contact(motor.system().soft_contact());
         let system = DrivenSystem::new(&stator, motor.system().disk())?;
         let scales = motor.system().scales();
-        let bound = motor.system().with_platform(|platform| {
+        let bound = motor.system().with_contact(None)?.with_platform(|platform| {
             platform.amplitude = system.height().bounds().speed * scales.length;
             platform.twist_amplitude = system.angle().bounds().speed * scales.angle;
         })?;
@@ -73,25 +76,35 @@ impl DrivenMotor {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }
 
-    /// The motor with a contact that takes time: an isolated impact lasts for `contact_time` (s) and has the
-    /// sheet's restitution.
+    /// As [`Self::of_drive`]; `None` for the paper's motor, which moves as a sine and has rigid impacts: a
+    /// [`Motor`] is the faster one.
     ///
     /// # Errors
-    /// Those of [`DrivenSystem::with_contact_time`].
-    pub fn with_contact_time(mut self, contact_time: f64) -> Result<Self, Error> {
-        let omega = self.motor.system().platform().angular_frequency();
-        self.system = self.system.with_contact_time(contact_time * omega)?;
-        Ok(self)
+    /// As [`Self::of_drive`].
+    pub fn where_needed(motor: Motor, drive: &DriveParameters) -> Result<Option<Self>, Error> {
+        let needed = !drive.is_sine() || motor.system().soft_contact().is_some();
+        needed.then(|| Self::of_drive(motor, drive)).transpose()
+    }
+
+    /// The motor with a contact that takes time: an isolated impact lasts for `contact_time` (s) and has the
+    /// sheet's restitution. Below 1e-6 rad of the vibration impacts are rigid.
+    ///
+    /// # Errors
+    /// Those of [`System::with_contact`] and [`DrivenSystem::with_contact_time`].
+    pub fn with_contact_time(self, contact_time: f64) -> Result<Self, Error> {
+        self.touching(Contact::lasting(contact_time))
     }
 
     /// As [`Self::with_contact_time`], with a spring that unloads at less stiffness in place of a damper.
     ///
     /// # Errors
     /// As for [`Self::with_contact_time`].
-    pub fn with_hysteretic_contact(mut self, contact_time: f64) -> Result<Self, Error> {
-        let omega = self.motor.system().platform().angular_frequency();
-        self.system = self.system.with_hysteretic_contact(contact_time * omega)?;
-        Ok(self)
+    pub fn with_hysteretic_contact(self, contact_time: f64) -> Result<Self, Error> {
+        self.touching(Contact { law: Some(ContactLaw::Hysteresis), ..Contact::lasting(contact_time) })
+    }
+
+    fn touching(self, contact: Contact) -> Result<Self, Error> {
+        Self::on(self.motor.with(|sheet| sheet.contact = Some(contact))?, self.stator)
     }
 
     /// The data sheet.
@@ -107,8 +120,8 @@ impl DrivenMotor {
     }
 
     fn loaded(&self) -> LoadedMotor<'_> {
-        let stator = Some((&self.stator, &self.system));
-        LoadedMotor { system: self.bound, stator, ..LoadedMotor::of(&self.motor) }
+        let (mass, load_torque) = (self.motor.mass(), self.motor.load_torque());
+        LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.system)), mass, load_torque }
     }
 
     /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together.

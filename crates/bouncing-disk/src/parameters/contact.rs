@@ -1,4 +1,5 @@
-//! The table `[contact]` of a file: how long an impact takes, or what it can be estimated from.
+//! The table `[contact]` of a file: how long an impact takes, which makes contacts take time, or what that can be
+//! estimated from.
 
 pub(crate) mod estimate;
 
@@ -79,16 +80,33 @@ pub enum Geometry {
     Layer,
 }
 
-/// The table `[contact]` of a file: the time of an impact, or materials, geometry and sizes to estimate it from.
-/// The rigid engine has impacts of no duration; a report compares the time with the period. A system and a data
-/// sheet check it.
+/// What takes the energy of a contact that takes time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
+pub enum ContactLaw {
+    /// A damper beside the spring.
+    #[default]
+    Damper,
+    /// The spring unloads at the square of the restitution times its stiffness.
+    Hysteresis,
+}
+
+/// The table `[contact]` of a file. A time makes contacts take it in all that accepts such contacts (tosses,
+/// [`DrivenMotor`](crate::motor::DrivenMotor)); the rest refuses it. Materials, geometry and sizes give a range, not
+/// a time: impacts stay rigid, and a report compares the range with the period. A system and a data sheet check
+/// it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields, default, expecting = "the table contact"))]
 pub struct Contact {
-    /// How long an isolated impact lasts (s), positive; in place of all the rest.
+    /// How long an isolated impact lasts (s), positive; in place of all the rest. Below 1e-6 rad of the
+    /// platform's vibration impacts are rigid, with a warning.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub time: Option<f64>,
+    /// What takes its energy; only with a time.
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    pub law: Option<ContactLaw>,
     /// Of the disk and of the platform.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub materials: Option<[Material; 2]>,
@@ -122,6 +140,7 @@ impl Contact {
     /// The paper's motor: a steel ball of 20 mm on the edge of an aluminium stator (Secs. V A and V B).
     pub const PAPER: Self = Self {
         time: None,
+        law: None,
         materials: Some([Material::Steel, Material::Aluminium]),
         geometry: Some(Geometry::Ring),
         ball_radius: Some(0.01),
@@ -132,6 +151,11 @@ impl Contact {
         mass: None,
         speed: None,
     };
+
+    /// An impact that lasts for this time (s).
+    pub(crate) fn lasting(time: f64) -> Self {
+        Self { time: Some(time), ..Self::default() }
+    }
 
     /// Checks the numbers, and that all that is needed is given and nothing else. The mass comes later.
     pub(crate) fn check(&self) -> Result<(), Error> {
@@ -160,6 +184,9 @@ impl Contact {
                 Some((other, _)) => Err(Error::BothGiven { one: "contact.time", other }),
                 None => Ok(()),
             };
+        }
+        if self.law.is_some() {
+            return Err(Error::NotGiven { field: "contact.time" });
         }
         if !materials.1 {
             return Err(Error::NeitherGiven { one: "contact.time", other: "contact.materials" });

@@ -7,6 +7,7 @@ use bouncing_disk_core::{Drive, DrivenMap, ImpactMap};
 
 use crate::display::rough;
 use crate::error::{Error, check};
+use crate::parameters::contact::ContactLaw;
 use crate::parameters::disk::Disk;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
@@ -217,6 +218,8 @@ pub struct DrivenPlatform {
     platform: Platform,
     height: Waveform,
     angle: Waveform,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    contact: Option<(ContactLaw, f64)>,
 }
 
 impl DrivenPlatform {
@@ -228,7 +231,7 @@ impl DrivenPlatform {
     pub fn new(platform: Platform, height: Waveform, angle: Waveform) -> Result<Self, Error> {
         height.check("height")?;
         angle.check("angle")?;
-        Ok(Self { platform, height, angle })
+        Ok(Self { platform, height, angle, contact: None })
     }
 
     /// This platform with the motion that the table `[drive]` of a file gives.
@@ -240,6 +243,21 @@ impl DrivenPlatform {
             return Err(Error::ScheduledDrive);
         }
         Self::new(platform, drive.height.clone(), drive.angle.clone())
+    }
+
+    /// This platform with contacts of this law and time (s), such as [`System::soft_contact`] has; `None` for
+    /// rigid impacts.
+    ///
+    /// [`System::soft_contact`]: crate::System::soft_contact
+    #[must_use]
+    pub fn with_contact(self, contact: Option<(ContactLaw, f64)>) -> Self {
+        Self { contact, ..self }
+    }
+
+    /// The law and the time (s) of contacts that take time.
+    #[must_use]
+    pub const fn contact(&self) -> Option<(ContactLaw, f64)> {
+        self.contact
     }
 
     /// Amplitudes, frequency and phase lag.
@@ -270,7 +288,7 @@ impl DrivenPlatform {
 impl From<Platform> for DrivenPlatform {
     /// The platform of Eq. (1).
     fn from(platform: Platform) -> Self {
-        Self { platform, height: Waveform::Sine, angle: Waveform::Sine }
+        Self { platform, height: Waveform::Sine, angle: Waveform::Sine, contact: None }
     }
 }
 

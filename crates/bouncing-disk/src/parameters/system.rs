@@ -1,11 +1,12 @@
 //! A disk on a platform, in SI units.
 
 use crate::display::numbers;
+use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::read_checked;
 use std::fmt::{self, Display, Formatter};
 
 use crate::error::Error;
-use crate::parameters::contact::Contact;
+use crate::parameters::contact::{Contact, ContactLaw};
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DriveParameters;
@@ -91,17 +92,29 @@ impl System {
         self.contact.as_ref()
     }
 
-    /// How long an impact lasts (s), if that is given.
+    /// The law and the time (s) of contacts that take time. `None` where impacts are rigid: if no time is given,
+    /// and if it is below 1e-6 rad of the vibration.
     #[must_use]
-    pub fn contact_time(&self) -> Option<f64> {
-        self.contact.and_then(|contact| contact.time)
+    pub fn soft_contact(&self) -> Option<(ContactLaw, f64)> {
+        let contact = self.contact.as_ref()?;
+        let time = contact.time?;
+        let holds = time * self.platform.angular_frequency() >= Compliance::CONTACT_TIMES[0];
+        holds.then_some((contact.law.unwrap_or_default(), time))
+    }
+
+    /// That impacts are rigid.
+    ///
+    /// # Errors
+    /// [`Error::SoftContact`].
+    pub fn rigid(&self) -> Result<(), Error> {
+        self.soft_contact().map_or(Ok(()), |_| Err(Error::SoftContact))
     }
 
     /// The same system with another table `[contact]`.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for a number that is not positive; [`Error::NeitherGiven`], [`Error::NotGiven`] and
-    /// [`Error::BothGiven`] name what is missing or too much.
+    /// [`Error::BothGiven`] name what is missing or too much. With a time those of [`Compliance::new`].
     pub fn with_contact(&self, contact: Option<Contact>) -> Result<Self, Error> {
         if let Some(contact) = contact {
             contact.check()?;
@@ -109,7 +122,11 @@ impl System {
                 return Err(Error::NotGiven { field: "contact.mass" });
             }
         }
-        Ok(Self { contact, ..*self })
+        let system = Self { contact, ..*self };
+        if let Some((_, time)) = system.soft_contact() {
+            Compliance::new(time * self.platform.angular_frequency(), self.disk.restitution())?;
+        }
+        Ok(system)
     }
 
     /// P = A omega^2/g, the platform's peak acceleration in units of the preload acceleration.

@@ -68,7 +68,7 @@ pub struct TossPerformance {
 ///
 /// # Errors
 /// [`Error::NeverLeaves`] if the hand never falls away from the dough (phi_L > acos(g/(c omega^2)) for a
-/// motion given by its stroke).
+/// motion given by its stroke); [`Error::SoftContact`].
 pub fn single_toss(system: &System, initial: InitialSpin) -> Result<TossPerformance, Error> {
     let mut ledger = EnergyLedger::default();
     for record in toss_engine(system, initial)? {
@@ -101,6 +101,7 @@ pub fn toss_trajectory(system: &System, initial: InitialSpin) -> Result<Trajecto
 }
 
 fn toss_engine(system: &System, initial: InitialSpin) -> Result<Engine, Error> {
+    system.rigid()?;
     if system.dimensionless().vibration().separation_phase().is_none() {
         return Err(never_leaves(system));
     }

@@ -14,12 +14,13 @@ All loads ride on one vertical motion: a curve costs little more than a point, u
 inputs; the spread is over motors whose preload and amplitude lie within the tolerance, and the relaunch perturbation within \
 a decade: 95 of 100 further ones lie between its ends. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
-speed changes its sign, on a straight line between two loads; `motor stall` computes it. With a [drive] that is not a sine each load \
-has its own vertical motion, and there is no spread. See docs/designing-a-motor.md.
+speed changes its sign, on a straight line between two loads; `motor stall` computes it. With a [drive] that is not a sine, or a \
+contact.time, each load has its own vertical motion, and there is no spread. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve
-  bouncing-disk motor curve motor.toml --loads 0:40e-6:21 --out curve.png --out curve.csv")]
+  bouncing-disk motor curve motor.toml --loads 0:40e-6:21 --out curve.png --out curve.csv
+  bouncing-disk motor curve --set contact.time=14e-6")]
 pub(crate) struct CurveArgs {
     #[command(flatten)]
     motor: MotorArgs,
@@ -35,7 +36,7 @@ pub(crate) struct CurveArgs {
 }
 
 pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
-    let given = args.motor.begin_driven(&args.output, true, context)?;
+    let given = args.motor.begin_soft(&args.output, true, context)?;
     let Some((motor, drive)) = given else { return Ok(()) };
     warn(&motor, context);
     let load_torques = match args.loads {
@@ -45,16 +46,12 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let loads: Vec<f64> = load_torques.values().collect();
     let settings = args.settings.settings();
     let watch = context.watch("motor curve");
-    let found = if drive.is_sine() {
-        motor.torque_speed_curve(&loads, &settings, &watch)?
-    } else {
-        DrivenMotor::of_drive(motor, &drive)?.torque_speed_curve(&loads, &settings, &watch)?
+    let driven = DrivenMotor::where_needed(motor, &drive)?;
+    let found = match &driven {
+        None => motor.torque_speed_curve(&loads, &settings, &watch)?,
+        Some(driven) => driven.torque_speed_curve(&loads, &settings, &watch)?,
     };
-    // The spread, as the regime, is the sine's.
-    let tolerance = args.spread.tolerance().filter(|_| drive.is_sine());
-    if tolerance.is_none() && args.spread.tolerance().is_some() {
-        context.note("no spread over the tolerances: it is computed for the sine only");
-    }
+    let tolerance = args.spread.of(driven.as_ref(), context);
     let spreads = match &tolerance {
         Some(tolerance) => {
             let watch = context.watch("motor curve: spread");
@@ -68,7 +65,7 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     if !drive.is_sine() {
         job["drive"] = json!(drive);
     }
-    let note = if drive.is_sine() { lock_note(&motor)? } else { String::new() };
+    let note = if driven.is_none() { lock_note(&motor)? } else { String::new() };
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
         text: shown().to_text(&rows) + &note,

@@ -4,7 +4,7 @@ use crate::commands::prelude::*;
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
-use bouncing_disk::motor::{Estimate, InputTolerance, OperatingSettings, Operation};
+use bouncing_disk::motor::{DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation};
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -55,7 +55,17 @@ pub(super) struct SpreadArgs {
 }
 
 impl SpreadArgs {
-    pub(super) fn tolerance(&self) -> Option<InputTolerance> {
+    /// The tolerance over which a spread is computed: that of the sine's rigid impacts only, as is the regime.
+    pub(super) fn of(&self, driven: Option<&DrivenMotor>, context: Context) -> Option<InputTolerance> {
+        let tolerance = self.tolerance();
+        if driven.is_some() && tolerance.is_some() {
+            context
+                .note("no spread over the tolerances: it is computed for the sine with rigid impacts only");
+        }
+        tolerance.filter(|_| driven.is_none())
+    }
+
+    fn tolerance(&self) -> Option<InputTolerance> {
         let Self { tolerance, draws, no_spread } = *self;
         let own =
             InputTolerance { preload: tolerance, amplitude: tolerance, draws, ..InputTolerance::default() };

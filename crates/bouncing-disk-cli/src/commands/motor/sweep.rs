@@ -12,13 +12,15 @@ use serde::{Deserialize, Serialize};
 
 use super::settings::{SettingsArgs, interval, state, warn};
 use crate::commands::prelude::*;
+use crate::parameters::sine;
 
 /// A motor over one or two fields of its data sheet
 #[derive(Debug, Args)]
 #[command(after_help = "\
 One --over makes a curve, two make a map, the first being that of the rows. Cells of one vertical motion (they differ in \
 load, friction, phase lag, twist, radii or mass only) are computed on one orbit, as a row of the computation: --chunk and \
---journal divide and keep these. Fields are those of the data sheet, in its units. See docs/designing-a-motor.md.
+--journal divide and keep these. Fields are those of the data sheet, in its units; \
+contact.time makes contacts take time, cell by cell. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor sweep --over load_torque=0:30e-6:7 --out curve.csv
@@ -63,7 +65,8 @@ const PICTURES: Words<SweepQuantity> = &[
 ];
 
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
-    let Some(motor) = args.motor.unless_template(&args.output, context)? else { return Ok(()) };
+    let given = args.motor.soft_unless_template(&args.output, context)?.map(sine).transpose()?;
+    let Some(motor) = given else { return Ok(()) };
     warn(&motor, context);
     let job = SweepJob {
         motor,

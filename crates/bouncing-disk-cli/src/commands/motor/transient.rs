@@ -47,7 +47,7 @@ pub(crate) struct TransientArgs {
 }
 
 pub(super) fn run(args: &TransientArgs, context: Context) -> Result<()> {
-    let given = args.motor.driven_unless_template(&args.output, context)?;
+    let given = args.motor.soft_unless_template(&args.output, context)?;
     let Some((motor, drive)) = given else { return Ok(()) };
     warn(&motor, context);
     let job = TransientJob {
@@ -91,8 +91,8 @@ impl GridJob for TransientJob {
     }
 
     fn compute(&self, all: &Self::Prepared, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
-        if !self.drive.is_sine() {
-            return Ok(DrivenMotor::of_drive(self.motor, &self.drive)?.transients(&all[rows], observer)?);
+        if let Some(driven) = DrivenMotor::where_needed(self.motor, &self.drive)? {
+            return Ok(driven.transients(&all[rows], observer)?);
         }
         let curves = transients(&all[rows], observer)?;
         Ok(curves.into_iter().collect::<Result<_, _>>()?)

@@ -1,4 +1,4 @@
-//! Tosses on a drive that is not a sine.
+//! Tosses on a drive that is not a sine, or with contacts that take time.
 
 use std::f64::consts::TAU;
 
@@ -19,10 +19,15 @@ use crate::commands::prelude::*;
 const MOST_EVENTS: usize = 10_000;
 
 pub(super) fn run(system: &System, drive: &DriveParameters, args: &TossArgs, context: Context) -> Result<()> {
+    if args.many {
+        // Cycles and exponents are those of rigid impacts.
+        system.rigid()?;
+    }
     let motion = motion(system, drive, args.spin)?;
     let own = (system, Some(drive));
     let period = TAU / system.platform().angular_frequency();
     let platform = DrivenPlatform::of_drive(*system.platform(), drive);
+    let platform = platform.map(|platform| platform.with_contact(system.soft_contact()));
     let toss = match &platform {
         Ok(platform) if !args.many => {
             Some(single_toss(platform, system.disk(), Phase::new(TOSS_START)?, args.spin)?)
@@ -66,7 +71,7 @@ fn motion(system: &System, drive: &DriveParameters, spin: InitialSpin) -> Result
     if !drive.is_schedule() {
         (drive.start_phase, drive.segments) = (TOSS_START, vec![ScheduleSegment::default()]);
     }
-    let schedule = Schedule::of_drive(*system.platform(), &drive)?;
+    let schedule = Schedule::of_drive(system, &drive)?;
     let at_rest = |speed| ScheduledEngine::at_rest(&schedule, system.disk(), speed, ChatterPolicy::Complete);
     let motion = at_rest(0.0)?;
     let (engine, unit) = (motion.engine(), motion.scales_of(0).map_or(0.0, |scales| scales.angular_speed));

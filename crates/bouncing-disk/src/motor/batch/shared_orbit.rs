@@ -11,6 +11,7 @@ pub(crate) mod transients;
 pub(crate) mod vertical;
 
 use crate::error::Error;
+use crate::parameters::contact::ContactLaw;
 use crate::parameters::system::System;
 
 /// Checks that these motors share one vertical motion ([`is_shared`]). The first one stands for all.
@@ -32,22 +33,25 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
     Ok(first)
 }
 
-/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, and
-/// the same seconds.
+/// Whether two motors share one vertical motion: the same peak acceleration P and restitution to the bit, the
+/// same seconds, and the same contact.
 pub(crate) fn is_shared(one: &System, other: &System) -> bool {
     vertical_key(one) == vertical_key(other)
 }
 
 /// The numbers that all motors on one vertical motion share; motors that differ in them cannot share it.
-pub(crate) fn vertical_key(system: &System) -> [u64; 4] {
+pub(crate) fn vertical_key(system: &System) -> [u64; 6] {
     of_vertical_motion(system).map(|(_, value)| value.to_bits())
 }
 
-fn of_vertical_motion(system: &System) -> [(&'static str, f64); 4] {
+fn of_vertical_motion(system: &System) -> [(&'static str, f64); 6] {
+    let (law, time) = system.soft_contact().unwrap_or_default();
     [
         ("peak acceleration P", system.peak_acceleration()),
         ("restitution", system.disk().restitution()),
         ("angular frequency (rad/s)", system.platform().angular_frequency()),
         ("preload acceleration (m/s^2)", system.disk().preload_acceleration()),
+        ("contact.time (s)", time),
+        ("contact.law", f64::from(u8::from(law == ContactLaw::Hysteresis))),
     ]
 }

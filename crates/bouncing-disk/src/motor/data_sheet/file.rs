@@ -209,6 +209,9 @@ impl TryFrom<String> for Key {
             Some("drive") if name == "drive" => Ok(Self::Drive),
             Some("contact") if name == "contact" => Ok(Self::Contact),
             Some(table) => Err(UnknownMotorField::instead_of(&name, table)),
+            None if name == MotorField::ContactTime.name() => {
+                Err(UnknownMotorField::instead_of(&name, "contact"))
+            }
             None => name.parse().map(Self::Field),
         }
     }
@@ -290,9 +293,10 @@ fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
-/// The fields that a data sheet has, in their order.
+/// The fields that a data sheet has outside of its tables, in their order.
 fn given(sheet: &MotorParameters) -> impl Iterator<Item = (MotorField, f64)> {
-    MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(sheet)?)))
+    let fields = MotorField::ALL.into_iter().filter(|field| *field != MotorField::ContactTime);
+    fields.filter_map(|field| Some((field, field.value(sheet)?)))
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use crate::motor::data_sheet::parameters::MotorParameters;
+use crate::parameters::contact::Contact;
 
 /// Another unit in which a number may have been meant.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +80,7 @@ macro_rules! motor_fields {
         }
 
         const FIELDS: &[Field] = &[$(Field {
-            name: stringify!($name),
+            name: motor_fields!(@name $kind $name),
             unit: $unit,
             usual: $usual,
             readings: $readings,
@@ -95,8 +96,20 @@ macro_rules! motor_fields {
             pub const ALL: [Self; FIELDS.len()] = [$(Self::$variant),*];
         }
     };
+    (@name contact_time $name:ident) => { "contact.time" };
+    (@name $kind:ident $name:ident) => { stringify!($name) };
+    (@get contact_time $name:ident) => { |sheet| sheet.$name.and_then(|contact| contact.time) };
     (@get optional $name:ident) => { |sheet| sheet.$name };
     (@get $kind:ident $name:ident) => { |sheet| Some(sheet.$name) };
+    (@set contact_time $name:ident) => {
+        |sheet, value| match value {
+            Some(time) => {
+                let law = sheet.$name.and_then(|contact| contact.law);
+                sheet.$name = Some(Contact { law, ..Contact::lasting(time) });
+            }
+            None => sheet.$name = sheet.$name.filter(|contact| contact.time.is_none()),
+        }
+    };
     (@set optional $name:ident) => { |sheet, value| sheet.$name = value };
     (@set $kind:ident $name:ident) => { |sheet, value| sheet.$name = value.unwrap_or(sheet.$name) };
     (@needed needed) => { true };
@@ -159,6 +172,9 @@ motor_fields! {
     Restitution, restitution: needed, "1", None, &[], &["epsilon", "e", "eps"];
     /// [`MotorParameters::load_torque`] T_L (N m).
     LoadTorque, load_torque: optional_with_default, "N m", None, &[], &["T_L", "load", "torque"];
+    /// [`Contact::time`] of [`MotorParameters::contact`] (s); takes the place of materials, geometry and sizes. A file
+    /// has it in the table `[contact]`.
+    ContactTime, contact: contact_time, "s", None, &[], &["contact_duration"];
 }
 
 impl MotorField {
@@ -334,7 +350,7 @@ mod tests {
         for (index, field) in MotorField::ALL.into_iter().enumerate() {
             assert_eq!(field as usize, index);
             // `DriveFrequency` is `drive_frequency`.
-            let plain = field.name().replace('_', "");
+            let plain = field.name().replace(['_', '.'], "");
             assert_eq!(format!("{field:?}").to_lowercase(), plain);
             assert_eq!(field.to_string().parse(), Ok(field));
             let mut sheet = Motor::paper_70_khz().parameters();

@@ -56,7 +56,13 @@ impl Motor {
         let system = self.system();
         let impact_speed = flight.map(|mean| mean.impact_speed * system.scales().velocity);
         let contact = system.contact_statement(impact_speed);
-        let of_contact = contact.iter().flat_map(ContactStatement::warnings).map(MotorWarning::Contact);
+        let mut warnings = self.warnings();
+        for warning in contact.iter().flat_map(ContactStatement::warnings).map(MotorWarning::Contact) {
+            if !warnings.contains(&warning) {
+                warnings.push(warning);
+            }
+        }
+        warnings.extend(system.soft_contact().map(|_| MotorWarning::RigidRegime));
         Ok(MotorReport {
             axial_forcing: system.axial_forcing(),
             angular_forcing: system.angular_forcing(),
@@ -68,7 +74,7 @@ impl Motor {
             largest_torque: self.largest_torque(),
             static_deflection: self.static_deflection(),
             preload_change_bound: self.preload_change_bound(),
-            warnings: self.warnings().into_iter().chain(of_contact).collect(),
+            warnings,
         })
     }
 }

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::display::{number, rough};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::{Field, MotorField};
-use crate::parameters::contact::estimate::ContactWarning;
+use crate::parameters::contact::estimate::{ContactStatement, ContactWarning};
 
 /// A value this many times outside of what such motors have is far outside.
 const FAR: f64 = 1.0e3;
@@ -72,8 +72,10 @@ pub enum MotorWarning {
         /// The unit of both: rad/s or s.
         unit: &'static str,
     },
-    /// Impacts take time ([`Motor::report`]).
+    /// Impacts take time; [`Motor::report`], which knows their speed, may have more of these.
     Contact(ContactWarning),
+    /// The contacts of the motor take time, and the regime of a report is that of rigid impacts.
+    RigidRegime,
 }
 
 impl Display for MotorWarning {
@@ -109,6 +111,10 @@ impl Display for MotorWarning {
                 rough(100.0 * bound)
             ),
             Self::Contact(warning) => warning.fmt(f),
+            Self::RigidRegime => f.write_str(
+                "regime, flights and impact speed are those of rigid impacts: transients and curves have contacts that \
+                 take contact.time",
+            ),
             Self::OtherScale { measured, drive, unit } => {
                 let quantity = if unit == "s" { "rise time" } else { "speed" };
                 write!(
@@ -153,6 +159,8 @@ impl Motor {
         }
         let changes = self.preload_change_bound().filter(|bound| *bound > LARGEST_CHANGE);
         warnings.extend(changes.map(|bound| MotorWarning::PreloadChanges { bound }));
+        let contact = self.system().contact_statement(None);
+        warnings.extend(contact.iter().flat_map(ContactStatement::warnings).map(MotorWarning::Contact));
         warnings
     }
 }

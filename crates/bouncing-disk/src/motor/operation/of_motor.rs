@@ -6,15 +6,19 @@ use bouncing_disk_core::{Observer, Progress, Unobserved};
 use crate::error::{Error, check, finite};
 use crate::motor::batch::shared_orbit::is_shared;
 use crate::motor::data_sheet::Motor;
+use crate::motor::driven_motor::DrivenMotor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operate};
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
+use crate::parameters::driven_platform::Waveform;
 
 impl LoadedMotor<'static> {
-    pub(crate) const fn of(motor: &Motor) -> Self {
-        Self { system: *motor.system(), stator: None, mass: motor.mass(), load_torque: motor.load_torque() }
+    /// A motor with rigid impacts.
+    pub(crate) fn of(motor: &Motor) -> Result<Self, Error> {
+        let (system, mass, load_torque) = (*motor.system(), motor.mass(), motor.load_torque());
+        system.rigid().map(|()| Self { system, stator: None, mass, load_torque })
     }
 }
 
@@ -86,7 +90,7 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<Operation>, Error> {
-        curve_of(LoadedMotor::of(self), load_torques, settings, observer)
+        curve_of(LoadedMotor::of(self)?, load_torques, settings, observer)
     }
 
     /// The mean speed without load (rad/s).
@@ -118,7 +122,7 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<StallLoad, Error> {
-        stall_load(&LoadedMotor::of(self), settings, observer)
+        stall_load(&LoadedMotor::of(self)?, settings, observer)
     }
 
     /// The phase lag at which the motor turns fastest under the load of its data sheet, and its tolerance.
@@ -133,14 +137,14 @@ impl Motor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<BestPhaseLag, Error> {
-        best_phase_lag(&LoadedMotor::of(self), settings, observer)
+        best_phase_lag(&LoadedMotor::of(self)?, settings, observer)
     }
 }
 
 /// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
 /// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
 /// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
-/// together.
+/// together. Contacts take the time that a sheet has in its table `[contact]`; such motors are computed one by one.
 ///
 /// The items of `observer` are the motors.
 ///
@@ -157,10 +161,16 @@ pub fn operations(
     let groups = motors.chunk_by(|one, other| is_shared(one.system(), other.system()));
     for group in groups.flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
-        let loaded: Vec<_> = group.iter().map(LoadedMotor::of).collect();
-        all.extend(
-            operate(&loaded, settings, &|_: Progress| observer.observe(Progress { done, total }))?.operations,
-        );
+        let observer = |_: Progress| observer.observe(Progress { done, total });
+        if group[0].system().soft_contact().is_some() {
+            for motor in group {
+                let soft = DrivenMotor::new(*motor, Waveform::Sine, Waveform::Sine)?;
+                all.extend(soft.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
+            }
+            continue;
+        }
+        let loaded: Vec<_> = group.iter().map(LoadedMotor::of).collect::<Result<_, _>>()?;
+        all.extend(operate(&loaded, settings, &observer)?.operations);
     }
     // Whatever it says, there is nothing left to stop.
     let _ = observer.observe(Progress { done: total, total });

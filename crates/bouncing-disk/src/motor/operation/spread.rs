@@ -225,7 +225,7 @@ impl Motor {
             finite("load_torque", torque)?;
         }
         let loaded = |motor: &Self| {
-            let own = LoadedMotor::of(motor);
+            let own = LoadedMotor::of(motor)?;
             load_torques.iter().map(|&torque| own.with_load(torque)).collect::<Result<Vec<_>, Error>>()
         };
         let mut draws = vec![Vec::new(); load_torques.len()];
@@ -254,7 +254,7 @@ impl Motor {
     ) -> Result<Option<InputSpread>, Error> {
         let shares: Vec<f64> = (1..2 * STALL_STEPS).map(|k| k as f64 / STALL_STEPS as f64 - 1.0).collect();
         let loaded = |motor: &Self, shares: &[f64]| {
-            let (own, largest) = (LoadedMotor::of(motor), motor.largest_torque());
+            let (own, largest) = (LoadedMotor::of(motor)?, motor.largest_torque());
             shares.iter().map(|share| own.with_load(share * largest)).collect::<Result<Vec<_>, Error>>()
         };
         let (first, each) = (loaded(self, &STEADY_UNDER)?, |motor: &Self| loaded(motor, &shares));

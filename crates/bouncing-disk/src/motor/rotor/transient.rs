@@ -222,6 +222,7 @@ pub(crate) struct Run {
 impl Run {
     pub(crate) fn new(system: &System, phase: Phase, settings: &TransientSettings) -> Result<Self, Error> {
         let unit = system.scales();
+        system.rigid()?;
         settings.check_for(&unit)?;
         Ok(Self {
             rotor: Rotor::at_rest(system.dimensionless(), phase, 0.0, settings.policy)?,

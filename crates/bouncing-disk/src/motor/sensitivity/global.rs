@@ -102,8 +102,8 @@ impl Motor {
                 .partition(|&index| is_shared(motors[index].system(), motors[first].system()));
             left = rest;
             if quantity == SensitivityQuantity::SteadySpeed {
-                let loaded: Vec<LoadedMotor<'_>> =
-                    group.iter().map(|&index| LoadedMotor::of(&motors[index])).collect();
+                let loaded = group.iter().map(|&index| LoadedMotor::of(&motors[index]));
+                let loaded = loaded.collect::<Result<Vec<_>, _>>()?;
                 let operations = operate(&loaded, operating, observer)?.operations;
                 for ((&index, operation), motor) in group.iter().zip(operations).zip(&loaded) {
                     let overpowered = Error::Overpowered { load: motor.load() };

@@ -172,7 +172,7 @@ pub(crate) fn quantity_of(
     match quantity {
         SensitivityQuantity::SteadySpeed => {
             let operation = motor.operating_point(motor.load_torque(), settings, observer)?;
-            let loaded = LoadedMotor::of(motor);
+            let loaded = LoadedMotor::of(motor)?;
             operation.point().map(|point| point.speed).ok_or(Error::Overpowered { load: loaded.load() })
         }
         SensitivityQuantity::StallTorque => Ok(motor.stall_load(settings, observer)?.torque),
@@ -281,14 +281,16 @@ fn member_values(
         }
     };
     match quantity {
-        SensitivityQuantity::SteadySpeed => speeds(&motors.iter().map(LoadedMotor::of).collect::<Vec<_>>()),
+        SensitivityQuantity::SteadySpeed => {
+            speeds(&motors.iter().map(LoadedMotor::of).collect::<Result<Vec<_>, _>>()?)
+        }
         SensitivityQuantity::StallTorque => {
             let stall = nominal.stall_load(settings, observer)?.share;
             let shares = SHARES.map(|offset| (stall + offset).clamp(-0.999, 0.999));
             let mut loaded = Vec::with_capacity(motors.len() * shares.len());
             for motor in motors {
                 for share in shares {
-                    loaded.push(LoadedMotor::of(motor).with_load(share * motor.largest_torque())?);
+                    loaded.push(LoadedMotor::of(motor)?.with_load(share * motor.largest_torque())?);
                 }
             }
             let torques = |speeds: Vec<Vec<f64>>| {

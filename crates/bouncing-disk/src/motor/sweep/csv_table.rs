@@ -94,8 +94,9 @@ fn written(value: f64) -> String {
 
 /// The name of a column: `load_torque_n_m`.
 fn column(name: &str, unit: &str) -> String {
+    let name = name.replace('.', "_");
     match suffix(unit) {
-        "" => name.to_owned(),
+        "" => name,
         suffix => format!("{name}_{suffix}"),
     }
 }
@@ -104,6 +105,7 @@ fn column(name: &str, unit: &str) -> String {
 fn suffix(unit: &str) -> &'static str {
     match unit {
         "Hz" => "hz",
+        "s" => "s",
         "m" => "m",
         "rad" => "rad",
         "rad/s" => "rad_s",

@@ -27,7 +27,7 @@ pub(crate) fn of(
     most: usize,
 ) -> Result<Vec<Vec<usize>>, Error> {
     // The group of a vertical motion that has room left.
-    let mut open: BTreeMap<[u64; 4], usize> = BTreeMap::new();
+    let mut open: BTreeMap<[u64; 6], usize> = BTreeMap::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (index, motor) in motors.enumerate() {
         let group = match open.entry(vertical_key(motor?.system())) {

@@ -51,6 +51,8 @@ pub struct ContactStatement {
     pub indentation_over_amplitude: [f64; 2],
     /// Whether the disk leaves the platform; `None` where the rigid one does not, either.
     pub lift_off: Option<LiftOff>,
+    /// Whether contacts take time in what is computed; `None` for a time that is too short for that.
+    pub takes_time: Option<bool>,
 }
 
 /// Why the rigid model may mislead.
@@ -67,6 +69,8 @@ pub enum ContactWarning {
         /// Whether it does at both ends of what is unknown.
         certain: bool,
     },
+    /// The contact is too stiff for the numbers: impacts are rigid.
+    Stiff,
 }
 
 impl Display for ContactWarning {
@@ -80,6 +84,7 @@ impl Display for ContactWarning {
                 let never = if *certain { "never leaves" } else { "may never leave" };
                 write!(f, "a disk at rest {never} the platform in a contact this soft")
             }
+            Self::Stiff => f.write_str("impacts are rigid: contact.time is below 1e-6 rad of the vibration"),
         }
     }
 }
@@ -96,7 +101,15 @@ impl ContactStatement {
     pub fn rows(statement: Option<&Self>) -> [(&'static str, String); 2] {
         let unknown = || "unknown: give time or materials in [contact]".to_owned();
         let time = statement.map_or_else(unknown, |own| {
-            own.time_over_period.map_or_else(|| "there are no impacts".to_owned(), range)
+            let time = own.time_over_period.map_or_else(|| "there are no impacts".to_owned(), range);
+            let model = match own.takes_time {
+                Some(true) => "contacts take it",
+                Some(false) => {
+                    "impacts are rigid: contact.time in place of materials makes contacts take time"
+                }
+                None => "too short: impacts are rigid",
+            };
+            format!("{time} ({model})")
         });
         let depth = statement.map_or_else(unknown, |own| range(own.indentation_over_amplitude));
         [("contact_time_over_period", time), ("static_indentation_over_amplitude", depth)]
@@ -105,10 +118,12 @@ impl ContactStatement {
     /// Why the rigid model may mislead.
     #[must_use]
     pub fn warnings(&self) -> Vec<ContactWarning> {
-        let long = self.time_over_period.filter(|range| range[1] > LONGEST);
+        let long = self.time_over_period.filter(|range| range[1] > LONGEST && self.takes_time == Some(false));
         let stays = self.lift_off.filter(|lift_off| *lift_off != LiftOff::Yes);
         let stays = stays.map(|own| ContactWarning::StaysInContact { certain: own == LiftOff::No });
-        long.map(|periods| ContactWarning::LongContact { periods }).into_iter().chain(stays).collect()
+        let long = long.map(|periods| ContactWarning::LongContact { periods });
+        let stiff = self.takes_time.is_none().then_some(ContactWarning::Stiff);
+        long.into_iter().chain(stays).chain(stiff).collect()
     }
 }
 
@@ -241,12 +256,14 @@ impl System {
     /// use bouncing_disk::System;
     /// use bouncing_disk::parameters::Contact;
     ///
-    /// // Impacts of 0.1 ms in a motor that is driven at 70 kHz.
-    /// let contact = Contact { time: Some(1e-4), ..Contact::default() };
+    /// // The paper's ball of 32.9 g on its ring, at an impact speed of 5.8 mm/s.
+    /// let contact = Contact { mass: Some(0.0329), ..Contact::PAPER };
     /// let motor = System::motor().with_contact(Some(contact))?;
-    /// let statement = motor.contact_statement(None).expect("a contact");
-    /// assert!((statement.time_over_period.expect("impacts")[1] - 7.0).abs() < 1e-12);
-    /// println!("{}", statement.warnings()[0]); // rigid impacts are not valid: an impact lasts 7 periods
+    /// let statement = motor.contact_statement(Some(5.8e-3)).expect("a contact");
+    /// let periods = statement.time_over_period.expect("impacts");
+    /// assert!(periods[0] > 4.0 && periods[1] < 10.0);
+    /// let warning = statement.warnings()[0].to_string();
+    /// assert!(warning.starts_with("rigid impacts are not valid: an impact lasts 4."));
     /// # Ok::<(), bouncing_disk::Error>(())
     /// ```
     #[must_use]
@@ -296,6 +313,10 @@ impl System {
             time_over_period: time.map(|time| time.map(|time| time / TAU)),
             indentation_over_amplitude: sorted(indentation).map(|own| own / peak),
             lift_off,
+            takes_time: match (contact.time, self.soft_contact()) {
+                (Some(_), None) => None,
+                (_, soft) => Some(soft.is_some()),
+            },
         })
     }
 }
@@ -303,6 +324,7 @@ impl System {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parameters::contact::ContactLaw;
     use crate::{Error, Motor};
 
     const MASS: f64 = 0.0329;
@@ -438,10 +460,11 @@ mod tests {
             assert!((low / periods - 1.0).abs() < 1e-12 && (high / periods - 1.0).abs() < 1e-12);
             assert_eq!(statement.warnings().is_empty(), periods < 0.1);
         }
-        // Beyond the restitutions of the core the damping is that of the nearest one.
-        let contact = Contact { time: Some(1e-5), ..Contact::default() };
-        let elastic = Motor::paper_70_khz().with(|sheet| sheet.restitution = 1.0 - 1e-9).unwrap();
-        assert!(elastic.system().with_contact(Some(contact)).unwrap().contact_statement(None).is_some());
+        // Beyond the restitutions of the core the damping of materials is that of the nearest one.
+        let elastic = Motor::paper_70_khz().with(|sheet| {
+            (sheet.restitution, sheet.contact) = (1.0 - 1e-9, Some(Contact::PAPER));
+        });
+        assert!(elastic.unwrap().system().contact_statement(None).is_some());
         let peak = Motor::paper_70_khz().system().peak_acceleration();
         let stiffness = Compliance::new(18.0 * TAU, 0.5).unwrap().stiffness();
         let high = of(18.0).indentation_over_amplitude[1];
@@ -451,11 +474,13 @@ mod tests {
     #[test]
     fn tables_that_lack_something_or_say_too_much_are_refused() {
         type Change = fn(&mut Contact);
-        let cases: [(Change, &str); 10] = [
+        let cases: [(Change, &str); 12] = [
             (|own| own.time = Some(1e-4), "both contact.time and contact.materials"),
             (|own| *own = Contact { time: Some(0.0), ..Contact::default() }, "contact.time = 0"),
             (|own| *own = Contact { time: Some(-1.0), ..Contact::default() }, "contact.time = -1"),
             (|own| *own = Contact { time: Some(f64::NAN), ..Contact::default() }, "contact.time = NaN"),
+            (|own| *own = Contact::lasting(1.0), "contact time = 439822.97"),
+            (|own| own.law = Some(ContactLaw::Damper), "contact.time is not given"),
             (|own| *own = Contact::default(), "neither contact.time nor contact.materials"),
             (|own| own.geometry = None, "contact.geometry is not given"),
             (|own| own.ring_radius = None, "contact.ring_radius is not given"),
