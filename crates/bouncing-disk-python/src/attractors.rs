@@ -184,14 +184,16 @@ pub(crate) fn basins(a: Arguments<'_>) -> Made<'_> {
     }));
     let shape = a.shape()?;
     if shape.is_some() && orbits.iter().any(|(_, radius)| radius.is_none()) {
-        return Err(PyTypeError::new_err("known_orbits of a drive must be pairs of an orbit and a radius"));
+        return Err(PyTypeError::new_err(
+            "known_orbits of a drive or a contact time must be pairs of an orbit and a radius",
+        ));
     }
     let labels = a.run(|observer| {
         let known = orbits.into_iter().map(|orbit| known(&map, orbit, observer));
         let known = known.collect::<Result<Vec<_>, _>>()?;
         labels(&match &shape {
             None => map.basins(grid, &known, settings, observer)?,
-            Some(shape) => shape.map(&map)?.basins(grid, &known, settings, observer)?,
+            Some((shape, contact)) => shape.map(&map, *contact)?.basins(grid, &known, settings, observer)?,
         })
     })?;
     shown_basins(a.get("impact_map")?, &grid, labels, meaning)

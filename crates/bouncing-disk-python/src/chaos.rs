@@ -57,8 +57,8 @@ pub(crate) fn orbit_diagram(a: Arguments<'_>) -> Made<'_> {
                 recorded,
                 observer,
             )?,
-            Some(shape) => {
-                let orbit = |(map, state)| Ok::<_, Error>(shape.map(&map)?.orbit(state, policy));
+            Some((shape, contact)) => {
+                let orbit = |(map, state)| Ok::<_, Error>(shape.map(&map, *contact)?.orbit(state, policy));
                 let orbits = starts.states()?.into_iter().map(orbit).collect::<Result<Vec<_>, _>>()?;
                 driven_diagram(&orbits, transient, recorded, observer)?
             }

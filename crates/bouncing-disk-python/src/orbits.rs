@@ -96,7 +96,7 @@ pub(crate) fn periodic_orbits(a: Arguments<'_>) -> PyResult<Vec<Bound<'_, PyAny>
     let orbits = a.run(|observer| {
         Ok(match &shape {
             None => map.periodic_orbits(&search, observer)?.orbits,
-            Some(shape) => shape.map(&map)?.periodic_orbits(&search, observer)?,
+            Some((shape, contact)) => shape.map(&map, *contact)?.periodic_orbits(&search, observer)?,
         })
     })?;
     orbits.into_iter().map(|orbit| shown_orbit(a.py(), orbit)).collect()

@@ -387,13 +387,16 @@ impl<'py> Arguments<'py> {
         drive(&self.get(name)?, name)
     }
 
-    /// The shape of the height of `drive`, which decides the vertical motion; `None` for the sine.
-    pub(crate) fn shape(&self) -> PyResult<Option<Waveform>> {
+    /// The shape of the height of `drive` and `contact_time`, which decide the vertical motion; `None` for rigid
+    /// impacts on the sine.
+    pub(crate) fn shape(&self) -> PyResult<Option<(Waveform, Option<f64>)>> {
         let drive = self.drive("drive")?;
         if drive.is_schedule() {
             return Err(self.refused(Error::ScheduledDrive));
         }
-        Ok(Some(drive.height).filter(|shape| *shape != Waveform::Sine))
+        let contact_time = self.optional("contact_time")?;
+        let is_rigid_sine = drive.height == Waveform::Sine && contact_time.is_none();
+        Ok((!is_rigid_sine).then_some((drive.height, contact_time)))
     }
 
     /// The name of an argument; of a method that has none of it, the object itself.

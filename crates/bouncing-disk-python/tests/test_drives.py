@@ -35,6 +35,26 @@ def test_orbits_and_basins_of_parabolas_by_their_pieces() -> None:
         assert len(found) == 2 and len(known) == 1 and 0.0 < basins.share(bd.FIRST_ORBIT) < 1.0
 
 
+def test_a_contact_that_takes_time_moves_the_orbit() -> None:
+    orbits = {
+        time: bd.periodic_orbits(
+            bd.ImpactMap(axial_forcing=0.45, restitution=0.5),
+            max_impacts=1,
+            max_platform_periods=1,
+            phases=20,
+            speeds=20,
+            contact_time=time,
+        )
+        for time in (None, 1e-4, 0.2)
+    }
+    phases = {time: [orbit.impact_phase[0] for orbit in found if orbit.is_stable] for time, found in orbits.items()}
+    assert phases[1e-4] == pytest.approx(phases[None], abs=1e-2) and abs(phases[0.2][0] - phases[None][0]) > 0.1
+    with pytest.raises(ValueError, match="contact_time = 0"):
+        bd.orbit_diagram(
+            axial_forcing=0.4, restitution=0.5, impact_phase=0.0, normalised_speed=1.0, contact_time=0.0
+        )
+
+
 def test_tosses_and_motors_of_a_sum_of_one_sine_are_those_of_the_sine() -> None:
     drive = bd.Drive.fourier([(1.0, 0.0)], [(1.0, 0.0)])
     toss, motor = bd.System.pizza_toss(), bd.Motor.paper_70_khz()

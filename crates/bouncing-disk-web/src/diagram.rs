@@ -59,7 +59,7 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
         let orbits = maps().map(|map| Ok(map?.orbit(start, policy)));
         vertical(orbits.collect::<Result<_, Refusal>>()?, orbit_diagram, request)?
     } else {
-        let orbits = maps().map(|map| Ok(drive.map(&map?)?.orbit(start, policy)));
+        let orbits = maps().map(|map| Ok(drive.map(&map?, None)?.orbit(start, policy)));
         vertical(orbits.collect::<Result<_, Refusal>>()?, driven_diagram, request)?
     };
     let mut numbers = Vec::with_capacity(4 * request.recorded * columns.len());

@@ -10,7 +10,7 @@ use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Observer, Progress};
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, VERTICAL, and_shape, driven_map, is_sine, map, shape};
+use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape};
 use super::prelude::*;
 
 /// The forcing of the paper's Fig. 7(b), which has two attractors beside the rest.
@@ -22,7 +22,7 @@ const FORCING: f64 = 0.486;
 The search for the attractors comes first, and needs no hints. Then each cell of the window says where an impact in its middle leads, \
 as in Fig. 7 of the paper: phases in periods (tau_imp/2pi), speeds normalised, |w_A Gamma/(omega A)|. Labels in files: \
 0 undecided, 1 rest, 2 and more the other attractors in the order of the table; in .json two hexadecimal digits a cell. With a \
-[drive] that is not a sine the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
+[drive] that is not a sine, and with --contact-time, the attractors are the attracting orbits of up to 8 impacts. An orbit with an impact within 0.001 rad \
 of one of these belongs to its basin; chaos stays undecided. See docs/studying-the-dynamics.md.
 
 Examples:
@@ -36,6 +36,8 @@ pub(crate) struct BasinsArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
+    #[command(flatten)]
+    contact: ContactArgs,
     /// Cells along each axis
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 300)]
     cells: usize,
@@ -72,6 +74,7 @@ pub(super) fn run(args: &BasinsArgs, context: Context) -> Result<()> {
         settings: BasinSettings { max_impacts: args.impacts, ..BasinSettings::default() },
         search: AttractorSearch::default().with_starts(args.starts)?,
         drive: shape(&system, &drive)?,
+        contact_time: args.contact.contact_time,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
@@ -89,6 +92,9 @@ pub(crate) struct BasinsJob {
     /// The shape of the height.
     #[serde(default, skip_serializing_if = "is_sine")]
     drive: Waveform,
+    /// How long an impact lasts (periods).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contact_time: Option<f64>,
 }
 
 /// How near an impact must come to an orbit of a drive that is not a sine (rad): a twentieth of a cell of the
@@ -101,7 +107,7 @@ const LONGEST: usize = 8;
 /// What impacts lead to.
 pub(crate) enum Known {
     Sine(Attractors),
-    /// The attracting orbits on a drive that is not a sine.
+    /// The attracting orbits on a drive that is not a sine, or with a contact that takes time.
     Driven(DrivenMap, Vec<KnownOrbit>),
 }
 
@@ -139,11 +145,11 @@ impl GridJob for BasinsJob {
         self.window()?;
         // The search is a small part of the work, and has no part of the bar.
         let silent = |progress: Progress| observer.observe(Progress { done: 0, ..progress });
-        if is_sine(&self.drive) {
+        if is_rigid_sine(&self.drive, self.contact_time) {
             let map = map(self.axial_forcing, self.restitution)?;
             return Ok(Known::Sine(map.attractors(&self.search, &silent)?));
         }
-        let map = driven_map(&self.drive, self.axial_forcing, self.restitution)?;
+        let map = driven_map(&self.drive, self.contact_time, self.axial_forcing, self.restitution)?;
         // As many starts, on a square.
         let side = self.search.starts().isqrt();
         let search = OrbitSearch::new(LONGEST, LONGEST as u64)?.with_starts(side, side)?;
@@ -192,7 +198,7 @@ impl GridJob for BasinsJob {
             self.axial_forcing,
             self.restitution,
             self.cells,
-            and_shape(&self.drive)
+            and_shape(&self.drive, self.contact_time)
         );
         let listed = move || {
             let all = all.clone().into_iter();
@@ -201,7 +207,7 @@ impl GridJob for BasinsJob {
         let figure = move || {
             let basins = pictures::Basins {
                 title: pictures::forcing_and_restitution(self.axial_forcing, self.restitution)
-                    + &and_shape(&self.drive),
+                    + &and_shape(&self.drive, self.contact_time),
                 phases: self.phase_periods,
                 speeds: self.normalised_speed,
                 labels: &labels().collect::<Vec<_>>(),

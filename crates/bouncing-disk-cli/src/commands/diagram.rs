@@ -13,7 +13,10 @@ use bouncing_disk_plot::Figure;
 use bouncing_disk_plot::pictures::{OrbitDiagram, OrbitsFrom};
 use serde::{Deserialize, Serialize};
 
-use super::map::{MapArgs, STARTS, Start, VERTICAL, and_shape, driven_map, is_sine, map, shape, single};
+use super::map::{
+    ContactArgs, MapArgs, STARTS, Start, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape,
+    single,
+};
 use super::prelude::*;
 
 /// Forcings of the paper's Fig. 6.
@@ -29,6 +32,7 @@ phases that differ by a millionth of a period. See docs/studying-the-dynamics.md
 Examples:
   bouncing-disk diagram --out diagram.png
   bouncing-disk diagram -G 0.45:0.55:1001 --start period-1 --out cascade.csv
+  bouncing-disk diagram -G 0:3:601 --contact-time 0.3 --out soft.png
   bouncing-disk diagram --chunk 1/10 --out part-1.json")]
 pub(crate) struct DiagramArgs {
     /// Axial forcing parameter Gamma = A omega^2/(pi g): a number, or a range FIRST:LAST:POINTS, both ends
@@ -38,7 +42,9 @@ pub(crate) struct DiagramArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
-    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated. Default: `rest` and `period-1`; with a [drive] `rest` and `rise`"))]
+    #[command(flatten)]
+    contact: ContactArgs,
+    #[arg(help_heading = OWN, long, allow_hyphen_values = true, value_name = "START", help = format!("How orbits start: {STARTS}. May be repeated. Default: `rest` and `period-1`; with a [drive] or a contact time `rest` and `rise`"))]
     start: Vec<Start>,
     /// Impacts to discard before the recorded ones
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 3_000)]
@@ -55,13 +61,13 @@ pub(crate) struct DiagramArgs {
 pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
     let given = args.map.system.driven_unless_template(&args.output, context)?;
     let Some((system, drive)) = given else { return Ok(()) };
-    let drive = shape(&system, &drive)?;
+    let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
     let otherwise = FORCINGS.parse().map_err(Failure::Usage)?;
     let (axial_forcings, restitutions) = args.map.values(&system, args.axial_forcing, otherwise);
-    let starts = match (&args.start[..], is_sine(&drive)) {
+    let starts = match (&args.start[..], is_rigid_sine(&drive, contact_time)) {
         ([], true) => vec![Start::Rest, Start::PeriodOne],
         ([], false) => vec![Start::Rest, Start::Rise],
-        (starts, is_sine) if is_sine || !starts.contains(&Start::PeriodOne) => starts.to_vec(),
+        (starts, is_rigid_sine) if is_rigid_sine || !starts.contains(&Start::PeriodOne) => starts.to_vec(),
         _ => return Err(Failure::Usage(NO_PERIOD_ONE.to_owned())),
     };
     let job = DiagramJob {
@@ -71,12 +77,13 @@ pub(super) fn run(args: &DiagramArgs, context: Context) -> Result<()> {
         transient: args.transient,
         recorded: args.recorded,
         drive,
+        contact_time,
     };
     grid::run(job, &args.map.system.inputs(), &args.grid, &args.output, context)
 }
 
 const NO_PERIOD_ONE: &str =
-    "--start period-1: its closed form is that of the sine; give rest, rise or PHASE,SPEED";
+    "--start period-1: its closed form is that of rigid impacts on the sine; give rest, rise or PHASE,SPEED";
 
 /// Phases nearer than this count as one (periods).
 const SAME_PHASE: f64 = 1e-6;
@@ -95,6 +102,9 @@ pub(crate) struct DiagramJob {
     /// The shape of the height.
     #[serde(default, skip_serializing_if = "is_sine")]
     drive: Waveform,
+    /// How long an impact lasts (periods).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    contact_time: Option<f64>,
 }
 
 /// The impacts of one forcing and one start: phases (periods) and normalised speeds.
@@ -160,9 +170,9 @@ impl<'a> Diagram<'a> {
     }
 
     fn draw(self) -> Figure {
-        let DiagramJob { axial_forcings, restitution, starts, drive, .. } = self.job;
+        let DiagramJob { axial_forcings, restitution, starts, drive, contact_time, .. } = self.job;
         // The shape once: the names stand side by side.
-        let shape = |index: usize| if index == 0 { and_shape(drive) } else { String::new() };
+        let shape = |index: usize| if index == 0 { and_shape(drive, *contact_time) } else { String::new() };
         let named = |(index, start): (usize, &Start)| (start.in_words() + &shape(index), Vec::new());
         let mut starts: Vec<OrbitsFrom> = starts.iter().enumerate().map(named).collect();
         for (forcing, start, phase, speed) in self.impacts() {
@@ -189,7 +199,7 @@ impl GridJob for DiagramJob {
         let (low, high) = self.axial_forcings.ends();
         for forcing in [low, high] {
             map(forcing, self.restitution)?;
-            driven_map(&self.drive, forcing, self.restitution)?;
+            driven_map(&self.drive, self.contact_time, forcing, self.restitution)?;
         }
         let orbits = (self.axial_forcings.count() * self.starts.len()) as u64;
         grid::check_room(
@@ -204,20 +214,22 @@ impl GridJob for DiagramJob {
         let (mut orbits, mut driven) = (Vec::<Orbit>::new(), Vec::<DrivenOrbit>::new());
         let mut places = Vec::new();
         for row in rows.clone() {
-            let map = map(self.axial_forcings.value(row), self.restitution)?;
+            let (forcing, restitution) = (self.axial_forcings.value(row), self.restitution);
+            let map = map(forcing, restitution)?;
             for (start, kind) in self.starts.iter().enumerate() {
                 if let Some(state) = kind.of(&map)? {
-                    if is_sine(&self.drive) {
+                    if is_rigid_sine(&self.drive, self.contact_time) {
                         orbits.push(map.orbit(state, ChatterPolicy::Complete));
                     } else {
-                        driven.push(self.drive.map(&map)?.orbit(state, ChatterPolicy::Complete));
+                        let map = driven_map(&self.drive, self.contact_time, forcing, restitution)?;
+                        driven.push(map.orbit(state, ChatterPolicy::Complete));
                     }
                     places.push((row - rows.start, start));
                 }
             }
         }
         let (transient, recorded) = (self.transient, self.recorded);
-        let found = if is_sine(&self.drive) {
+        let found = if is_rigid_sine(&self.drive, self.contact_time) {
             orbit_diagram(&orbits, transient, recorded, observer)?
         } else {
             driven_diagram(&driven, transient, recorded, observer)?

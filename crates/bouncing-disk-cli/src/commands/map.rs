@@ -44,6 +44,18 @@ impl MapArgs {
     }
 }
 
+/// A contact that takes time, for the commands that follow it.
+#[derive(Debug, Clone, Copy, Args)]
+#[command(next_help_heading = VERTICAL)]
+pub(super) struct ContactArgs {
+    /// How long an isolated impact lasts until its force falls to zero, in periods of the platform, in [1e-6,
+    /// 1000]: a spring and damper with the restitution above in place of rigid impacts. Where it releases the
+    /// disk at the speed v the results show the impact that would rebound so: that phase, and the speed
+    /// v/EPSILON
+    #[arg(long, value_name = "PERIODS", allow_negative_numbers = true)]
+    pub(super) contact_time: Option<f64>,
+}
+
 pub(super) fn single(range: Range, option: &str) -> Result<f64> {
     let several = || Failure::Usage(format!("{option} {range}: this command takes a single number"));
     range.only().ok_or_else(several)
@@ -53,12 +65,17 @@ pub(super) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Err
     ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)
 }
 
-/// The map of a platform whose height has another shape than the sine.
-pub(super) fn driven_map(shape: &Waveform, axial_forcing: f64, restitution: f64) -> Result<DrivenMap> {
-    Ok(shape.map(&map(axial_forcing, restitution)?)?)
+/// The map of a platform whose height has another shape than the sine, or where contacts take time (periods).
+pub(super) fn driven_map(
+    shape: &Waveform,
+    contact_time: Option<f64>,
+    axial_forcing: f64,
+    restitution: f64,
+) -> Result<DrivenMap> {
+    Ok(shape.map(&map(axial_forcing, restitution)?, contact_time)?)
 }
 
-/// The shape of the height, which alone decides the vertical motion.
+/// The shape of the height, which alone decides the vertical motion of rigid impacts.
 pub(super) fn shape(system: &System, drive: &DriveParameters) -> Result<Waveform> {
     Ok(DrivenPlatform::of_drive(*system.platform(), drive)?.height().clone())
 }
@@ -68,9 +85,15 @@ pub(super) fn is_sine(shape: &Waveform) -> bool {
     *shape == Waveform::Sine
 }
 
-/// What is added to a line on the vertical motion of another shape.
-pub(super) fn and_shape(shape: &Waveform) -> String {
-    if is_sine(shape) { String::new() } else { format!(", {shape}") }
+/// The paper's platform, whose map has closed forms.
+pub(super) fn is_rigid_sine(shape: &Waveform, contact_time: Option<f64>) -> bool {
+    is_sine(shape) && contact_time.is_none()
+}
+
+/// What is added to a line on the vertical motion of another shape or contact.
+pub(super) fn and_shape(shape: &Waveform, contact_time: Option<f64>) -> String {
+    let shape = if is_sine(shape) { String::new() } else { format!(", {shape}") };
+    shape + &contact_time.map_or_else(String::new, |periods| format!(", contact time {periods} periods"))
 }
 
 /// How far beside the period-1 orbit a start lies, relative to its speed: where the orbit is unstable, the

@@ -3,7 +3,7 @@
 use bouncing_disk::core::orbits::{OrbitCoverage, OrbitSearch, PeriodicOrbit, Stability};
 use bouncing_disk_plot::Figure;
 
-use super::map::{MapArgs, VERTICAL, and_shape, driven_map, is_sine, map, shape};
+use super::map::{ContactArgs, MapArgs, VERTICAL, and_shape, driven_map, is_rigid_sine, is_sine, map, shape};
 use super::prelude::*;
 
 /// Past the second period doubling.
@@ -27,6 +27,8 @@ pub(crate) struct OrbitsArgs {
     axial_forcing: Option<Range>,
     #[command(flatten)]
     map: MapArgs,
+    #[command(flatten)]
+    contact: ContactArgs,
     /// Most impacts of an orbit, in [1, 64]
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = 4)]
     impacts: usize,
@@ -43,20 +45,26 @@ pub(crate) struct OrbitsArgs {
 pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
     let given = args.map.system.begin_driven(&args.output, true, context)?;
     let Some((system, drive)) = given else { return Ok(()) };
-    let drive = shape(&system, &drive)?;
+    let (drive, contact_time) = (shape(&system, &drive)?, args.contact.contact_time);
     let (axial_forcing, restitution) = args.map.pair(&system, args.axial_forcing, FORCING)?;
     let search =
         OrbitSearch::new(args.impacts, args.platform_periods)?.with_starts(args.starts, args.starts)?;
     let watch = context.watch("orbits");
-    let (orbits, coverage) = if is_sine(&drive) {
+    let (orbits, coverage) = if is_rigid_sine(&drive, contact_time) {
         let found = map(axial_forcing, restitution)?.periodic_orbits(&search, &watch)?;
         (found.orbits, Some(found.coverage))
     } else {
-        (driven_map(&drive, axial_forcing, restitution)?.periodic_orbits(&search, &watch)?, None)
+        (
+            driven_map(&drive, contact_time, axial_forcing, restitution)?.periodic_orbits(&search, &watch)?,
+            None,
+        )
     };
     let mut job = json!({ "axial_forcing": axial_forcing, "restitution": restitution, "search": search });
     if !is_sine(&drive) {
         job["drive"] = json!(drive);
+    }
+    if let Some(periods) = contact_time {
+        job["contact_time"] = json!(periods);
     }
     let numbered = orbits.iter().enumerate();
     let rows = numbered
@@ -69,7 +77,7 @@ pub(super) fn run(args: &OrbitsArgs, context: Context) -> Result<()> {
         data: vec![("orbits", stored(&orbits)?), ("coverage", stored(&coverage)?)],
         figure: Some(Box::new(|| {
             let title = pictures::forcing_and_restitution(axial_forcing, restitution);
-            draw(&(title + &and_shape(&drive)), &orbits)
+            draw(&(title + &and_shape(&drive, contact_time)), &orbits)
         })),
     };
     report.deliver(&args.output, context)

@@ -76,7 +76,7 @@ fn diagrams_orbits_and_basins_of_parabolas() {
         folder.done(&format!("{line} --out a.json --force"));
         serde_json::from_slice(&folder.read("a.json")).unwrap()
     };
-    let map = |forcing| Waveform::Parabolas.map(&map(forcing, 0.5)).unwrap();
+    let map = |forcing| Waveform::Parabolas.map(&map(forcing, 0.5), None).unwrap();
     let start = ImpactState::new(Phase::new(0.0).unwrap(), -TAU / 1.5).unwrap();
     let orbits: Vec<_> =
         (0..5).map(|index| map(value(0.35, 0.5, 5, index)).orbit(start, ChatterPolicy::Complete)).collect();
@@ -103,6 +103,47 @@ fn diagrams_orbits_and_basins_of_parabolas() {
         folder.done(&format!("{basins} --chunk {part}/2 --out {part}.json"));
     }
     assert_eq!(written("merge 1.json 2.json")[labels], whole[labels]);
+}
+
+/// The same on a sine with contacts that take time: the library's numbers, and other ones than those of rigid
+/// impacts.
+#[test]
+fn diagrams_orbits_and_basins_of_contacts_that_take_time() {
+    let folder = Folder::new();
+    let written = |line: &str| -> Value {
+        folder.done(&format!("{line} --out a.json --force"));
+        serde_json::from_slice(&folder.read("a.json")).unwrap()
+    };
+    let map = |forcing| Waveform::Sine.map(&map(forcing, 0.5), Some(0.2)).unwrap();
+    let start = ImpactState::from_normalised(TAU * 0.1, 1.3).unwrap();
+    let orbits = [0.45, 0.55].map(|forcing| map(forcing).orbit(start, ChatterPolicy::Complete));
+    let columns = driven_diagram(&orbits, 100, 40, &Unobserved).unwrap();
+    let line = "diagram -G 0.45:0.55:2 --start 0.1,1.3 --transient 100 --recorded 40";
+    let (rigid, soft) = (written(line), written(&format!("{line} --contact-time 0.2")));
+    for (index, column) in columns.iter().enumerate() {
+        let phases: Vec<f64> = column.iter().map(|impact| impact.phase().cycles()).collect();
+        let of = |found: &Value| found["columns"][index]["impacts"]["impact_phase_periods"].clone();
+        assert_eq!(of(&soft), stored(&phases));
+        assert_ne!(of(&soft), of(&rigid));
+    }
+    let search = OrbitSearch::new(1, 1).unwrap().with_starts(20, 20).unwrap();
+    let orbits = map(0.45).periodic_orbits(&search, &Unobserved).unwrap();
+    let orbit = "orbits -G 0.45 --impacts 1 --platform-periods 1 --starts 20 --contact-time 0.2";
+    assert_eq!(written(orbit)["orbits"], stored(&orbits));
+    assert!(orbits.iter().any(|orbit| orbit.stability() == Stability::Stable));
+    let basins = written("basins -G 0.45 --cells 12 --speed 0:2 --starts 400 --contact-time 0.2");
+    // No contact lasts for ever there, and there is one attracting orbit.
+    assert!(basins["hexadecimal_labels_by_speed"].to_string().contains("02"), "{basins}");
+    let legal = "contact_time = 0 is outside its legal range [1e-6, 1000] (periods of the platform)";
+    let lines = [
+        ("orbits --contact-time 0", legal),
+        ("diagram --contact-time nan", "contact_time = NaN is outside"),
+        ("basins --contact-time=-1", "contact_time = -1 is outside"),
+        ("orbits --contact-time 0.2 -r 0", "restitution of a contact that takes time = 0 is outside"),
+        ("diagram --contact-time 0.2 --start period-1", "rigid impacts"),
+        ("verdicts --contact-time 0.2", "unexpected argument"),
+    ];
+    folder.all_refused(2, &lines);
 }
 
 #[test]

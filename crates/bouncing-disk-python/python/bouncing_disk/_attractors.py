@@ -181,6 +181,7 @@ def basins(
     known_orbits: Iterable[PeriodicOrbit | tuple[PeriodicOrbit, Float]] | None = None,
     max_impacts: Int = 2000,
     drive: Drive | None = None,
+    contact_time: Float | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> Basins:
@@ -197,7 +198,9 @@ def basins(
             radius (rad) within which a start counts as caught; without a radius it is the
             :meth:`PeriodicOrbit.trapping_radius`.
         max_impacts: impacts after which a start is left undecided.
-        drive: how the platform moves; ``None`` for the sine. On another drive each orbit needs a radius.
+        drive: how the platform moves; ``None`` for the sine. On another drive, and with a contact time, each orbit
+            needs a radius.
+        contact_time: as of :func:`orbit_diagram`.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd
