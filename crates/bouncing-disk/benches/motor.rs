@@ -4,7 +4,10 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use bouncing_disk::core::{Phase, Unobserved};
-use bouncing_disk::motor::{OperatingSettings, TransientMember, TransientSettings, transient, transients};
+use bouncing_disk::motor::{
+    DrivenMotor, OperatingSettings, TransientMember, TransientSettings, transient, transients,
+};
+use bouncing_disk::parameters::Waveform;
 use bouncing_disk::{Motor, System};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -80,5 +83,33 @@ fn torque_speed_curve(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, w2, torque_speed_curve);
+/// An operating point with contacts that take so many periods, against rigid impacts: one rotor from either side
+/// on each of four vertical motions, on one thread, per motor second.
+fn contact(c: &mut Criterion) {
+    let settings =
+        OperatingSettings { members: 4, relative_error: 1e-6, most_impacts: 100_000, ..Default::default() };
+    let rigid = Motor::paper_70_khz();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
+    let mut group = c.benchmark_group("contact");
+    group.sample_size(10);
+    for periods in [0.0, 0.05, 0.5, 1.0, 2.0] {
+        let soft = DrivenMotor::new(rigid, Waveform::Sine, Waveform::Sine).expect("a sine");
+        let soft = soft.with_contact_time(f64::max(periods, 0.01) / 70e3).expect("legal");
+        let operate = || {
+            let curve = |observer| match periods {
+                0.0 => rigid.torque_speed_curve(&[0.0], &settings, observer),
+                _ => soft.torque_speed_curve(&[0.0], &settings, observer),
+            };
+            pool.install(|| curve(&Unobserved)).expect("no failure")
+        };
+        let point = *operate()[0].point().expect("it does not run away");
+        let followed = point.averaged_time + 4.0 * point.start_up;
+        // In microseconds of the motor: the throughput in millions a second is motor seconds a second.
+        group.throughput(Throughput::Elements((1e6 * followed) as u64));
+        group.bench_function(format!("periods_{periods}"), |bencher| bencher.iter(|| black_box(operate())));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, w2, torque_speed_curve, contact);
 criterion_main!(benches);

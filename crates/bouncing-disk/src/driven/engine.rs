@@ -452,6 +452,30 @@ impl DrivenEngine {
         result
     }
 
+    /// The gap and the relative velocity at the start of a flight, if one begins now.
+    pub(crate) const fn flight(&self) -> Option<[f64; 2]> {
+        match self.stage {
+            Stage::Flight { gap, velocity } => Some([gap, velocity]),
+            _ => None,
+        }
+    }
+
+    /// Goes on from the release of a contact that takes time, or from any other flight, with the angle at
+    /// zero.
+    pub(crate) fn fly_from(&mut self, time: PhaseTime, [gap, velocity]: [f64; 2], angular_speed: f64) {
+        self.now = Clock { at: time.phase.angle(), periods: time.periods };
+        let platform = self.system.height.at(self.now.at);
+        self.angle = LongSum::new(0.0);
+        self.state = DiskState {
+            mode: Mode::Flight,
+            height: platform.height + gap,
+            axial_velocity: platform.velocity + velocity,
+            angle: 0.0,
+            angular_speed,
+        };
+        (self.pressed, self.settled, self.stage) = (None, None, Stage::Flight { gap, velocity });
+    }
+
     /// Adds a relative speed >= 0 (g/omega) to a flight that starts now; does nothing at any other time.
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
         let (gap, velocity) = match self.stage {

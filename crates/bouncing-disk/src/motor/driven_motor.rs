@@ -124,7 +124,8 @@ impl DrivenMotor {
         LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.system)), mass, load_torque }
     }
 
-    /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together.
+    /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together, except on sines with a
+    /// contact time, where one vertical motion carries all rotors.
     ///
     /// # Errors
     /// As [`Motor::torque_speed_curve`].

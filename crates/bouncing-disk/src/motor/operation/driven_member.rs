@@ -1,5 +1,6 @@
 //! Rotors on one vertical motion of a stator that moves in any way, each with an engine of its own: the first
-//! one decides when a window ends.
+//! one decides when a window ends. Where a sine and a contact that takes time allow it, they go from release
+//! to release [together](Tapped).
 
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
@@ -13,6 +14,7 @@ use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::{Event, Motion};
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::operation::tapped::Tapped;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 
@@ -22,6 +24,7 @@ pub(crate) struct Driven {
     rotors: Vec<Rotor>,
     /// The end of the last window.
     reached: PhaseTime,
+    tapped: Option<Tapped>,
 }
 
 /// A rotor, and what it has done since its start.
@@ -59,7 +62,9 @@ impl Driven {
         (perturbation, seed): (f64, u64),
     ) -> Result<Self, Error> {
         let reached = PhaseTime::in_first_period(phase);
-        let rotors = starts.map(|(system, angular_speed)| {
+        let starts: Vec<_> = starts.collect();
+        let tapped = Tapped::new(starts.iter().map(|&(system, _)| system));
+        let rotors = starts.into_iter().map(|(system, angular_speed)| {
             let start = DrivenStart::Contact { phase, angular_speed };
             let mut rotor = Rotor {
                 engine: DrivenEngine::new(system.clone(), start, ChatterPolicy::Complete)?,
@@ -74,7 +79,7 @@ impl Driven {
             rotor.before = rotor.totals(&reached);
             Ok(rotor)
         });
-        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached })
+        Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped })
     }
 
     /// Whether the stator never throws the rotors up.
@@ -89,11 +94,69 @@ impl Driven {
         impacts: RangeInclusive<u64>,
         work: &mut WorkCount<'_>,
     ) -> Result<Window, Error> {
+        let Some(mut tapped) = self.tapped.take() else {
+            return self.general_window(duration, &impacts, true, work);
+        };
+        let from = self.reached;
+        let end = from.after(PhaseSpan::from_radians(duration));
+        let rotors = vec![RotorWindow::default(); self.rotors.len()];
+        let mut window = Window { axial: AxialWindow::default(), rotors };
+        if !tapped.begun && !self.rotors[0].engine.launches() {
+            // The first contact.
+            window.add(&self.general_window(0.0, &(0..=0), false, work)?);
+        }
+        loop {
+            if !tapped.begun {
+                // From where the engines are.
+                let Some(launch) = self.rotors[0].engine.flight() else {
+                    let done = window.axial.impacts;
+                    let left =
+                        impacts.start().saturating_sub(done)..=impacts.end().saturating_sub(done).max(1);
+                    let rest = end.since(&self.reached).radians();
+                    window.add(&self.general_window(rest, &left, true, work)?);
+                    return Ok(window);
+                };
+                tapped.begin(
+                    self.reached,
+                    launch,
+                    self.rotors.iter().map(|rotor| rotor.before.angular_speed),
+                );
+            }
+            let leader = &mut self.rotors[0];
+            let going = |time: &PhaseTime, done: u64| {
+                (time.order(&end).is_lt() || done < *impacts.start()) && done < *impacts.end()
+            };
+            let decided =
+                tapped.run(&mut window, going, || leader.perturbation * leader.generator.unit(), work)?;
+            window.axial.duration = tapped.time.since(&from).radians();
+            self.reached = tapped.time;
+            if decided {
+                self.tapped = Some(tapped);
+                return Ok(window);
+            }
+            // One tap by the engines.
+            for (rotor, speed) in self.rotors.iter_mut().zip(tapped.speeds()) {
+                rotor.engine.fly_from(tapped.time, tapped.launch, speed);
+                rotor.before = rotor.totals(&self.reached);
+            }
+            tapped.begun = false;
+            window.add(&self.general_window(0.0, &(1..=1), false, work)?);
+        }
+    }
+
+    /// The next window by the engines; `anywhere`: a contact that takes time may be its end.
+    fn general_window(
+        &mut self,
+        duration: f64,
+        impacts: &RangeInclusive<u64>,
+        anywhere: bool,
+        work: &mut WorkCount<'_>,
+    ) -> Result<Window, Error> {
         let from = self.reached;
         let (mut window, mut lies) = (Window::default(), false);
         for (index, rotor) in self.rotors.iter_mut().enumerate() {
             if index == 0 {
-                (self.reached, lies) = rotor.lead(&from, duration, &impacts, work)?;
+                (self.reached, lies) = rotor.lead(&from, (duration, anywhere), impacts, work)?;
             } else {
                 rotor.follow(&self.reached, work)?;
             }
@@ -131,13 +194,13 @@ impl Rotor {
     fn lead(
         &mut self,
         from: &PhaseTime,
-        duration: f64,
+        (duration, anywhere): (f64, bool),
         impacts: &RangeInclusive<u64>,
         work: &mut WorkCount<'_>,
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
         let before = self.recurrences;
-        let anywhere = self.engine.system().compliance.is_some();
+        let anywhere = anywhere && self.engine.system().compliance.is_some();
         loop {
             let (now, done) = (self.engine.time(), self.recurrences - before);
             let lasts = now.order(&end).is_ge() && done >= *impacts.start();
@@ -199,5 +262,70 @@ impl Rotor {
             angle: state.angle,
             angular_speed: state.angular_speed,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use bouncing_disk_core::run::Watch;
+    use bouncing_disk_core::{Drive, Unobserved};
+
+    use super::*;
+    use crate::motion::phase_time::phase_at;
+
+    /// Rotors that come down through the platform's largest speed, where the engine takes over and hands back: in
+    /// the regular motion of one tap in each period windows are those of engines alone.
+    #[test]
+    fn windows_with_taps_are_those_of_the_engine() {
+        let (peak, twist) = (197.4, 4.27e5);
+        let systems = [0.0, 0.2].map(|load| {
+            let drive = |size: f64, angle: f64| Drive::fourier(&[(size, angle)]).expect("legal");
+            let (height, angle) = (drive(peak, 0.0), drive(twist, -1.0));
+            let rigid =
+                DrivenSystem { height, angle, friction: 1.0, restitution: 0.5, load, compliance: None };
+            rigid.with_contact_time(TAU).expect("legal")
+        });
+        let speeds = [twist + 20.0, -twist - 20.0, twist + 5.0, 0.3 * twist];
+        let starts = || systems.iter().flat_map(|system| [(system, 0.0); 2]);
+        let member = || Driven::new(starts(), phase_at(0.3), (1e-3, 5)).expect("legal");
+        let (mut fast, mut slow) = (member(), member());
+        let watch = Watch::begin(&Unobserved, 0, u64::MAX).expect("not stopped");
+        fast.next_window(0.0, 2000..=2000, &mut watch.work()).expect("no failure");
+        let tapped = fast.tapped.as_mut().expect("taps");
+        tapped.begin(tapped.time, tapped.launch, speeds.into_iter());
+        slow.reached = fast.reached;
+        for (rotor, speed) in slow.rotors.iter_mut().zip(speeds) {
+            rotor.engine.fly_from(tapped.time, tapped.launch, speed);
+            (rotor.generator, rotor.before) = (fast.rotors[0].generator, rotor.totals(&slow.reached));
+        }
+        for _ in 0..3 {
+            let own = fast.next_window(200.0, 10..=1000, &mut watch.work()).expect("no failure");
+            let known =
+                slow.general_window(200.0, &(10..=1000), false, &mut watch.work()).expect("no failure");
+            assert!(own.axial.impacts == known.axial.impacts && own.axial.impacts > 30, "{own:?}");
+            let near = |of: &dyn Fn(&Window) -> f64, size: f64| {
+                assert!((of(&own) - of(&known)).abs() < 1e-9 * size, "{size} {own:?} {known:?}");
+            };
+            let loss = known.axial.restitution_loss;
+            near(&|window| window.axial.duration, known.axial.duration);
+            near(&|window| window.axial.normal_work, loss);
+            near(&|window| window.axial.restitution_loss, loss);
+            near(&|window| window.axial.energy_change, loss);
+            near(&|window| window.axial.perturbation_work, loss);
+            let size = twist * known.axial.duration;
+            for index in 0..speeds.len() {
+                near(&|window| window.rotors[index].angle, size);
+                near(&|window| window.rotors[index].friction_work, size);
+                near(&|window| window.rotors[index].friction_loss, size);
+                near(&|window| window.rotors[index].load_work, size);
+                near(&|window| window.rotors[index].kinetic_change, size);
+            }
+        }
+        let tapped = fast.tapped.expect("taps");
+        assert!(
+            tapped.speeds().all(|speed| speed.abs() < twist),
+            "{:?}",
+            tapped.speeds().collect::<Vec<_>>()
+        );
     }
 }

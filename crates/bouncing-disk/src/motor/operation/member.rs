@@ -44,7 +44,7 @@ pub(crate) enum Member {
     /// It never does: each rotor moves by itself.
     Lying(Lying),
     /// The stator moves in another way than by Eq. (1).
-    Driven(Driven),
+    Driven(Box<Driven>),
 }
 
 impl Member {
@@ -72,7 +72,7 @@ impl Member {
             let starts = starts.iter().map(|&(motor, speed)| (&driven[motor], speed));
             let member = Driven::new(starts.clone(), phase, perturbation)?;
             return Ok(match member.lies_for_ever() {
-                false => Self::Driven(member),
+                false => Self::Driven(Box::new(member)),
                 true => Self::Lying(Lying::new(lying(), phase)),
             });
         }

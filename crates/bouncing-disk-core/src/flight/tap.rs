@@ -1,0 +1,704 @@
+//! Taps: a flight and a contact that takes time, one after the other on a sine, without a search.
+//!
+//! Since a touch the force is 1 + a cos t + b sin t + c u1 + d u2, with the two free oscillations u1, u2 of the
+//! spring and damper. These four functions are kept as polynomials on short pieces in Bernstein's form, whose
+//! coefficients decide on signs and roots (docs/numerics/contacts.md). What they do not decide is left to
+//! [`CompliantPlatform`].
+
+use core::f64::consts::TAU;
+use core::ops::RangeInclusive;
+
+use super::compliance::CompliantPlatform;
+use super::platform::phase::Phase;
+use super::platform::vibration::Vibration;
+use crate::numerics::elementary::{exp, exp_m1, sin_cos, sine_deficit, versine_ratio, wrapped_angle};
+
+/// Coefficients of a piece: a polynomial with the function's first derivatives at both ends.
+const COUNT: usize = 10;
+const DEGREE: f64 = 9.0;
+
+/// A polynomial on a piece, in Bernstein's form.
+type Piece = [f64; COUNT];
+
+/// Length of a piece, in radians of the fastest change.
+const PIECE: f64 = 1.5;
+
+/// Most pieces of a table: contacts that last for longer are left to the general solver.
+const MOST_PIECES: f64 = 256.0;
+
+/// A step in radians of the fastest change over which the Taylor series of [`TapInstant`] holds: its first
+/// omitted term is 3e-17.
+const NEAR: f64 = 0.05;
+
+/// A step over which half of the terms do: 3e-18.
+const SMALL: f64 = 2.0e-4;
+
+/// Rounding of the coefficients of a piece, in units of the terms that are added.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+/// The share of its first piece over which a function that starts at zero must rise for certain.
+const START: f64 = 0.125;
+
+/// Halvings of a piece whose coefficients do not decide.
+const HALVINGS: u32 = 6;
+
+/// Most steps to a root, which are of fourth order; after one that is smaller than [`LAST_STEP`], in radians of
+/// the fastest change, no more than rounding is left.
+const STEPS: u32 = 12;
+const LAST_STEP: f64 = 5.0e-5;
+
+/// The closed forms and tables of taps of one system.
+#[derive(Debug, Clone)]
+pub struct TapSolver {
+    vibration: Vibration,
+    stiffness: f64,
+    damping: f64,
+    /// Half the damping, and the frequency of the free oscillation or, beyond critical damping, the rate that
+    /// takes its place.
+    decay: f64,
+    frequency: f64,
+    over: bool,
+    inverse_frequency: f64,
+    inverse_stiffness: f64,
+    /// (k - 1)/D and c/D, D = (k - 1)^2 + c^2.
+    gain: [f64; 2],
+    /// The steady gap is -1/k plus these times sine and cosine of the phase.
+    steady: [f64; 2],
+    /// The steady force is 1 plus these times sine and cosine of the phase.
+    force: [f64; 2],
+    /// Length of a piece (rad), and the fastest change.
+    length: f64,
+    rate: f64,
+    /// cos t, sin t, u1 and u2 over the time since the touch.
+    pieces: Vec<[Piece; 4]>,
+    /// Their largest errors.
+    errors: [f64; 4],
+}
+
+/// An instant of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TapInstant {
+    /// Time since the touch (rad).
+    pub after: f64,
+    /// Sine and cosine of the phase.
+    pub sin: f64,
+    /// See [`Self::sin`].
+    pub cos: f64,
+    /// The gap less its steady part, and its derivative.
+    free: f64,
+    free_slope: f64,
+}
+
+/// Integrals of a contact, each up to a constant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TapIntegrals {
+    /// Of the force.
+    pub impulse: f64,
+    /// Of its integral.
+    pub lift: f64,
+    /// Of the force times the cosine of the phase.
+    pub force_cos: f64,
+    /// Of the force times the sine of the phase.
+    pub force_sin: f64,
+    /// Of the square of the velocity relative to the platform, times the damping.
+    pub loss: f64,
+}
+
+/// The end of a flight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TapTouch {
+    /// Duration of the flight (rad).
+    pub duration: f64,
+    /// Phase of the touch, and how often the phase has passed 0.
+    pub phase: Phase,
+    /// See [`Self::phase`].
+    pub turns: u64,
+    /// The gap: zero, or below where the force sets in again before the spring is free.
+    pub gap: f64,
+    /// Velocity relative to the platform.
+    pub velocity: f64,
+}
+
+/// A contact, from the touch to the release.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tap {
+    /// Phase of the touch.
+    pub angle: f64,
+    /// The touch.
+    pub start: TapInstant,
+    /// The release.
+    pub end: TapInstant,
+    /// The phase of the release, and how often the phase has passed 0 since the touch.
+    pub phase: Phase,
+    /// See [`Self::phase`].
+    pub turns: u64,
+    /// The force is at most that.
+    pub largest_force: f64,
+    /// Gap at the release.
+    pub gap: f64,
+    /// Velocity relative to the platform at the release.
+    pub velocity: f64,
+}
+
+impl TapSolver {
+    /// The solver of this platform, if it is a sine and its spring has a damper.
+    #[must_use]
+    pub fn new(platform: &CompliantPlatform) -> Option<Self> {
+        let vibration = platform.drive().as_vibration()?;
+        let (stiffness, damping) = (platform.compliance().stiffness(), platform.compliance().damping());
+        if damping == 0.0 {
+            return None;
+        }
+        let (own, decay) = (stiffness.sqrt(), 0.5 * damping);
+        let square = (own - decay) * (own + decay);
+        let frequency = square.abs().sqrt();
+        let size = (stiffness - 1.0) * (stiffness - 1.0) + damping * damping;
+        let gain = [(stiffness - 1.0) / size, damping / size];
+        let peak = vibration.peak_acceleration();
+        let rate = damping.max(own).max(1.0);
+        let mut solver = Self {
+            vibration,
+            stiffness,
+            damping,
+            decay,
+            frequency,
+            over: square < 0.0,
+            inverse_frequency: 1.0 / frequency,
+            inverse_stiffness: 1.0 / stiffness,
+            gain,
+            steady: [peak * gain[0], -peak * gain[1]],
+            force: [-peak * (1.0 + gain[0]), peak * gain[1]],
+            length: PIECE / rate,
+            rate,
+            pieces: Vec::new(),
+            errors: [0.0; 4],
+        };
+        let span = (4.0 * TAU).max(2.0 * platform.compliance().contact_time());
+        let count = (span * rate / PIECE).min(MOST_PIECES) as usize + 1;
+        // The derivatives of a free oscillation are combinations of itself and its slope.
+        let mut terms = [[1.0, 0.0]; COUNT + 1];
+        for n in 0..COUNT {
+            let [value, slope] = terms[n];
+            terms[n + 1] = [-stiffness * slope, value - damping * slope];
+        }
+        let free =
+            |[value, slope]: [f64; 2]| core::array::from_fn(|n| terms[n][0] * value + terms[n][1] * slope);
+        let states = |k: usize| -> [[f64; COUNT / 2]; 4] {
+            let t = k as f64 * solver.length;
+            let ((sin, cos), [u1, u2]) = (sin_cos(t), solver.oscillations(t));
+            [
+                [cos, -sin, -cos, sin, cos],
+                [sin, cos, -sin, -cos, sin],
+                free([u1, -stiffness * u2]),
+                free([u2, u1 - damping * u2]),
+            ]
+        };
+        let pieces: Vec<_> = (0..count)
+            .map(|k| {
+                let (from, to) = (states(k), states(k + 1));
+                core::array::from_fn(|of| between(&from[of], &to[of], solver.length))
+            })
+            .collect();
+        solver.pieces = pieces;
+        // (h/2)^10/10! times the largest tenth derivative; the energy of a free oscillation falls.
+        let mut share = 1.0;
+        for n in 1..=COUNT {
+            share *= 0.5 * solver.length / n as f64;
+        }
+        let [value, slope] = terms[COUNT].map(f64::abs);
+        let tenth = value + slope * own;
+        solver.errors = [1.0, 1.0, tenth, tenth / own].map(|most| share * most);
+        Some(solver)
+    }
+
+    /// The free oscillations that start with value 1 and slope 0, and with value 0 and slope 1.
+    fn oscillations(&self, t: f64) -> [f64; 2] {
+        if self.over {
+            let slow = self.stiffness / (self.decay + self.frequency);
+            let (slowly, lost) = (exp(-slow * t), exp_m1(-2.0 * self.frequency * t));
+            let second = -0.5 * lost * self.inverse_frequency * slowly;
+            return [slowly * (1.0 + 0.5 * lost) + self.decay * second, second];
+        }
+        let decayed = exp(-self.decay * t);
+        let (sin, cos) = sin_cos(self.frequency * t);
+        let second = decayed * if self.frequency > 0.0 { sin * self.inverse_frequency } else { t };
+        [decayed * cos + self.decay * second, second]
+    }
+
+    /// The instant `after` the touch of a contact that begins with `start` at the phase `angle`.
+    #[must_use]
+    pub fn instant(&self, angle: f64, start: &TapInstant, after: f64) -> TapInstant {
+        let (sin, cos) = sin_cos(angle + after);
+        let [u1, u2] = self.oscillations(after);
+        let (value, slope) = (start.free, start.free_slope);
+        TapInstant {
+            after,
+            sin,
+            cos,
+            free: value * u1 + slope * u2,
+            free_slope: slope * u1 - (self.stiffness * value + self.damping * slope) * u2,
+        }
+    }
+
+    /// The instant `step` later, if that is near.
+    fn moved(&self, from: &TapInstant, step: f64) -> Option<TapInstant> {
+        let near = step.abs() * self.rate <= NEAR;
+        if !near {
+            return None;
+        }
+        let square = step * step;
+        // Series up to the ninth power.
+        let versine =
+            square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
+        let sine = step
+            * (1.0
+                - square
+                    * (1.0 / 6.0
+                        - square * (1.0 / 120.0 - square * (1.0 / 5_040.0 - square * (1.0 / 362_880.0)))));
+        let mut terms = [from.free, from.free_slope, 0.0];
+        let (mut power, mut value, mut slope) = (1.0, from.free, from.free_slope);
+        let count = if step.abs() * self.rate <= SMALL { 4 } else { 8 };
+        for inverse in &INVERSES[..count] {
+            terms[2] = -(self.stiffness * terms[0] + self.damping * terms[1]);
+            power *= step * inverse;
+            value += terms[1] * power;
+            slope += terms[2] * power;
+            terms = [terms[1], terms[2], 0.0];
+        }
+        Some(TapInstant {
+            after: from.after + step,
+            sin: from.sin + (from.cos * sine - from.sin * versine),
+            cos: from.cos - (from.sin * sine + from.cos * versine),
+            free: value,
+            free_slope: slope,
+        })
+    }
+
+    /// A root near an instant of the function whose value and three derivatives this gives; `None` if the steps do
+    /// not converge.
+    pub fn polished(
+        &self,
+        angle: f64,
+        start: &TapInstant,
+        from: TapInstant,
+        function: impl Fn(&TapInstant) -> [f64; 4],
+    ) -> Option<TapInstant> {
+        let mut at = from;
+        for _ in 0..STEPS {
+            let step = step_of(function(&at));
+            let next = at.after + step;
+            at = match self.moved(&at, step) {
+                Some(at) => at,
+                None if next >= 0.0 => self.instant(angle, start, next),
+                None => return None,
+            };
+            if step.abs() * self.rate <= LAST_STEP {
+                return Some(at);
+            }
+        }
+        None
+    }
+
+    /// The sine.
+    #[must_use]
+    pub const fn vibration(&self) -> &Vibration {
+        &self.vibration
+    }
+
+    /// The gap at a release with this relative velocity.
+    #[must_use]
+    pub const fn gap_at_release(&self, velocity: f64) -> f64 {
+        -self.damping * self.inverse_stiffness * velocity
+    }
+
+    /// The energy of the spring at a `gap` <= 0.
+    #[must_use]
+    pub const fn spring_energy(&self, gap: f64) -> f64 {
+        0.5 * self.stiffness * gap * gap
+    }
+
+    /// The integral of the force up to an instant, up to a constant.
+    #[must_use]
+    pub fn impulse(&self, at: &TapInstant) -> f64 {
+        let [sine, cosine] = self.force;
+        at.after - sine * at.cos + cosine * at.sin + at.free_slope
+    }
+
+    /// The force at an instant.
+    #[must_use]
+    pub fn force(&self, at: &TapInstant) -> f64 {
+        let [sine, cosine] = self.force;
+        1.0 + sine * at.sin + cosine * at.cos - (self.stiffness * at.free + self.damping * at.free_slope)
+    }
+
+    /// The first three derivatives of the force.
+    #[must_use]
+    pub fn force_slopes(&self, at: &TapInstant) -> [f64; 3] {
+        let [sine, cosine] = self.force;
+        let (k, c) = (self.stiffness, self.damping);
+        let bend = -(k * at.free + c * at.free_slope);
+        let third = -(k * at.free_slope + c * bend);
+        let fourth = -(k * bend + c * third);
+        let fifth = -(k * third + c * fourth);
+        [
+            sine * at.cos - cosine * at.sin + third,
+            -(sine * at.sin + cosine * at.cos) + fourth,
+            fifth - (sine * at.cos - cosine * at.sin),
+        ]
+    }
+
+    /// The velocity relative to the platform.
+    fn velocity(&self, at: &TapInstant) -> f64 {
+        let [sine, cosine] = self.steady;
+        sine * at.cos - cosine * at.sin + at.free_slope
+    }
+
+    /// The integrals up to an instant.
+    #[must_use]
+    pub fn integrals(&self, at: &TapInstant) -> TapIntegrals {
+        let &TapInstant { after: t, sin: s, cos: c, free: h, free_slope: g } = at;
+        let [p, r] = self.force;
+        let (sc, ss) = (s * c, s * s);
+        // Of h cos and h sin, from the derivatives of h cos, h sin, h' cos and h' sin; then of h' cos, h' sin.
+        let first = -(g * c + self.damping * h * c + h * s);
+        let second = -(g * s + self.damping * h * s - h * c);
+        let [near, far] = self.gain;
+        let (in_cos, in_sin) = (near * first - far * second, near * second + far * first);
+        let (slope_cos, slope_sin) = (h * c + in_sin, h * s - in_cos);
+        let squares = -0.5 * (g * g + self.stiffness * h * h) / self.damping;
+        let [a, b] = self.steady;
+        let driven = 0.5 * (a * a * (t + sc) + b * b * (t - sc)) - a * b * ss;
+        TapIntegrals {
+            impulse: self.impulse(at),
+            lift: 0.5 * t * t - p * s - r * c + h,
+            force_cos: s + 0.5 * (p * ss + r * (t + sc)) + (g * c + slope_sin),
+            force_sin: -c + 0.5 * (p * (t - sc) + r * ss) + (g * s - slope_cos),
+            loss: self.damping * (driven + 2.0 * (a * slope_cos - b * slope_sin) + squares),
+        }
+    }
+
+    /// The contact after a touch, if its release is decided.
+    #[must_use]
+    pub fn contact(&self, touch: &TapTouch) -> Option<Tap> {
+        let &TapTouch { phase, gap, velocity, .. } = touch;
+        let (sin, cos) = (phase.sin(), phase.cos());
+        let [a, b] = self.steady;
+        let start = TapInstant {
+            after: 0.0,
+            sin,
+            cos,
+            free: gap + self.inverse_stiffness - (a * sin + b * cos),
+            free_slope: velocity - (a * cos - b * sin),
+        };
+        let ([p, r], k, c) = (self.force, self.stiffness, self.damping);
+        let value = -(k * start.free + c * start.free_slope);
+        let slope = -(k * start.free_slope + c * value);
+        let weights = [p * sin + r * cos, p * cos - r * sin, value, slope];
+        let margin = self.margin(&weights, 1.0);
+        let (mut largest, mut found) = (0.0_f64, None);
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let force: Piece = core::array::from_fn(|i| {
+                1.0 + (weights[0] * piece[0][i] + weights[1] * piece[1][i])
+                    + (weights[2] * piece[2][i] + weights[3] * piece[3][i])
+            });
+            let (low, high) = range(&force);
+            largest = largest.max(high + margin);
+            if low > margin {
+                continue;
+            }
+            let share = first_fall_after(&force, margin, index == 0 && gap < 0.0)?;
+            if let Some(share) = share {
+                found = Some((index as f64, (index as f64 + share) * self.length));
+                break;
+            }
+        }
+        let (index, near) = found?;
+        let near = self.instant(phase.angle(), &start, near);
+        let end = self.polished(phase.angle(), &start, near, |at| {
+            let [slope, bend, third] = self.force_slopes(at);
+            [self.force(at), slope, bend, third]
+        })?;
+        let slope = self.force_slopes(&end)[0];
+        // No second root within the margin: no bend of the polynomial is larger than 288 of its coefficients.
+        let bend = 288.0 * largest / (self.length * self.length);
+        let within = (index * self.length..=(index + 1.0) * self.length).contains(&end.after);
+        if !(within && slope < 0.0 && slope * slope > 8.0 * margin * bend) {
+            return None;
+        }
+        let (angle, turns) = phase_of(phase.angle() + end.after);
+        let velocity = self.velocity(&end);
+        (velocity > 0.0).then(|| Tap {
+            angle: phase.angle(),
+            start,
+            end,
+            phase: Phase::from_parts(angle, end.sin, end.cos),
+            turns,
+            largest_force: largest,
+            gap: self.gap_at_release(velocity),
+            velocity,
+        })
+    }
+
+    fn margin(&self, weights: &[f64; 4], constant: f64) -> f64 {
+        let most = [1.0, 1.0, 1.0, self.inverse_stiffness.sqrt()];
+        let rounding = weights.iter().zip(most).map(|(weight, most)| weight.abs() * most).sum::<f64>();
+        let errors = weights.iter().zip(self.errors).map(|(weight, error)| weight.abs() * error).sum::<f64>();
+        errors + ROUNDING * (constant + rounding)
+    }
+
+    /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it is decided.
+    ///
+    /// With z = k y + c y', what the spring and damper would pull with, the gap y rises as long as z > 0 and
+    /// y < 0: where it vanishes with z > 0 ever since the release, it does for the first time.
+    #[must_use]
+    pub fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
+        let (sin, cos) = (phase.sin(), phase.cos());
+        let peak = self.vibration.peak_acceleration();
+        let (k, c, start) = (self.stiffness, self.damping, velocity + peak * cos);
+        let weights = [
+            c * start + k * (gap + peak * sin),
+            k * start - c,
+            -0.5 * k,
+            -peak * (k * sin + c * cos),
+            peak * (c * sin - k * cos),
+        ];
+        let rounding = self.margin(&[weights[3], weights[4], 0.0, 0.0], weights[0].abs());
+        let fall = |t: f64| {
+            let (s, c) = sin_cos(t);
+            let (deficit, versine) =
+                if t < 0.5 { (sine_deficit(t, s), t * t * versine_ratio(t)) } else { (t - s, 1.0 - c) };
+            Fall {
+                sin: sin + (cos * s - sin * versine),
+                cos: cos - (sin * s + cos * versine),
+                gap: gap + t * (velocity - 0.5 * t) + peak * (cos * deficit + sin * versine),
+                velocity: velocity - t + peak * (cos * versine + sin * s),
+            }
+        };
+        let mut below = gap;
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let (from, to) = (index as f64 * self.length, (index + 1) as f64 * self.length);
+            let [first, second] = [weights[1] * self.length, weights[2] * self.length * self.length];
+            let line = [
+                weights[0] + from * (weights[1] + from * weights[2]),
+                (weights[1] + 2.0 * from * weights[2]) * self.length,
+                second,
+            ];
+            let pulls: Piece = core::array::from_fn(|i| {
+                (line[0] + (line[1] * SHARES[i] + line[2] * PAIRS[i]))
+                    + (weights[3] * piece[0][i] + weights[4] * piece[1][i])
+            });
+            let steps = (index + 1) as f64;
+            let margin = rounding + ROUNDING * steps * (first.abs() + steps * second.abs());
+            let again = first_fall_after(&pulls, margin, index == 0)?;
+            let (until, above) = if let Some(share) = again {
+                // The force sets in again, if the spring is not free before.
+                let (after, there) = newton(from + share * self.length, &(from..=to), peak, |t| {
+                    let there = fall(t);
+                    let [gap, speed, bend, third, fourth] = there.derivatives(peak);
+                    (
+                        [
+                            k * gap + c * speed,
+                            k * speed + c * bend,
+                            k * bend + c * third,
+                            k * third + c * fourth,
+                        ],
+                        there,
+                    )
+                })?;
+                if there.gap < 0.0 {
+                    let (phase, turns) = there.phase(phase, after);
+                    let gap = self.gap_at_release(there.velocity);
+                    return Some(TapTouch { duration: after, phase, turns, gap, velocity: there.velocity });
+                }
+                (after, there.gap)
+            } else {
+                let above = gap
+                    + to * (velocity - 0.5 * to)
+                    + peak * (cos * (to - piece[1][COUNT - 1]) + sin * (1.0 - piece[0][COUNT - 1]));
+                (to, above)
+            };
+            if above > 0.0 {
+                let share = below / (below - above);
+                let (freed, there) = newton(from + share * (until - from), &(from..=until), peak, |t| {
+                    let there = fall(t);
+                    let [gap, speed, bend, third, _] = there.derivatives(peak);
+                    ([gap, speed, bend, third], there)
+                })?;
+                let rises = there.velocity > 0.0;
+                if !rises {
+                    return None;
+                }
+                let (start, turns) = there.phase(phase, freed);
+                let impact = self.vibration.impact_after(start, there.velocity).ok()?;
+                return Some(TapTouch {
+                    duration: freed + impact.duration(),
+                    phase: impact.phase,
+                    turns: turns + impact.turns,
+                    gap: 0.0,
+                    velocity: impact.velocity,
+                });
+            }
+            below = above;
+        }
+        None
+    }
+}
+
+/// The step to a root by the value and three derivatives of a function: of fourth order.
+fn step_of([value, slope, bend, third]: [f64; 4]) -> f64 {
+    let square = slope * slope;
+    -value * (square - 0.5 * value * bend)
+        / (slope * (square - value * bend) + value * value * third * (1.0 / 6.0))
+}
+
+/// A root in this range of the function whose value and three derivatives this gives, and the disk there.
+fn newton(
+    from: f64,
+    range: &RangeInclusive<f64>,
+    peak: f64,
+    function: impl Fn(f64) -> ([f64; 4], Fall),
+) -> Option<(f64, Fall)> {
+    let mut at = from;
+    for _ in 0..STEPS {
+        let (jet, fall) = function(at);
+        let step = step_of(jet);
+        at += step;
+        if !range.contains(&at) {
+            return None;
+        }
+        if step.abs() <= LAST_STEP * at {
+            return Some((at, fall.moved(step, peak)));
+        }
+    }
+    None
+}
+
+/// A disk that feels no force: sine and cosine of the phase, gap and relative velocity.
+#[derive(Debug, Clone, Copy)]
+struct Fall {
+    sin: f64,
+    cos: f64,
+    gap: f64,
+    velocity: f64,
+}
+
+impl Fall {
+    /// The gap and its first four derivatives.
+    fn derivatives(&self, peak: f64) -> [f64; 5] {
+        let (sine, cosine) = (peak * self.sin, peak * self.cos);
+        [self.gap, self.velocity, sine - 1.0, cosine, -sine]
+    }
+
+    /// The disk after a last step.
+    fn moved(&self, step: f64, peak: f64) -> Self {
+        let [gap, speed, bend, third, _] = self.derivatives(peak);
+        let half = 0.5 * step;
+        let (sine, versine) = (step * (1.0 - half * step * (1.0 / 3.0)), half * step);
+        Self {
+            sin: self.sin + (self.cos * sine - self.sin * versine),
+            cos: self.cos - (self.sin * sine + self.cos * versine),
+            gap: gap + step * (speed + half * bend),
+            velocity: speed + step * (bend + half * third),
+        }
+    }
+
+    /// The phase so long after the start, and how many turns that takes away.
+    fn phase(&self, from: Phase, after: f64) -> (Phase, u64) {
+        let (angle, turns) = phase_of(from.angle() + after);
+        (Phase::from_parts(angle, self.sin, self.cos), turns)
+    }
+}
+
+/// The phase at an angle, and how many turns that takes away.
+fn phase_of(angle: f64) -> (f64, u64) {
+    let phase = wrapped_angle(angle);
+    (phase, ((angle - phase) / TAU + 0.5) as u64)
+}
+
+/// Coefficients of the line x and of the parabola x^2 on a piece.
+const SHARES: Piece =
+    [0.0, 1.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0, 4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0, 7.0 / 9.0, 8.0 / 9.0, 1.0];
+const PAIRS: Piece =
+    [0.0, 0.0, 2.0 / 72.0, 6.0 / 72.0, 12.0 / 72.0, 20.0 / 72.0, 30.0 / 72.0, 42.0 / 72.0, 56.0 / 72.0, 1.0];
+
+/// Inverses of whole numbers.
+const INVERSES: [f64; 8] = [1.0, 0.5, 1.0 / 3.0, 0.25, 0.2, 1.0 / 6.0, 1.0 / 7.0, 0.125];
+
+/// The polynomial with these derivatives at both ends of a piece of this length.
+fn between(from: &[f64; COUNT / 2], to: &[f64; COUNT / 2], length: f64) -> Piece {
+    let mut piece = [0.0; COUNT];
+    let mut scale = 1.0;
+    let (mut left, mut right) = ([0.0; COUNT / 2], [0.0; COUNT / 2]);
+    for j in 0..COUNT / 2 {
+        (left[j], right[j]) = (scale * from[j], scale * to[j]);
+        scale *= length / (DEGREE - j as f64);
+    }
+    for i in 0..COUNT / 2 {
+        let mut binomial = 1.0;
+        for j in 0..=i {
+            piece[i] += binomial * left[j];
+            piece[COUNT - 1 - i] += if j % 2 == 0 { binomial } else { -binomial } * right[j];
+            binomial *= (i - j) as f64 / (j + 1) as f64;
+        }
+    }
+    piece
+}
+
+fn range(piece: &Piece) -> (f64, f64) {
+    piece
+        .iter()
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+}
+
+/// The parts of a polynomial on both sides of a share of its piece.
+fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
+    let (mut left, mut right) = ([0.0; COUNT], *piece);
+    for (i, value) in left.iter_mut().enumerate() {
+        *value = right[0];
+        for j in 0..COUNT - 1 - i {
+            right[j] += share * (right[j + 1] - right[j]);
+        }
+    }
+    (left, right)
+}
+
+/// As [`first_fall`], of a function that may rise from zero at the start of its piece: the errors of the table
+/// vanish there with the fifth power of the time.
+#[allow(clippy::option_option, reason = "not decided, and no root")]
+fn first_fall_after(piece: &Piece, margin: f64, from_zero: bool) -> Option<Option<f64>> {
+    if !from_zero {
+        return first_fall(piece, margin, HALVINGS);
+    }
+    let (near, far) = split(piece, START);
+    if near[1..].iter().any(|&value| value <= 4.0 * margin) {
+        return None;
+    }
+    Some(first_fall(&far, margin, HALVINGS)?.map(|share| START + (1.0 - START) * share))
+}
+
+/// The share of the piece at which a function that starts above zero first falls below it, roughly, if it
+/// does; nothing if what lies within the margin of zero may decide.
+#[allow(clippy::option_option, reason = "not decided, and no root")]
+fn first_fall(piece: &Piece, margin: f64, halvings: u32) -> Option<Option<f64>> {
+    let falls = piece.iter().position(|&value| value <= margin);
+    let Some(falls) = falls else { return Some(None) };
+    let below = piece.iter().position(|&value| value < -margin);
+    if let Some(below) = below
+        && falls > 0
+        && piece[below..].iter().all(|&value| value < -margin)
+        // Between them the coefficients fall: any of them may have either sign.
+        && piece[falls - 1..=below].is_sorted_by(|a, b| a > b)
+    {
+        let (above, low) = (piece[below - 1], piece[below]);
+        let place = (below - 1) as f64 + above / (above - low);
+        return Some(Some((place / DEGREE).clamp(0.0, 1.0)));
+    }
+    if halvings == 0 || piece[0] <= margin || piece[0].is_nan() {
+        return None;
+    }
+    let (left, right) = split(piece, 0.5);
+    match first_fall(&left, margin, halvings - 1)? {
+        Some(share) => Some(Some(0.5 * share)),
+        None => Some(first_fall(&right, margin, halvings - 1)?.map(|share| 0.5 + 0.5 * share)),
+    }
+}

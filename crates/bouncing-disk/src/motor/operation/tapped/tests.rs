@@ -1,0 +1,204 @@
+//! Taps against the engine, each from the same state.
+
+use bouncing_disk_core::numerics::elementary::{exp, ln};
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::{ChatterPolicy, Drive};
+
+use super::*;
+use crate::driven::{DrivenEngine, DrivenStart};
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::{Event, Motion};
+use crate::motion::phase_time::phase_at;
+
+/// Times, speeds and energies of a tap agree to this share of their sizes, which for the energies are those of
+/// the engine's terms; each balance closes to a tenth of it.
+const AGREEMENT: f64 = 1.0e-11;
+
+/// A system; its contact time is in periods.
+#[derive(Debug, Clone, Copy)]
+struct Case {
+    peak: f64,
+    twist: f64,
+    lag: f64,
+    load: f64,
+    friction: f64,
+    restitution: f64,
+    periods: f64,
+}
+
+/// The motor of Table III.
+const MOTOR: Case =
+    Case { peak: 197.4, twist: 4.27e5, lag: 0.0, load: 0.0, friction: 1.0, restitution: 0.5, periods: 1.0 };
+
+/// A rotor in both, and how many of the taps were decided.
+struct Pair {
+    case: Case,
+    engine: DrivenEngine,
+    tapped: Tapped,
+    taps: u64,
+    decided: u64,
+}
+
+impl Pair {
+    fn new(case: Case) -> Self {
+        let drive = |amplitude: f64, angle: f64| Drive::fourier(&[(amplitude, angle)]).expect("legal");
+        let Case { friction, restitution, load, .. } = case;
+        let (height, angle) = (drive(case.peak, 0.0), drive(case.twist, case.lag));
+        let rigid = DrivenSystem { height, angle, friction, restitution, load, compliance: None };
+        let system = rigid.with_contact_time(case.periods * TAU).expect("legal");
+        let tapped = Tapped::new(std::iter::once(&system)).expect("a sine");
+        let start = DrivenStart::Contact { phase: phase_at(0.3), angular_speed: 0.0 };
+        let engine = DrivenEngine::new(system, start, ChatterPolicy::Complete).expect("legal");
+        Self { case, engine, tapped, taps: 0, decided: 0 }
+    }
+
+    /// A tap from a release; nothing if the disk is not released any more.
+    fn tap(&mut self, time: PhaseTime, launch: [f64; 2], speed: f64) -> Option<()> {
+        let Self { case, engine, tapped, .. } = self;
+        engine.fly_from(time, launch, speed);
+        tapped.begin(time, launch, std::iter::once(speed));
+        tapped.rotors[0].sum = RotorWindow::default();
+        let (energy, mut axial) = (tapped.axial_energy(), AxialWindow::default());
+        let decided = tapped.tap(&mut axial).is_some();
+        let (mut ledger, mut events) = (EnergyLedger::default(), Vec::new());
+        while !matches!(events.last(), Some(Event::Separation)) && !engine.lies_for_ever() {
+            let record = engine.advance().expect("no failure").expect("an event");
+            ledger += record.ledger;
+            events.push(record.event);
+        }
+        (self.taps, self.decided) = (self.taps + 1, self.decided + u64::from(decided));
+        let (end, rotor) = (engine.state(), &tapped.rotors[0]);
+        if decided {
+            let (done, own) = (rotor.sum, rotor.speed);
+            let launched = engine.flight().expect("the engine releases the disk, too");
+            let duration = engine.time().since(&time).radians();
+            let fastest = 1.0 + case.twist + speed.abs() + case.load.abs() * duration;
+            let velocity = 1.0 + case.peak + launch[1] + launched[1];
+            let (size, twist) = (ledger.axial_magnitude, ledger.rotary_magnitude);
+            let kinetic = 0.5 * (own - speed) * (own + speed);
+            let load = case.load * done.angle;
+            let balance = tapped.axial_energy() - energy - axial.normal_work + axial.restitution_loss;
+            let rotary = kinetic - done.friction_work + done.friction_loss + load;
+            let errors = [
+                (tapped.time.since(&time).radians() - duration, 1.0 + duration),
+                (tapped.launch[1] - launched[1], velocity),
+                (tapped.launch[0] - launched[0], velocity),
+                (own - end.angular_speed, fastest),
+                (done.angle - end.angle, (1.0 + duration) * fastest),
+                (axial.normal_work - ledger.normal_work, size),
+                (axial.restitution_loss - ledger.restitution_loss, size),
+                (done.friction_work - ledger.friction_work, twist),
+                (done.friction_loss - ledger.friction_loss, twist),
+                (balance / AGREEMENT * 1e-12, size),
+                (rotary / AGREEMENT * 1e-12, twist),
+            ];
+            let agree = errors.iter().all(|(error, size)| error.abs() <= AGREEMENT * size);
+            assert!(agree, "{case:?} {time:?} {launch:?} {speed}\n{errors:?}\n{events:?}");
+        }
+        engine.flight().map(|_| ())
+    }
+
+    /// So many taps one after the other, with perturbations.
+    fn follow(&mut self, taps: u64) {
+        let mut random = SplitMix64::new(7);
+        while self.engine.flight().is_none() {
+            if self.engine.lies_for_ever() || self.engine.advance().expect("no failure").is_none() {
+                return;
+            }
+        }
+        for _ in 0..taps {
+            let launch = self.engine.flight().expect("a release");
+            if self.tap(self.engine.time(), launch, self.engine.state().angular_speed).is_none() {
+                return;
+            }
+            self.engine.perturb_launch(1e-3 * random.unit());
+        }
+    }
+}
+
+/// Evenly distributed logarithms.
+fn between(random: &mut SplitMix64, low: f64, high: f64) -> f64 {
+    low * exp(random.unit() * ln(high / low))
+}
+
+#[test]
+fn nearly_all_taps_of_motors_are_decided_and_those_of_the_engine() {
+    for periods in [0.01, 0.05, 0.2, 0.5, 0.6, 0.8, 1.0, 2.0, 3.0, 18.0] {
+        for (lag, load) in [(0.0, 0.0), (-1.5, 0.02), (-0.7, 0.99)] {
+            let mut pair = Pair::new(Case { periods, lag, load, ..MOTOR });
+            pair.follow(300);
+            assert!(pair.taps == 300 && pair.decided >= 290, "{periods} {lag} {}", pair.decided);
+        }
+    }
+}
+
+#[test]
+fn taps_of_any_system_are_those_of_the_engine() {
+    let (mut random, mut decided, mut taps) = (SplitMix64::new(3), 0, 0);
+    let critical = exp(-2.0);
+    for index in 0..200 {
+        let restitutions =
+            [0.02, 0.98, critical, critical * (1.0 + 1e-9), critical * 0.97, 0.001, 0.999, 0.5];
+        let restitution =
+            restitutions.get(index % 16).copied().unwrap_or_else(|| 0.02 + 0.96 * random.unit());
+        let peak = if index % 5 == 0 {
+            1.0 + between(&mut random, 1e-4, 1.0)
+        } else {
+            between(&mut random, 1.0, 1e4)
+        };
+        let mut pair = Pair::new(Case {
+            peak,
+            restitution,
+            periods: between(&mut random, 0.01, 5.0),
+            twist: between(&mut random, 1.0, 1e6),
+            lag: 6.0 * random.unit() - 3.0,
+            load: random.unit() - 0.5,
+            friction: [0.0, 1.0, 0.3][index % 3],
+        });
+        pair.follow(60);
+        (decided, taps) = (decided + pair.decided, taps + pair.taps);
+    }
+    assert!(taps > 5_000 && decided > taps / 2, "{decided} {taps}");
+}
+
+/// Releases with next to no speed, rotors at the extremes of the platform's speed, and at its speed where the
+/// disk touches and leaves it.
+#[test]
+fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
+    let mut random = SplitMix64::new(5);
+    let (mut decided, mut taps) = (0, 0);
+    for index in 0..60 {
+        let periods = [0.01, 0.1, 0.5, 1.0, 2.0][index % 5];
+        let mut pair = Pair::new(Case { periods, lag: 6.0 * random.unit() - 3.0, ..MOTOR });
+        for _ in 0..20 {
+            let time = PhaseTime::in_first_period(phase_at(TAU * random.unit()));
+            let velocity = between(&mut random, 1e-12, 400.0);
+            let gap = pair.tapped.solver.gap_at_release(velocity);
+            let launch = [gap, velocity + [0.0, 1e-12, 1e-6, 1e-3][index % 4]];
+            let mut speeds = vec![0.0, 2.0 * MOTOR.twist];
+            for near in [1e-9, 1e-6, 1e-5, 3e-5] {
+                speeds.extend(
+                    [-1.0 - near, near - 1.0, 1.0 - near, 1.0 + near].map(|share| share * MOTOR.twist),
+                );
+            }
+            if let Some(touch) = pair.tapped.solver.flight(time.phase, launch[0], launch[1])
+                && let Some(tap) = pair.tapped.solver.contact(&touch)
+            {
+                for (at, gained) in [(tap.start, 0.0), (tap.end, pair.tapped.solver.impulse(&tap.end))] {
+                    let there = -pair.tapped.rotors[0].slip(0.0, at.sin, at.cos);
+                    let gained =
+                        gained - if gained == 0.0 { 0.0 } else { pair.tapped.solver.impulse(&tap.start) };
+                    for off in [-1e-6, -1e-8, -1e-10, 0.0, 1e-10, 1e-8, 1e-6] {
+                        let speed = there + off * MOTOR.twist;
+                        speeds.extend([speed, speed - gained, speed + gained]);
+                    }
+                }
+            }
+            for speed in speeds {
+                pair.tap(time, launch, speed);
+            }
+        }
+        (decided, taps) = (decided + pair.decided, taps + pair.taps);
+    }
+    assert!(decided > taps / 2, "{decided} {taps}");
+}
