@@ -8,7 +8,7 @@ use bouncing_disk::estimate::{
     CsvColumns, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds, RiseEstimate, RiseForm, Spread,
     TransientEnsemble, TransientFit, UnknownUnit,
 };
-use bouncing_disk::motor::{DrivenMotor, MotorParameters, SpeedCurve, TransientMember, TransientSettings};
+use bouncing_disk::motor::{MotorParameters, SpeedCurve, TransientMember, TransientSettings};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
@@ -33,16 +33,17 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         seed: a.u64("seed")?,
         policy: a.policy()?,
     };
-    let drive = a.drive("drive")?;
+    // The mass does not matter to a transient.
+    let motor = MotorParameters::of_system(&system, 1.0).build().map_err(|error| a.refused(error))?;
+    let driven = a.driven_motor(motor, &a.drive("drive")?)?;
     let (runs, times, speeds) = a.run(|observer| {
-        let runs = if drive.is_sine() {
-            TransientEnsemble::new(&system, &settings, members, observer)?
-        } else {
-            // The mass does not matter to a transient.
-            let motor = MotorParameters::of_system(&system, 1.0).build()?;
-            let members = TransientMember::of_ensemble(&system, &settings, members)?;
-            let curves = DrivenMotor::of_drive(motor, &drive)?.transients(&members, observer)?;
-            TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved)?
+        let runs = match &driven {
+            None => TransientEnsemble::new(&system, &settings, members, observer)?,
+            Some(driven) => {
+                let members = TransientMember::of_ensemble(&system, &settings, members)?;
+                let curves = driven.transients(&members, observer)?;
+                TransientEnsemble::of_results(curves.into_iter().map(Ok).collect(), &Unobserved)?
+            }
         };
         // A number of each member at each time, time by member.
         let table = |of: fn(&SpeedCurve) -> &[f64]| {

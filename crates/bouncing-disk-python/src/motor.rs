@@ -1,11 +1,11 @@
 //! Motors: data sheets, operating points, stall, sweeps, traps and sensitivities.
 
 use bouncing_disk::motor::{
-    DrivenMotor, ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime,
-    MotorSweep, OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings,
-    SensitivityMethod, SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices,
-    SweepAxis, TrapVerdict,
+    ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
+    OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, TrapVerdict,
 };
+use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -125,12 +125,10 @@ fn settings(a: &Arguments<'_>) -> PyResult<OperatingSettings> {
 #[pyfunction]
 pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings, loads) = (a.motor()?, settings(&a)?, a.row("load_torques")?);
-    let drive = a.drive("drive")?;
-    let operations = a.run(|observer| {
-        if drive.is_sine() {
-            return motor.torque_speed_curve(&loads, &settings, observer);
-        }
-        DrivenMotor::of_drive(motor, &drive)?.torque_speed_curve(&loads, &settings, observer)
+    let driven = a.driven_motor(motor, &a.drive("drive")?)?;
+    let operations = a.run(|observer| match &driven {
+        None => motor.torque_speed_curve(&loads, &settings, observer),
+        Some(driven) => driven.torque_speed_curve(&loads, &settings, observer),
     })?;
     made(a.py(), "TorqueSpeedCurve", columns(a.py(), &operations))
 }
@@ -139,7 +137,11 @@ pub(crate) fn torque_speed_curve(a: Arguments<'_>) -> Made<'_> {
 #[pyfunction]
 pub(crate) fn stall_load(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let stall = a.run(|observer| motor.stall_load(&settings, observer))?;
+    let driven = a.driven_motor(motor, &DriveParameters::default())?;
+    let stall = a.run(|observer| match &driven {
+        None => motor.stall_load(&settings, observer),
+        Some(driven) => driven.stall_load(&settings, observer),
+    })?;
     make!(
         a.py(),
         "StallLoad",
@@ -193,7 +195,11 @@ pub(crate) fn input_spreads(a: Arguments<'_>) -> PyResult<Vec<Option<Bound<'_, P
 #[pyfunction]
 pub(crate) fn best_phase_lag(a: Arguments<'_>) -> Made<'_> {
     let (motor, settings) = (a.motor()?, settings(&a)?);
-    let best = a.run(|observer| motor.best_phase_lag(&settings, observer))?;
+    let driven = a.driven_motor(motor, &DriveParameters::default())?;
+    let best = a.run(|observer| match &driven {
+        None => motor.best_phase_lag(&settings, observer),
+        Some(driven) => driven.best_phase_lag(&settings, observer),
+    })?;
     make!(
         a.py(),
         "BestPhaseLag",

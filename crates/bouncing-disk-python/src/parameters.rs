@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
-use bouncing_disk::motor::{MotorField, MotorParameters};
+use bouncing_disk::motor::{DrivenMotor, MotorField, MotorParameters};
 use bouncing_disk::parameters::{DriveParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
@@ -410,6 +410,20 @@ impl<'py> Arguments<'py> {
 
     pub(crate) fn motor(&self) -> PyResult<MotorModel> {
         Ok(self.held::<Motor>("motor")?.get().0)
+    }
+
+    /// A motor with the drive and the `contact_time` of a call; `None` for a sine and rigid impacts.
+    pub(crate) fn driven_motor(
+        &self,
+        motor: MotorModel,
+        drive: &DriveParameters,
+    ) -> PyResult<Option<DrivenMotor>> {
+        let time = self.optional("contact_time")?;
+        let change = |sheet: &mut MotorParameters| {
+            time.into_iter().for_each(|time| MotorField::ContactTime.set(sheet, time));
+        };
+        let driven = motor.with(change).and_then(|motor| DrivenMotor::where_needed(motor, drive));
+        driven.map_err(|error| self.refused(error))
     }
 
     pub(crate) fn map(&self) -> PyResult<ImpactMap> {

@@ -5,7 +5,7 @@ use bouncing_disk::driven;
 use bouncing_disk::motion::{
     DiskState, EventKind, Mode, PhaseSpan, PlatformState, SiEnergy, SiState, SlipDirection, Snapshot,
 };
-use bouncing_disk::parameters::{DrivenPlatform, Scales};
+use bouncing_disk::parameters::{Contact, DrivenPlatform, Scales};
 use bouncing_disk::toss::{
     InitialSpin, RotaryOutcome, TOSS_START, TossPerformance, rotary_response as response,
     single_toss as toss, toss_trajectory as toss_motion,
@@ -15,7 +15,7 @@ use bouncing_disk::{
 };
 use pyo3::prelude::*;
 
-use crate::arguments::{Arguments, Made, choice, held};
+use crate::arguments::{Arguments, Made, Real, choice, extracted, held};
 use crate::orbits::PeriodicOrbit;
 use crate::parameters::{System, python_system};
 use crate::results::{array, column, holders, holding, make, room_for};
@@ -76,15 +76,20 @@ pub(crate) fn single_toss<'py>(
     system: &Bound<'py, PyAny>,
     initial_spin: &Bound<'py, PyAny>,
     drive: &Bound<'py, PyAny>,
+    contact_time: &Bound<'py, PyAny>,
 ) -> Made<'py> {
     let (py, system) = (system.py(), held::<System>(system, "system")?.get().0);
     let initial = choice(initial_spin, "initial_spin", &SPINS)?;
     let drive = parameters::drive(drive, "drive")?;
+    let time = extracted::<Option<Real>>(contact_time, "contact_time")?;
     let done = long_call::caught(|| {
-        if drive.is_sine() {
+        let contact = time.map(|Real(time)| Contact { time: Some(time), ..Contact::default() });
+        let system = if contact.is_some() { system.with_contact(contact)? } else { system };
+        let contact = system.soft_contact();
+        if drive.is_sine() && contact.is_none() {
             return toss(&system, initial);
         }
-        let hand = DrivenPlatform::of_drive(*system.platform(), &drive)?;
+        let hand = DrivenPlatform::of_drive(*system.platform(), &drive)?.with_contact(contact);
         driven::single_toss(&hand, system.disk(), Phase::new(TOSS_START)?, initial)
     })?;
     shown_toss(py, &done.map_err(|error| errors::of(py, error))?)

@@ -68,6 +68,22 @@ def test_tosses_and_motors_of_a_sum_of_one_sine_are_those_of_the_sine() -> None:
     assert runs.speeds.shape == (4, 3) and bool((runs.speeds[-1] > 0.0).all())
 
 
+def test_a_contact_time_changes_tosses_and_motors_and_a_tiny_one_nothing() -> None:
+    toss, motor = bd.System.pizza_toss(), bd.Motor.paper_70_khz()
+    for call in (
+        lambda time: bd.single_toss(toss, contact_time=time).airborne_speed,
+        lambda time: bd.torque_speed_curve(
+            motor, load_torques=[0.0], relative_error=0.5, members=4, most_impacts=2_000, contact_time=time
+        ).speed[0],
+        lambda time: bd.ensemble(
+            motor.system, members=2, duration=0.02, intervals=4, contact_time=time
+        ).steady_speeds[0],
+    ):
+        assert call(1e-15) == call(None) != call(1e-5)
+        with pytest.raises(ValueError, match=r"contact.time = 0"):
+            call(0.0)
+
+
 @pytest.mark.parametrize(
     ("make", "told"),
     [
@@ -77,6 +93,8 @@ def test_tosses_and_motors_of_a_sum_of_one_sine_are_those_of_the_sine() -> None:
         (lambda: bd.Drive.pieces([(1.0, (0.0, 1.0, 0.0, 0.0))]), "jumps by -1"),
         (lambda: bd.Drive.sampled([0.0, 1.0]), "samples = 2"),
         (lambda: bd.Drive.sawtooth(1.0), "rise = 1"),
+        (lambda: bd.stall_load(bd.Motor.paper_70_khz(), contact_time=-1.0), "contact.time = -1"),
+        (lambda: bd.best_phase_lag(bd.Motor.paper_70_khz(), contact_time=0.0), "contact.time = 0"),
         (lambda: diagram(bd.Drive(segments=[{"periods": 1.0}])), "schedule"),
         (lambda: bd.basins(BOUNCING, known_orbits=[], drive=bd.Drive(then="rest")), "schedule"),
     ],

@@ -68,6 +68,7 @@ def ensemble(
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
     drive: Drive | None = None,
+    contact_time: Float | None = None,
     chatter: ChatterCut | None = None,
     progress: Progress = None,
 ) -> TransientEnsemble:
@@ -80,6 +81,7 @@ def ensemble(
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in [0, 1e100].
         seed: seed of the perturbations.
         drive: how the stator moves; ``None`` for the sine.
+        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
         chatter: how a chatter ends; ``None`` sums it.
 
     >>> import bouncing_disk as bd

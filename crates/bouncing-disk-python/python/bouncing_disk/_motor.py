@@ -289,6 +289,7 @@ def torque_speed_curve(
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
     drive: Drive | None = None,
+    contact_time: Float | None = None,
     progress: Progress = None,
 ) -> TorqueSpeedCurve:
     """Speed, power and efficiency of a motor against its load.
@@ -302,6 +303,7 @@ def torque_speed_curve(
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
         drive: how the stator moves; ``None`` for the sine.
+        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
     """
     return native.torque_speed_curve(locals())
 
@@ -333,12 +335,14 @@ def stall_load(
     most_impacts: Int = 20_000_000,
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
+    contact_time: Float | None = None,
     progress: Progress = None,
 ) -> StallLoad:
     """The load at which a motor stops.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed, contact_time: as of
+            :func:`torque_speed_curve`.
     """
     return native.stall_load(locals())
 
@@ -426,12 +430,14 @@ def best_phase_lag(
     most_impacts: Int = 20_000_000,
     relaunch_perturbation: Float = 0.001,
     seed: Int = 1,
+    contact_time: Float | None = None,
     progress: Progress = None,
 ) -> BestPhaseLag:
     """The phase lag at which a motor turns fastest.
 
     Args:
-        relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
+        relative_error, members, most_impacts, relaunch_perturbation, seed, contact_time: as of
+            :func:`torque_speed_curve`.
     """
     return native.best_phase_lag(locals())
 

@@ -75,19 +75,21 @@ def single_toss(
     *,
     initial_spin: Literal["absolute-rest", "with-hand"] = "absolute-rest",
     drive: Drive | None = None,
+    contact_time: Float | None = None,
 ) -> TossPerformance:
     """The toss of a disk from its platform, up to the separation.
 
     Args:
         initial_spin: whether the disk does not turn at first, or turns with the platform.
         drive: how the platform moves; ``None`` for the sine.
+        contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
 
     >>> import bouncing_disk as bd
     >>> toss = bd.single_toss(bd.System.pizza_toss())
     >>> round(toss.airborne_speed)  # rad/s, as the paper prints for the toss of Table I
     14
     """
-    return native.single_toss(system, initial_spin, drive)
+    return native.single_toss(system, initial_spin, drive, contact_time)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -324,6 +324,23 @@ mod tests {
         assert!(own.energy_residual < 1e-9, "{own:?}");
     }
 
+    #[test]
+    fn rigid_calls_refuse_a_contact_time_that_matters() {
+        let motor = |time: f64| {
+            Motor::paper_70_khz().with(|sheet| sheet.contact = Some(Contact::lasting(time))).expect("legal")
+        };
+        let (soft, stiff, drive) = (motor(1e-5), motor(1e-12), DriveParameters::default());
+        assert_eq!(soft.torque_speed_curve(&[0.0], &settings(), &Unobserved), Err(Error::SoftContact));
+        let phase = Phase::new(0.3).expect("finite");
+        let settings = TransientSettings { duration: 1e-3, intervals: 4, ..TransientSettings::default() };
+        let run = |motor: &Motor| crate::motor::transient(motor.system(), phase, &settings, &Unobserved);
+        assert_eq!(run(&soft), Err(Error::SoftContact));
+        assert_eq!(run(&stiff), run(&Motor::paper_70_khz()));
+        assert!(DrivenMotor::where_needed(soft, &drive).expect("legal").is_some());
+        assert_eq!(DrivenMotor::where_needed(stiff, &drive), Ok(None));
+        assert!(stiff.warnings().iter().any(|warning| warning.to_string().starts_with("impacts are rigid")));
+    }
+
     /// On a stator too slow to throw it the rotor creeps under a load, as on the sine.
     #[test]
     fn a_rotor_that_never_leaves_the_stator_has_its_steady_speed() {

@@ -36,6 +36,7 @@ pub(crate) fn shared_transients(
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let first = shared_by(systems)?;
+    first.rigid()?;
     settings.check_for(&first.scales())?;
     within_limit("rotors on one vertical motion", systems.len(), MAX_MEMBERS)?;
     within_limit("speeds of all curves", systems.len().saturating_mul(settings.intervals), MAX_SPEEDS)?;
