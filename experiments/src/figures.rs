@@ -7,6 +7,7 @@
 pub mod extra_attractors;
 pub mod extra_branches;
 pub mod extra_cascade;
+pub mod extra_contact;
 pub mod extra_crisis;
 pub mod extra_design;
 pub mod extra_drives;

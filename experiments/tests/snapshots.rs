@@ -62,6 +62,7 @@ snapshots![
     extra_manifolds,
     extra_attractors,
     extra_drives,
+    extra_contact,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

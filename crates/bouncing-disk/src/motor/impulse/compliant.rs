@@ -42,8 +42,9 @@ impl NormalImpulses {
             impulses.add(&pressed, (from - now).clamp(0.0, span), span);
             now += span;
             pressed = match end {
+                None => break,
                 Some(ContactEnd::Turns(_, branch)) => platform.press_on(branch, pressed.turned(span)),
-                _ => {
+                Some(_) => {
                     let Some(touch) = platform.touch(pressed.released(span), until - now)? else { break };
                     now += touch.duration;
                     if now > from {
@@ -101,6 +102,8 @@ mod tests {
             let impulses = impulses(contact_time, peak, 5_000, 100);
             let off = impulses.total() / impulses.duration - 1.0;
             assert!(off.abs() < 1e-4, "{contact_time} {peak}: {off}");
+            let once = impulses.landings.iter().all(|phase| (phase - impulses.landings[0]).abs() < 1e-9);
+            assert!(once, "{:?}", impulses.landings);
         }
     }
 
