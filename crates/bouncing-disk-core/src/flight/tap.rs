@@ -71,7 +71,7 @@ pub struct TapSolver {
     rate: f64,
     /// cos t, sin t, u1 and u2 over the time since the touch.
     pieces: Vec<[Piece; 4]>,
-    /// Their largest errors.
+    /// Their largest errors, with those of their coefficients.
     errors: [f64; 4],
 }
 
@@ -208,6 +208,8 @@ impl TapSolver {
         let [value, slope] = terms[COUNT].map(f64::abs);
         let tenth = value + slope * own;
         solver.errors = [1.0, 1.0, tenth, tenth / own].map(|most| share * most);
+        let sizes = [1.0, 1.0, 1.0, 1.0 / own];
+        solver.errors = [0, 1, 2, 3].map(|of| solver.errors[of] + ROUNDING * sizes[of]);
         Some(solver)
     }
 
@@ -225,10 +227,10 @@ impl TapSolver {
         [decayed * cos + self.decay * second, second]
     }
 
-    /// The instant `after` the touch of a contact that begins with `start` at the phase `angle`.
+    /// The instant `after` the touch of a contact that begins with `start`, where sine and cosine of the phase
+    /// are these.
     #[must_use]
-    pub fn instant(&self, angle: f64, start: &TapInstant, after: f64) -> TapInstant {
-        let (sin, cos) = sin_cos(angle + after);
+    pub fn instant(&self, start: &TapInstant, after: f64, (sin, cos): (f64, f64)) -> TapInstant {
         let [u1, u2] = self.oscillations(after);
         let (value, slope) = (start.free, start.free_slope);
         TapInstant {
@@ -289,7 +291,7 @@ impl TapSolver {
             let next = at.after + step;
             at = match self.moved(&at, step) {
                 Some(at) => at,
-                None if next >= 0.0 => self.instant(angle, start, next),
+                None if next >= 0.0 => self.instant(start, next, sin_cos(angle + next)),
                 None => return None,
             };
             if step.abs() * self.rate <= LAST_STEP {
@@ -413,7 +415,7 @@ impl TapSolver {
             }
         }
         let (index, near) = found?;
-        let near = self.instant(phase.angle(), &start, near);
+        let near = self.instant(&start, near, sin_cos(phase.angle() + near));
         let end = self.polished(phase.angle(), &start, near, |at| {
             let [slope, bend, third] = self.force_slopes(at);
             [self.force(at), slope, bend, third]
@@ -440,10 +442,8 @@ impl TapSolver {
     }
 
     fn margin(&self, weights: &[f64; 4], constant: f64) -> f64 {
-        let most = [1.0, 1.0, 1.0, self.inverse_stiffness.sqrt()];
-        let rounding = weights.iter().zip(most).map(|(weight, most)| weight.abs() * most).sum::<f64>();
-        let errors = weights.iter().zip(self.errors).map(|(weight, error)| weight.abs() * error).sum::<f64>();
-        errors + ROUNDING * (constant + rounding)
+        let [a, b, c, d] = [0, 1, 2, 3].map(|of| weights[of].abs() * self.errors[of]);
+        ROUNDING * constant + ((a + b) + (c + d))
     }
 
     /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it is decided.
@@ -518,8 +518,11 @@ impl TapSolver {
                 (to, above)
             };
             if above > 0.0 {
-                let share = below / (below - above);
-                let (freed, there) = newton(from + share * (until - from), &(from..=until), peak, |t| {
+                let early =
+                    if index == 0 { step_of([gap, velocity, peak * sin - 1.0, peak * cos]) } else { 0.0 };
+                let line = from + below / (below - above) * (until - from);
+                let guess = if early > from && early < until { early } else { line };
+                let (freed, there) = newton(guess, &(from..=until), peak, |t| {
                     let there = fall(t);
                     let [gap, speed, bend, third, _] = there.derivatives(peak);
                     ([gap, speed, bend, third], there)
@@ -645,9 +648,9 @@ fn between(from: &[f64; COUNT / 2], to: &[f64; COUNT / 2], length: f64) -> Piece
 }
 
 fn range(piece: &Piece) -> (f64, f64) {
-    piece
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| (low.min(value), high.max(value)))
+    piece.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
+        (if value < low { value } else { low }, if value > high { value } else { high })
+    })
 }
 
 /// The parts of a polynomial on both sides of a share of its piece.
@@ -668,6 +671,9 @@ fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
 fn first_fall_after(piece: &Piece, margin: f64, from_zero: bool) -> Option<Option<f64>> {
     if !from_zero {
         return first_fall(piece, margin, HALVINGS);
+    }
+    if piece[1..].iter().all(|&value| value > 4.0 * margin) {
+        return Some(None);
     }
     let (near, far) = split(piece, START);
     if near[1..].iter().any(|&value| value <= 4.0 * margin) {

@@ -175,6 +175,12 @@ impl TappedRotor {
         speed - (self.parts[0] * cos - self.parts[1] * sin)
     }
 
+    /// Sine and cosine of the phase at which the angle's phase has this cosine and this sine.
+    fn phase_of(&self, cosine: f64, sine: f64) -> (f64, f64) {
+        let [ahead, across] = self.parts.map(|part| part / self.twist);
+        (sine * ahead - cosine * across, cosine * ahead + sine * across)
+    }
+
     /// A flight and a contact; nothing if that is not decided here.
     fn carry(
         &mut self,
@@ -198,7 +204,8 @@ impl TappedRotor {
         direction = if direction > 0.0 { 1.0 } else { -1.0 };
         let (mut last, mut before, mut now) = (0.0, *from, speed);
         if speed.abs() < self.twist {
-            let corner = acos(speed / self.twist);
+            let cosine = speed / self.twist;
+            let (corner, sine) = (acos(cosine), ((1.0 - cosine) * (1.0 + cosine)).sqrt());
             let begin = wrapped_angle(tap.angle + self.lag);
             let (mut next, expected) = match begin {
                 _ if begin < corner => (corner, -1.0),
@@ -209,7 +216,9 @@ impl TappedRotor {
                 return None;
             }
             while next - begin < tap.end.after + EARLIER {
-                let near = solver.instant(tap.angle, &tap.start, (next - begin).min(tap.end.after));
+                // The platform turns as fast as the rotor there, and falls or rises.
+                let pair = self.phase_of(cosine, if direction < 0.0 { sine } else { -sine });
+                let near = solver.instant(&tap.start, next - begin, pair);
                 let pull = direction * mu;
                 let reversal = solver.polished(tap.angle, &tap.start, near, |at| {
                     let turned = self.slip(0.0, at.sin, at.cos);

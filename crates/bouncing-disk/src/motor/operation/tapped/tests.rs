@@ -75,6 +75,8 @@ impl Pair {
             let fastest = 1.0 + case.twist + speed.abs() + case.load.abs() * duration;
             let velocity = 1.0 + case.peak + launch[1] + launched[1];
             let (size, twist) = (ledger.axial_magnitude, ledger.rotary_magnitude);
+            // The impulse is a difference of the platform's speeds, with some eight roundings of each.
+            let rounding = 16.0 * f64::EPSILON / AGREEMENT * case.friction * (1.0 + case.peak) * fastest;
             let kinetic = 0.5 * (own - speed) * (own + speed);
             let load = case.load * done.angle;
             let balance = tapped.axial_energy() - energy - axial.normal_work + axial.restitution_loss;
@@ -87,8 +89,8 @@ impl Pair {
                 (done.angle - end.angle, (1.0 + duration) * fastest),
                 (axial.normal_work - ledger.normal_work, size),
                 (axial.restitution_loss - ledger.restitution_loss, size),
-                (done.friction_work - ledger.friction_work, twist),
-                (done.friction_loss - ledger.friction_loss, twist),
+                (done.friction_work - ledger.friction_work, twist + rounding),
+                (done.friction_loss - ledger.friction_loss, twist + rounding),
                 (balance / AGREEMENT * 1e-12, size),
                 (rotary / AGREEMENT * 1e-12, twist),
             ];
