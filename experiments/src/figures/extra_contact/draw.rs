@@ -22,6 +22,9 @@ const REGIMES: [(&str, Colour, (f64, f64)); 4] = [
     ("other", Colour::GREY, (0.17, 0.5)),
 ];
 
+/// What a map shows of its cells.
+type Quantity = fn(&Cell) -> f64;
+
 /// Colours of a quantity.
 const LEVELS: u8 = 30;
 
@@ -31,7 +34,7 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 5, 3).margins(margins).gaps(58.0, 44.0);
     let cell = |row, column| grid.cell(row, column);
     let mut panels = vec![regimes(data, cell(0, 0))];
-    let maps: [(&str, fn(&Cell) -> f64, (f64, f64), (usize, usize)); 4] = [
+    let maps: [(&str, Quantity, _, _); 4] = [
         (r"(b) mean phase of the force, $\tau/\pi$", |own| own.mean_phase * FRAC_1_PI, (-0.1, 0.5), (0, 1)),
         (r"(c) best phase lag, $\theta/\pi$", |own| own.best_lag * FRAC_1_PI, (-0.5, 0.1), (0, 2)),
         (r"(d) speed$/\omega\Phi$ at $\theta = 0$", |own| own.speed_at_zero, (0.0, 1.0), (1, 0)),
@@ -125,13 +128,7 @@ fn regimes(data: &ExtraContactData, area: Rect) -> Panel {
         .layers(REGIMES.map(|(words, _, (x, y))| Text::at_data(x, y, words).anchor(Anchor::Centre).size(6.5)))
 }
 
-fn map(
-    data: &ExtraContactData,
-    area: Rect,
-    title: &str,
-    of: fn(&Cell) -> f64,
-    ends: (f64, f64),
-) -> [Panel; 2] {
+fn map(data: &ExtraContactData, area: Rect, title: &str, of: Quantity, ends: (f64, f64)) -> [Panel; 2] {
     let steps = (0..LEVELS).map(|level| Colour::scale((f64::from(level) + 0.5) / f64::from(LEVELS)));
     let palette: Vec<Colour> = steps.collect();
     let level = |value: f64| {
