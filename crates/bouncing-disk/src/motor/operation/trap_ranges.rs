@@ -95,7 +95,7 @@ impl Motor {
     /// # Errors
     /// [`Error::OutOfRange`] for preloads that do not rise or are not positive, and for another width; an
     /// error of the core for a scan of more than ten million steps, of half a width each; those of
-    /// [`Motor::operating_point`].
+    /// [`Motor::operating_point`]; [`Error::SoftContact`].
     pub fn trap_ranges(
         &self,
         [low, high]: [f64; 2],
@@ -104,6 +104,7 @@ impl Motor {
         observer: &dyn Observer,
     ) -> Result<Vec<TrapRange>, Error> {
         settings.check()?;
+        self.system().rigid()?;
         check(low > 0.0 && low.is_finite(), "lowest preload", low, "(0, highest preload) (m/s^2)")?;
         check(high > low && high.is_finite(), "highest preload", high, "(lowest preload, inf) (m/s^2)")?;
         let legal = least_relative_width > 0.0 && least_relative_width <= 0.1;
