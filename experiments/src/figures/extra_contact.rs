@@ -45,10 +45,7 @@ pub struct ExtraContactData {
     /// The contact time of the paper's ball on the edge of its stator, and on a plane, over the period.
     ring: [f64; 2],
     plane: [f64; 2],
-    /// The map, row by row from the lowest Γ.
-    columns: usize,
-    rows: usize,
-    cells: Vec<Cell>,
+    cells: Cells,
     transition: Transition,
     lives: Vec<Lives>,
     /// Over the contact time over the period, by restitution and law.
@@ -63,19 +60,20 @@ pub struct ExtraContactData {
     over_amplitude: Vec<Curve>,
 }
 
-/// A cell of the map. Phases and lags in rad, speeds in units of ωΦ.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Cell {
-    /// 0: the disk never leaves the platform; 1: it is tapped in every period at one phase; 2: it flies for
-    /// several periods; 3: another motion.
-    regime: u8,
-    mean_phase: f64,
-    best_lag: f64,
-    speed_at_zero: f64,
-    best_speed: f64,
+/// The cells of the map, row by row from the lowest Γ. Phases and lags in rad, speeds in units of ωΦ.
+#[derive(Debug, Serialize, Deserialize)]
+struct Cells {
+    columns: usize,
+    /// Of each row the digits 0: the disk never leaves the platform; 1: the force sets in once in every period,
+    /// at one phase; 2: it flies for several periods; 3: another motion.
+    regimes: Vec<String>,
+    mean_phases: Vec<f64>,
+    best_lags: Vec<f64>,
+    speeds_at_zero: Vec<f64>,
+    best_speeds: Vec<f64>,
 }
 
-/// Contact time over the period and phase (cycles) of touches: of the orbit that is followed from long contacts
+/// Contact time over the period and phase (cycles) of releases: of the orbit that is followed from long contacts
 /// on, and of starts at random.
 #[derive(Debug, Serialize, Deserialize)]
 struct Transition {
@@ -113,18 +111,14 @@ impl Life {
     }
 }
 
-/// A quantity on the horizontal axis, and the rotor there.
+/// Values of the horizontal axis, and by the [`LAGS`] the steady speed over ωΦ and the stall torque over that of
+/// friction there.
 #[derive(Debug, Serialize, Deserialize)]
 struct Curve {
     name: String,
-    points: Vec<(f64, Rotor)>,
-}
-
-/// Steady speed over ωΦ and stall torque over that of friction, at each of the [`LAGS`].
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-struct Rotor {
-    speeds: [f64; 3],
-    stall_shares: [f64; 3],
+    values: Vec<f64>,
+    speeds: [Vec<f64>; 3],
+    stall_shares: [Vec<f64>; 3],
 }
 
 /// Times (s) and speeds (rad/s) of a run-up; mean and standard deviation of the speed in its last third.
@@ -152,10 +146,10 @@ impl Experiment for ExtraContact {
             "A rotor on a linear spring and damper by contact time T_c (over the period T) and restitution ε of an isolated impact. (a) to (e): over T_c/T and Γ, \
              with ε = {}, from rest: the motion; the mean phase of the force; the phase lag at which little friction turns the rotor fastest; its steady speed \
              (over ωΦ) at θ = 0 and at the best lag. Dotted in (a): m g/(k A) = 0.1, 1, 10; white bar: the paper's motor, whose impacts last for {low:.1} to {high:.1} periods. \
-             (f) to (o): Γ = {:.1} as in Table III. (f) Phases at which the force sets in: of the orbit that is tapped in every period (blue), and of starts at random (grey). \
+             (f) to (o): Γ = {:.1} as in Table III. (f) Phases at which the force falls to zero: of the orbit that is tapped in every period (blue), and of starts at random (grey). \
              (g) Mean life of the long flights of {} starts at random, by ε: with a damper, and with a spring that unloads at ε² of its stiffness; dashed: the shortest contacts that \
              tap the rotor in every period. (h) Speeds at θ = 0 (solid) and -π/2 (dashed). (i) Run-ups, by T_c/T. (j) to (o): by T_c/T, at θ = 0 (solid), -π/4 (dotted) and -π/2 (dashed), the latter two of the longest contact alone: speed and stall torque \
-             (over μ a_e times the largest preload) as in Fig. 11; speed and stall torque over the lag; speed over restitution and amplitude, as in Fig. 13. Spikes: motions of low period.",
+             (over the largest that friction can give at this preload) as in Fig. 11; speed and stall torque over the lag; speed over restitution and amplitude, as in Fig. 13. Spikes: motions of low period.",
             data.restitution,
             data.axial_forcing,
             data.lives.first().map_or(0, |lives| lives.starts),
@@ -176,9 +170,10 @@ mod tests {
     use std::f64::consts::FRAC_1_PI;
 
     use bouncing_disk::Motor;
+    use bouncing_disk::core::numerics::roots::bisection;
     use bouncing_disk::motor::NormalImpulses;
 
-    use super::compute::{Law, cell, paper_contacts};
+    use super::compute::{Law, cell, paper_contacts, tapped_start};
     use super::*;
 
     const PAGE: &str = include_str!("../../../docs/contacts-that-take-time.md");
@@ -195,6 +190,22 @@ mod tests {
     /// within is no motor at this lag.
     const SHARP: f64 = 0.8;
     const LEAST: f64 = 0.25;
+
+    /// Where the orbit of one tap doubles.
+    #[test]
+    fn the_page_has_the_doubling() {
+        let motor = Motor::paper_70_khz();
+        let (forcing, restitution) = (motor.system().axial_forcing(), motor.system().disk().restitution());
+        let guess = [tapped_start(forcing, restitution).unwrap()];
+        let radius = |time| {
+            let law = Law { contact_time: Some(time), restitution, hysteretic: false };
+            law.map(forcing)?.refine(&guess).map(|orbit| orbit.multipliers().spectral_radius())
+        };
+        let stable = |time| Ok::<_, bouncing_disk::core::Error>(radius(time)? > 1.0);
+        let doubling = bisection(0.5, 0.6, 40, stable).unwrap();
+        let words = format!("stability at T_c/T = {doubling:.4} by a doubling");
+        assert!(PAGE.contains(&words), "{words}");
+    }
 
     /// The rows of the page, computed.
     #[test]

@@ -2,18 +2,19 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::flight::{Compliance, CompliantPlatform, ContactEnd, RelativeState};
 use bouncing_disk::core::numerics::elementary::{exp, ln};
 use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::core::run::in_parallel;
-use bouncing_disk::core::{Drive, ImpactMap, Phase, Unobserved, Vibration};
+use bouncing_disk::core::{
+    Drive, DrivenMap, Error as CoreError, ImpactMap, ImpactState, Phase, Unobserved, Vibration,
+};
 use bouncing_disk::motor::{DrivenMotor, NormalImpulses, PhasedImpulse, TransientSettings};
 use bouncing_disk::parameters::{Contact, Geometry, Waveform};
 use bouncing_disk::{Error, Motor};
 
 use super::{
-    AMPLITUDES, CONTACT_TIMES, Cell, Curve, ExtraContactData, FORCINGS, LAGS, Life, Lives, PRELOADS,
-    RESTITUTIONS, Rotor, Run, SEED, TRANSITION, Transition,
+    AMPLITUDES, CONTACT_TIMES, Cells, Curve, ExtraContactData, FORCINGS, LAGS, Life, Lives, PRELOADS,
+    RESTITUTIONS, Run, SEED, TRANSITION, Transition,
 };
 use crate::experiment::{ExperimentError, Quality};
 use crate::progress::Progress;
@@ -49,26 +50,28 @@ impl Law {
         Self { contact_time: Some(contact_time), restitution, hysteretic: false }
     }
 
-    fn platform(self, axial_forcing: f64) -> Result<Option<CompliantPlatform>, Error> {
-        let Some(share) = self.contact_time else { return Ok(None) };
-        let law = if self.hysteretic { Compliance::hysteretic } else { Compliance::new };
-        let drive = Drive::fourier(&[(PI * axial_forcing, 0.0)])?;
-        Ok(Some(CompliantPlatform::new(drive, law(TAU * share, self.restitution)?)?))
+    pub(super) fn map(self, axial_forcing: f64) -> Result<DrivenMap, CoreError> {
+        let rigid = DrivenMap::new(Drive::fourier(&[(PI * axial_forcing, 0.0)])?, self.restitution)?;
+        match self.contact_time.map(|share| TAU * share) {
+            None => Ok(rigid),
+            Some(time) if self.hysteretic => rigid.with_hysteretic_contact(time),
+            Some(time) => rigid.with_contact_time(time),
+        }
     }
 
     /// The impulses on a platform with this forcing, sorted by phase, and how often in a period the force sets
     /// in.
     pub(super) fn impulses(self, axial_forcing: f64) -> Result<(NormalImpulses, f64), Error> {
-        let (all, touches) = match self.platform(axial_forcing)? {
+        let (all, touches) = match self.map(axial_forcing)?.compliant() {
             None => {
                 let vibration = Vibration::from_axial_forcing(axial_forcing)?;
                 let map = ImpactMap::new(vibration, self.restitution)?;
                 (NormalImpulses::of(&map, IMPACTS, RELAUNCH)?, 0.0)
             }
             Some(platform) => {
-                let mut all = NormalImpulses::of_contact(&platform, SETTLING, TAPPED)?;
+                let mut all = NormalImpulses::of_contact(platform, SETTLING, TAPPED)?;
                 if all.duration > TAU && 2 * all.landings.len() < TAPPED {
-                    all = NormalImpulses::of_contact(&platform, SETTLING, FLOWN)?;
+                    all = NormalImpulses::of_contact(platform, SETTLING, FLOWN)?;
                 }
                 let touches = all.landings.len() as f64 * TAU / all.duration;
                 (all, touches)
@@ -109,6 +112,22 @@ pub(super) fn cell(law: Law, axial_forcing: f64) -> Result<Cell, Error> {
     Ok(Cell { regime, mean_phase, best_lag: best.0, speed_at_zero: speed(0.0), best_speed: best.1 })
 }
 
+/// What a disk from rest does. Phases and lags in rad, speeds in units of ωΦ.
+pub(super) struct Cell {
+    /// See [`Cells::regimes`].
+    pub(super) regime: u8,
+    pub(super) mean_phase: f64,
+    pub(super) best_lag: f64,
+    pub(super) speed_at_zero: f64,
+    pub(super) best_speed: f64,
+}
+
+/// Steady speed over ωΦ and stall torque over that of friction, at each of the [`LAGS`].
+struct Rotor {
+    speeds: [f64; 3],
+    stall_shares: [f64; 3],
+}
+
 fn at_one_phase(phases: &[f64]) -> bool {
     phases.windows(2).all(|pair| {
         let apart = (pair[1] - pair[0]).rem_euclid(TAU);
@@ -141,34 +160,20 @@ fn each<T: Send>(
     .collect()
 }
 
-/// From a touch to the next one: after how long, and the disk there; `None` if it stays on the platform.
-fn next_touch(
-    platform: &CompliantPlatform,
-    from: RelativeState,
-) -> Result<Option<(f64, RelativeState)>, Error> {
-    let (mut pressed, mut lasts) = (platform.press(from), 0.0);
-    // A spring that only turns never lets the disk go.
-    for _ in 0..SHORT {
-        match pressed.end(f64::INFINITY)? {
-            Some(ContactEnd::Release(span)) => {
-                let touch = platform.touch(pressed.released(span), f64::INFINITY)?;
-                return Ok(touch.map(|touch| (lasts + span + touch.duration, touch.state)));
-            }
-            Some(ContactEnd::Turns(span, branch)) => {
-                lasts += span;
-                pressed = platform.press_on(branch, pressed.turned(span));
-            }
-            _ => return Ok(None),
-        }
+/// From a release to the next one: after how long, and the disk there; `None` if it stays on the platform.
+fn next_release(map: &DrivenMap, from: ImpactState) -> Result<Option<(f64, ImpactState)>, CoreError> {
+    match map.step(from) {
+        Ok(landing) => Ok(Some((landing.impact.duration(), landing.impact.into()))),
+        Err(CoreError::NoLiftOff { .. }) => Ok(None),
+        Err(error) => Err(error),
     }
-    Ok(None)
 }
 
 /// How long flights last from a start, and whether they ended within `most` periods.
-fn life(platform: &CompliantPlatform, mut state: RelativeState, most: f64) -> Result<(f64, bool), Error> {
+fn life(map: &DrivenMap, mut state: ImpactState, most: f64) -> Result<(f64, bool), CoreError> {
     let (mut now, mut last, mut short) = (0.0, 0.0, 0);
     while now < most {
-        let Some((after, next)) = next_touch(platform, state)? else { return Ok((last, true)) };
+        let Some((after, next)) = next_release(map, state)? else { return Ok((last, true)) };
         now += after / TAU;
         state = next;
         if after > LONG * TAU {
@@ -184,13 +189,13 @@ fn life(platform: &CompliantPlatform, mut state: RelativeState, most: f64) -> Re
 }
 
 /// Where a platform taps the rotor in every period, roughly.
-fn tapped_start(axial_forcing: f64) -> RelativeState {
-    RelativeState { time: 1.2, gap: 0.0, velocity: -0.3 * axial_forcing }
+pub(super) fn tapped_start(axial_forcing: f64, restitution: f64) -> Result<ImpactState, CoreError> {
+    ImpactState::new(Phase::new(1.64)?, -0.26 * axial_forcing / restitution)
 }
 
-fn random_touch(random: &mut SplitMix64, axial_forcing: f64) -> RelativeState {
+fn random_start(random: &mut SplitMix64, axial_forcing: f64) -> Result<ImpactState, CoreError> {
     let (time, speed) = (TAU * random.unit(), PI * axial_forcing * (0.2 + 0.8 * random.unit()));
-    RelativeState { time, gap: 0.0, velocity: -speed }
+    ImpactState::new(Phase::new(time)?, -speed)
 }
 
 fn lives(
@@ -201,23 +206,24 @@ fn lives(
 ) -> Result<Lives, ExperimentError> {
     let (starts, most) = quality.choose((8, 5e3), (64, 2e5));
     let times: Vec<f64> = (9..=30).map(|k| 0.05 * f64::from(k)).collect();
-    let platform = |time| law(time).platform(axial_forcing).map(|platform| platform.expect("takes time"));
+    let map = |time| law(time).map(axial_forcing);
     let points = each(times.len(), progress, |index| {
-        let (platform, mut random) = (platform(times[index])?, SplitMix64::new(SEED));
+        let (map, mut random) = (map(times[index])?, SplitMix64::new(SEED));
         let (mut total, mut ended) = (0.0, 0);
         for _ in 0..starts {
-            let (lasted, has_ended) = life(&platform, random_touch(&mut random, axial_forcing), most)?;
+            let (lasted, has_ended) = life(&map, random_start(&mut random, axial_forcing)?, most)?;
             total += lasted;
             ended += usize::from(has_ended);
         }
         Ok(Life { contact_time: times[index], flown_periods: total, ended })
     })?;
     // The tapped orbit, followed to shorter contacts up to its end.
-    let (mut state, mut tapped_from) = (tapped_start(axial_forcing), None);
+    let mut state = tapped_start(axial_forcing, law(1.0).restitution)?;
+    let mut tapped_from = None;
     for step in 0..=300_u32 {
         let time = 2.0 - 0.005 * f64::from(step);
-        let touches = touches(&platform(time)?, &mut state, quality.choose((1_000, 100), (4_000, 400)))?;
-        if !touches.iter().all(|(after, _)| (after / TAU - 1.0).abs() < 1e-4) {
+        let releases = releases(&map(time)?, &mut state, quality.choose((1_000, 100), (4_000, 400)))?;
+        if !releases.iter().all(|(after, _)| (after / TAU - 1.0).abs() < 1e-4) {
             break;
         }
         tapped_from = Some(time);
@@ -225,43 +231,43 @@ fn lives(
     Ok(Lives { name: name.to_owned(), starts, most_periods: most, points, tapped_from })
 }
 
-/// Touches after `settling` ones.
-fn touches(
-    platform: &CompliantPlatform,
-    state: &mut RelativeState,
+/// Releases after `settling` ones.
+fn releases(
+    map: &DrivenMap,
+    state: &mut ImpactState,
     (settling, kept): (usize, usize),
-) -> Result<Vec<(f64, RelativeState)>, Error> {
-    let mut touches = Vec::new();
-    for touch in 0..settling + kept {
-        let Some((after, next)) = next_touch(platform, *state)? else { break };
+) -> Result<Vec<(f64, ImpactState)>, CoreError> {
+    let mut releases = Vec::new();
+    for release in 0..settling + kept {
+        let Some((after, next)) = next_release(map, *state)? else { break };
         *state = next;
-        if touch >= settling {
-            touches.push((after, next));
+        if release >= settling {
+            releases.push((after, next));
         }
     }
-    Ok(touches)
+    Ok(releases)
 }
 
-fn transition(axial_forcing: f64, restitution: f64, quality: Quality) -> Result<Transition, Error> {
+fn transition(axial_forcing: f64, restitution: f64, quality: Quality) -> Result<Transition, CoreError> {
     let columns = quality.choose(60, 240);
     let counts = quality.choose((400, 12), (3_000, 32));
     let (mut tapped, mut flown) = (Vec::new(), Vec::new());
-    let (mut state, mut random) = (tapped_start(axial_forcing), SplitMix64::new(SEED));
+    let (mut state, mut random) = (tapped_start(axial_forcing, restitution)?, SplitMix64::new(SEED));
     let mut is_tapped = true;
     for column in (0..columns).rev() {
         let (from, to) = TRANSITION;
         let time = from + (to - from) * (f64::from(column) + 0.5) / f64::from(columns);
-        let Some(platform) = Law::damped(time, restitution).platform(axial_forcing)? else { continue };
-        let dots = |touches: Vec<(f64, RelativeState)>| {
-            touches.into_iter().map(move |(_, state)| (time, state.time / TAU))
+        let map = Law::damped(time, restitution).map(axial_forcing)?;
+        let dots = |releases: Vec<(f64, ImpactState)>| {
+            releases.into_iter().map(move |(_, state)| (time, state.phase().cycles()))
         };
         if is_tapped {
-            let own = touches(&platform, &mut state, counts)?;
+            let own = releases(&map, &mut state, counts)?;
             is_tapped = own.iter().all(|(after, _)| *after < LONG * TAU);
             tapped.extend(dots(own).filter(|_| is_tapped));
         }
-        let mut start = random_touch(&mut random, axial_forcing);
-        flown.extend(dots(touches(&platform, &mut start, (10, counts.1))?));
+        let mut start = random_start(&mut random, axial_forcing)?;
+        flown.extend(dots(releases(&map, &mut start, (10, counts.1))?));
     }
     Ok(Transition { tapped, flown })
 }
@@ -277,9 +283,11 @@ fn curves(
     let rotors = each(contacts.len() * count, progress, |index| {
         Ok(of(contacts[index / count].1, values[index % count])?)
     })?;
-    let curve = |((name, _), rotors): (&(String, _), &[Rotor])| Curve {
-        name: name.clone(),
-        points: values.iter().copied().zip(rotors.iter().copied()).collect(),
+    let curve = |((name, _), rotors): (&(String, _), &[Rotor])| {
+        let of =
+            |of: fn(&Rotor) -> [f64; 3]| [0, 1, 2].map(|lag| rotors.iter().map(|own| of(own)[lag]).collect());
+        let (speeds, stall_shares) = (of(|own| own.speeds), of(|own| own.stall_shares));
+        Curve { name: name.clone(), values: values.to_vec(), speeds, stall_shares }
     };
     Ok(contacts.iter().zip(rotors.chunks(count)).map(curve).collect())
 }
@@ -363,11 +371,12 @@ pub(super) fn compute(
     let lags: Vec<f64> = (0..=48).map(|k| PI * (f64::from(k) / 24.0 - 1.0)).collect();
     let over_lag = contacts.iter().map(|(name, time)| {
         let (impulses, _) = table(*time).impulses(forcing)?;
-        let rotor = |lag: f64| {
-            let balance = impulses.balance(lag);
-            (lag, Rotor { speeds: [balance.steady_speed(); 3], stall_shares: [balance.net_share(0.0); 3] })
-        };
-        Ok(Curve { name: name.clone(), points: lags.iter().map(|lag| rotor(*lag)).collect() })
+        let balances: Vec<_> = lags.iter().map(|lag| impulses.balance(*lag)).collect();
+        let speeds = balances.iter().map(|balance| balance.steady_speed()).collect();
+        let stall_shares = balances.iter().map(|balance| balance.net_share(0.0)).collect();
+        let alone = |own: Vec<f64>| [own, Vec::new(), Vec::new()];
+        let (speeds, stall_shares) = (alone(speeds), alone(stall_shares));
+        Ok(Curve { name: name.clone(), values: lags.clone(), speeds, stall_shares })
     });
     let over_lag = over_lag.collect::<Result<_, ExperimentError>>()?;
     let times = logarithmic(CONTACT_TIMES, 2 * points);
@@ -387,9 +396,17 @@ pub(super) fn compute(
         restitution,
         ring,
         plane,
-        columns,
-        rows,
-        cells,
+        cells: Cells {
+            columns,
+            regimes: cells
+                .chunks(columns)
+                .map(|row| row.iter().map(|own| char::from(b'0' + own.regime)).collect())
+                .collect(),
+            mean_phases: cells.iter().map(|own| own.mean_phase).collect(),
+            best_lags: cells.iter().map(|own| own.best_lag).collect(),
+            speeds_at_zero: cells.iter().map(|own| own.speed_at_zero).collect(),
+            best_speeds: cells.iter().map(|own| own.best_speed).collect(),
+        },
         transition: transition(forcing, restitution, quality)?,
         lives,
         over_time,

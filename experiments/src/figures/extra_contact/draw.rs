@@ -9,11 +9,11 @@ use bouncing_disk_plot::{
 };
 
 use super::{
-    AMPLITUDES, CONTACT_TIMES, Cell, Curve, ExtraContactData, FORCINGS, LAGS, Lives, PRELOADS, RESTITUTIONS,
-    Rotor, TRANSITION,
+    AMPLITUDES, CONTACT_TIMES, Cells, Curve, ExtraContactData, FORCINGS, LAGS, Lives, PRELOADS, RESTITUTIONS,
+    TRANSITION,
 };
 
-/// Motions and colours of the map, in the order of [`Cell::regime`](super::Cell).
+/// Motions and colours of the map, in the order of [`Cells::regimes`].
 /// and where their words are.
 const REGIMES: [(&str, Colour, (f64, f64)); 4] = [
     ("never leaves", Colour::PALE_GREY, (4.0, 0.55)),
@@ -23,7 +23,7 @@ const REGIMES: [(&str, Colour, (f64, f64)); 4] = [
 ];
 
 /// What a map shows of its cells.
-type Quantity = fn(&Cell) -> f64;
+type Quantity = fn(&Cells) -> &[f64];
 
 /// Colours of a quantity.
 const LEVELS: u8 = 30;
@@ -34,14 +34,14 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 5, 3).margins(margins).gaps(58.0, 44.0);
     let cell = |row, column| grid.cell(row, column);
     let mut panels = vec![regimes(data, cell(0, 0))];
-    let maps: [(&str, Quantity, _, _); 4] = [
-        (r"(b) mean phase of the force, $\tau/\pi$", |own| own.mean_phase * FRAC_1_PI, (-0.1, 0.5), (0, 1)),
-        (r"(c) best phase lag, $\theta/\pi$", |own| own.best_lag * FRAC_1_PI, (-0.5, 0.1), (0, 2)),
-        (r"(d) speed$/\omega\Phi$ at $\theta = 0$", |own| own.speed_at_zero, (0.0, 1.0), (1, 0)),
-        (r"(e) speed$/\omega\Phi$ at the best lag", |own| own.best_speed, (0.0, 1.0), (1, 1)),
+    let maps: [(&str, Quantity, _, f64, _); 4] = [
+        (r"(b) mean phase of the force, $\tau/\pi$", |own| &own.mean_phases, (-0.1, 0.5), PI, (0, 1)),
+        (r"(c) best phase lag, $\theta/\pi$", |own| &own.best_lags, (-0.5, 0.1), PI, (0, 2)),
+        (r"(d) speed$/\omega\Phi$ at $\theta = 0$", |own| &own.speeds_at_zero, (0.0, 1.0), 1.0, (1, 0)),
+        (r"(e) speed$/\omega\Phi$ at the best lag", |own| &own.best_speeds, (0.0, 1.0), 1.0, (1, 1)),
     ];
-    for (title, of, ends, (row, column)) in maps {
-        panels.extend(map(data, cell(row, column), title, of, ends));
+    for (title, of, ends, unit, (row, column)) in maps {
+        panels.extend(map(data, cell(row, column), title, of, (ends, unit)));
     }
     panels.push(transition(data, cell(1, 2)));
     panels.push(lives(&data.lives, cell(2, 0)));
@@ -61,11 +61,10 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
             .y(speed())
             .title("(j) speed over preload"),
     );
-    let torque = |own: &Rotor, preload: f64| own.stall_shares.map(|share| share * preload / PRELOADS.1);
     panels.push(
-        curves(&data.over_preload, cell(3, 1), torque, longest)
+        curves(&data.over_preload, cell(3, 1), |own| &own.stall_shares, longest)
             .title("(k) stall torque over preload")
-            .x(Axis::linear(0.0, PRELOADS.1).label(r"$g$ (m/s$^2$)"))
+            .x(preload())
             .y(Axis::linear(-0.6, 1.05).label("torque").ticks(Ticks::every(0.5).minor(5))),
     );
     let lag = || Axis::linear(-PI, PI).label(r"$\theta$").ticks(Ticks::pi(1, 2));
@@ -77,7 +76,7 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
             .layers([0.0, -FRAC_PI_2].map(|lag| Rule::vertical(lag).stroke(thin()))),
     );
     panels.push(
-        curves(&data.over_lag, cell(4, 0), |own, _| own.stall_shares, |_, lag| lag == 0)
+        curves(&data.over_lag, cell(4, 0), |own| &own.stall_shares, |_, lag| lag == 0)
             .x(lag())
             .y(Axis::linear(-1.05, 1.05).label("torque").ticks(Ticks::every(0.5).minor(5)))
             .title("(m) stall torque over the lag"),
@@ -109,7 +108,13 @@ fn plane(area: Rect) -> Panel {
 
 fn regimes(data: &ExtraContactData, area: Rect) -> Panel {
     let palette = REGIMES.map(|(_, colour, _)| colour);
-    let cells = data.cells.iter().map(|cell| cell.regime).collect();
+    let cells = data
+        .cells
+        .regimes
+        .iter()
+        .flat_map(|row| row.bytes())
+        .map(|own| own.saturating_sub(b'0').min(3))
+        .collect();
     // m g/(k A) = 1/(pi Γ k), with the stiffness in units of m ω².
     let line = |ratio: f64| {
         let times = [CONTACT_TIMES.0, CONTACT_TIMES.1];
@@ -122,20 +127,34 @@ fn regimes(data: &ExtraContactData, area: Rect) -> Panel {
     let own = data.ring.map(|time| (time, data.axial_forcing));
     plane(area)
         .title("(a) motion")
-        .layer(Raster::new(data.columns, data.rows, cells, &palette, CONTACT_TIMES, FORCINGS))
+        .layer(Raster::new(
+            data.cells.columns,
+            data.cells.regimes.len(),
+            cells,
+            &palette,
+            CONTACT_TIMES,
+            FORCINGS,
+        ))
         .layers([0.1, 1.0, 10.0].map(line))
         .layer(Line::new(own).colour(Colour::WHITE).width(2.0))
         .layers(REGIMES.map(|(words, _, (x, y))| Text::at_data(x, y, words).anchor(Anchor::Centre).size(6.5)))
 }
 
-fn map(data: &ExtraContactData, area: Rect, title: &str, of: Quantity, ends: (f64, f64)) -> [Panel; 2] {
+/// A map with the bar of its colours, whose `ends` are in this unit.
+fn map(
+    data: &ExtraContactData,
+    area: Rect,
+    title: &str,
+    of: Quantity,
+    (ends, unit): ((f64, f64), f64),
+) -> [Panel; 2] {
     let steps = (0..LEVELS).map(|level| Colour::scale((f64::from(level) + 0.5) / f64::from(LEVELS)));
     let palette: Vec<Colour> = steps.collect();
     let level = |value: f64| {
-        let share = (value - ends.0) / (ends.1 - ends.0);
+        let share = (value / unit - ends.0) / (ends.1 - ends.0);
         (share * f64::from(LEVELS)).clamp(0.0, f64::from(LEVELS - 1)) as u8
     };
-    let cells = data.cells.iter().map(|cell| level(of(cell))).collect();
+    let cells = of(&data.cells).iter().map(|value| level(*value)).collect();
     let bar = Rect { left: area.left + area.width + 4.0, width: 6.0, ..area };
     let bar = Panel::new(bar)
         .x(Axis::linear(0.0, 1.0).ticks(Ticks::none()))
@@ -146,8 +165,8 @@ fn map(data: &ExtraContactData, area: Rect, title: &str, of: Quantity, ends: (f6
     let first = area.left < DOUBLE_COLUMN / 4.0;
     let own = if first { own } else { own.y(Axis::log(FORCINGS.0, FORCINGS.1).without_numbers()) };
     let map = own.title(title).layer(Raster::new(
-        data.columns,
-        data.rows,
+        data.cells.columns,
+        data.cells.regimes.len(),
         cells,
         &palette,
         CONTACT_TIMES,
@@ -192,22 +211,22 @@ fn lives(lives: &[Lives], area: Rect) -> Panel {
 fn curves(
     curves: &[Curve],
     area: Rect,
-    of: impl Fn(&Rotor, f64) -> [f64; LAGS.len()],
+    of: fn(&Curve) -> &[Vec<f64>; LAGS.len()],
     shown: impl Fn(usize, usize) -> bool,
 ) -> Panel {
     const DASHES: [Dash; LAGS.len()] = [Dash::Solid, Dash::Dotted, Dash::Dashed];
     let mut panel = Panel::new(area);
     for (index, curve) in curves.iter().enumerate() {
         for (lag, dash) in DASHES.into_iter().enumerate().filter(|(lag, _)| shown(index, *lag)) {
-            let points = curve.points.iter().map(|(value, rotor)| (*value, of(rotor, *value)[lag]));
+            let points = curve.values.iter().copied().zip(of(curve)[lag].iter().copied());
             panel = panel.layer(Line::new(points).colour(Colour::cycle(index)).dash(dash).width(0.9));
         }
     }
     panel
 }
 
-fn speeds(own: &Rotor, _: f64) -> [f64; LAGS.len()] {
-    own.speeds
+const fn speeds(own: &Curve) -> &[Vec<f64>; LAGS.len()] {
+    &own.speeds
 }
 
 /// All contacts without a lag, and all lags of the longest contact.
@@ -219,7 +238,7 @@ fn runs(data: &ExtraContactData, area: Rect) -> Panel {
     let last = data.runs.iter().flat_map(|run| run.points.last()).map(|point| point.0).fold(0.0, f64::max);
     let mut panel = Panel::new(area)
         .title("(i) run-up")
-        .x(Axis::linear(0.0, 1.6 * last.max(1e-3)).label("$t$ (s)"))
+        .x(Axis::linear(0.0, 2.2 * last.max(1e-3)).label("$t$ (s)"))
         .y(Axis::linear(0.0, 30.0).label("speed (rad/s)").ticks(Ticks::every(10.0).minor(5)));
     for (index, run) in data.runs.iter().enumerate() {
         let line = Line::new(run.points.iter().copied()).colour(Colour::cycle(index)).width(0.7);
