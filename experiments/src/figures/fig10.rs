@@ -16,6 +16,7 @@ pub use self::data::Fig10Data;
 use self::data::Trial;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
+use crate::figures::shared::motor::MotorCase;
 use crate::measured::{Column, Layout, Range, Series};
 use crate::progress::Progress;
 
@@ -89,7 +90,9 @@ impl Experiment for Fig10 {
             ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
             ("inputs that print alike", data.alike.inputs.clone()),
         ];
-        [motor.shared_inputs(), named(own)].concat()
+        let panels = data.readings.first().map_or(&[][..], |reading| &reading.panels);
+        let motors = panels.iter().map(|panel| MotorCase { amplitude_m: panel.amplitude_m, ..*motor });
+        [motor.shared_inputs(), named(own), vec![MotorCase::contact_row(motors)]].concat()
     }
 }
 

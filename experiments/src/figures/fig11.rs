@@ -14,6 +14,7 @@ pub use self::data::Fig11Data;
 use self::data::{LAYOUT, read};
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality, named};
+use crate::figures::shared::motor::MotorCase;
 use crate::measured::{Layout, Series};
 use crate::progress::Progress;
 
@@ -95,6 +96,15 @@ impl Experiment for Fig11 {
             ("duration", format!("{} ωΦ a_g²/(μ a_e g)", data.rises)),
             ("relaunch perturbation", format!("{} g/ω", data.relaunch_perturbation)),
         ];
-        [motor.shared_inputs(), named(own)].concat()
+        let motors = data.curves.iter().flat_map(|curve| {
+            let (frequency_hz, amplitude_m) = (curve.frequency_hz, curve.amplitude_m);
+            data.printed.preload_accelerations_m_per_s2.map(|preload_acceleration_m_per_s2| MotorCase {
+                frequency_hz,
+                amplitude_m,
+                preload_acceleration_m_per_s2,
+                ..*motor
+            })
+        });
+        [motor.shared_inputs(), named(own), vec![MotorCase::contact_row(motors)]].concat()
     }
 }

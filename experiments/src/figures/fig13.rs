@@ -14,6 +14,7 @@ pub use self::data::Fig13Data;
 use self::data::Parameter;
 use crate::claims::Claim;
 use crate::experiment::{Experiment, ExperimentError, Quality};
+use crate::figures::shared::motor::MotorCase;
 use crate::progress::Progress;
 
 /// Fig. 13.
@@ -119,6 +120,7 @@ impl Experiment for Fig13 {
             format!("{} and {} g/ω", data.relaunch_perturbation, data.breaking_perturbation),
         ));
         rows.push(("inputs that print alike, but for ε".to_owned(), data.alike.inputs.clone()));
+        rows.push(MotorCase::contact_row([data.motor]));
         rows
     }
 }

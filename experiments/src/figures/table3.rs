@@ -170,6 +170,7 @@ impl Experiment for Table3 {
             .collect();
         parameters.push(("height of the drop".to_owned(), format!("{} m", drop.heights.drop_height_m)));
         parameters.push(("height of the rebound".to_owned(), format!("{} m", drop.heights.rebound_height_m)));
+        parameters.push(MotorCase::contact_row(MotorCase::table_three()));
         parameters
     }
 }

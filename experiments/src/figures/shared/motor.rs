@@ -7,8 +7,9 @@ use bouncing_disk::core::{ChatterPolicy, Unobserved};
 pub(crate) use bouncing_disk::estimate::{LARGEST_CONSTANT, LARGEST_RESIDUAL};
 use bouncing_disk::estimate::{Spread, TransientEnsemble, unperturbed_orbit};
 use bouncing_disk::motor::{TransientMember, TransientSettings, transients};
+use bouncing_disk::parameters::{Contact, ContactStatement, ContactWarning};
 use bouncing_disk::toss::{ChatteringCycle, EXAMINED_IMPACTS, OrbitClass};
-use bouncing_disk::{DiskParameters, PlatformParameters, System};
+use bouncing_disk::{DiskParameters, Motor, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
 use crate::claims::{Cases, paper};
@@ -95,6 +96,33 @@ impl MotorCase {
             ("θ", format!("{} rad", self.phase_lag_rad)),
             ("ωΦ", format!("{} rad/s", self.peak_angular_speed_rad_per_s)),
         ])
+    }
+
+    /// What the contact of a steel ball with the paper's stator says of rigid impacts, over some motors, for the
+    /// gallery.
+    pub(crate) fn contact_row(motors: impl IntoIterator<Item = Self>) -> (String, String) {
+        let of = |motor: Self| {
+            let motor = Motor::paper_70_khz().with(|sheet| {
+                sheet.contact = Some(Contact::PAPER);
+                sheet.drive_frequency = motor.frequency_hz;
+                sheet.amplitude = motor.amplitude_m;
+                sheet.preload_acceleration = Some(motor.preload_acceleration_m_per_s2);
+            });
+            motor.ok()?.report(&Unobserved).ok()?.contact
+        };
+        let both = |[low, high]: [f64; 2], own: [f64; 2]| [low.min(own[0]), high.max(own[1])];
+        let whole = motors.into_iter().filter_map(of).reduce(|mut whole, own| {
+            let times = whole.time_over_period.zip(own.time_over_period).map(|(whole, own)| both(whole, own));
+            whole.time_over_period = times.or(whole.time_over_period).or(own.time_over_period);
+            let depths = [whole, own].map(|own| own.indentation_over_amplitude);
+            whole.indentation_over_amplitude = both(depths[0], depths[1]);
+            whole
+        });
+        let periods = whole.and_then(|own| own.time_over_period).unwrap_or_default();
+        let [_, (_, depth)] = ContactStatement::rows(whole.as_ref());
+        let words = ContactWarning::LongContact { periods };
+        let words = format!("{words}; m g/(k A) = {depth} (numerics/contacts.md)");
+        ("contact of a steel ball on an aluminium ring".to_owned(), words)
     }
 
     /// μ a_e g/a_g² (rad/s²): the acceleration if friction pushed one way all the time.
