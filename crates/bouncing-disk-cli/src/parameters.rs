@@ -65,9 +65,9 @@ impl<D: Described> SourceArgs<D> {
         self.file.is_some() || self.preset.is_some() || !self.set.is_empty()
     }
 
-    /// The parameters of what is computed for a sine and rigid impacts only.
+    /// The parameters of what is computed for a sine only, also with contacts that take time.
     pub(crate) fn get(&self) -> Result<D> {
-        self.driven().and_then(rigid).and_then(sine)
+        self.driven().and_then(sine)
     }
 
     fn driven(&self) -> Result<(D, DriveParameters)> {

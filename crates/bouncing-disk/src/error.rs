@@ -152,8 +152,8 @@ pub enum Error {
     /// A contact that takes time where only rigid impacts can be computed.
     #[error(
         "this analysis holds for rigid impacts only, and the table [contact] has a time: remove the time, or use one of \
-         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best phase lag and \
-         sweeps"
+         the analyses that accept it: single tosses, motor transients, torque-speed curves, stall, best phase lag, \
+         sweeps and fits of parameters"
     )]
     SoftContact,
     /// A schedule in place of a periodic motion.

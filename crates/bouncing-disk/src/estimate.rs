@@ -45,7 +45,7 @@ pub use measured_speeds::{MeasuredRun, MeasuredSpeeds};
 #[cfg(feature = "fit")]
 pub use parameter_fit::ParameterFit;
 #[cfg(feature = "fit")]
-pub use parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+pub use parameter_fit::estimate::{ContactTimes, ParameterEstimate, UndeterminedDirection};
 #[cfg(feature = "fit")]
 pub use parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
 #[cfg(feature = "fit")]

@@ -20,7 +20,7 @@ The file has the columns time_s, speed_rad_s and, for repeated runs, member, or 
 such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Without --parameter alpha_ss - b exp(-t/t_c) is \
 fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
 --from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
-amplitude (m), twist_amplitude (rad), each within its range, to run-ups from rest whose times count from the switch-on; all else is that of the motor, which --motor or --preset \
+amplitude (m), twist_amplitude (rad), contact.time (s), each within its range, to run-ups from rest whose times count from the switch-on; all else is that of the motor, which --motor or --preset \
 names. See \
 docs/designing-a-motor.md.
 
@@ -75,16 +75,13 @@ pub(crate) struct FitArgs {
 fn fitted(text: &str) -> Result<FitRange, String> {
     let form = || "a fitted parameter is FIELD=LOW:HIGH, such as friction=0.05:0.4".to_owned();
     let (name, range) = text.split_once('=').ok_or_else(form)?;
-    let all = [
-        FitParameter::Friction,
-        FitParameter::Restitution,
-        FitParameter::PhaseLag,
-        FitParameter::Amplitude,
-        FitParameter::TwistAmplitude,
-    ];
-    let parameter = all.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
-        format!("{name:?} cannot be fitted; possible are {}", all.map(FitParameter::name).join(", "))
-    })?;
+    let parameter =
+        FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name.trim()).ok_or_else(|| {
+            format!(
+                "{name:?} cannot be fitted; possible are {}",
+                FitParameter::ALL.map(FitParameter::name).join(", ")
+            )
+        })?;
     let [low, high] = interval(range)?;
     Ok(FitRange { parameter, low, high })
 }
@@ -203,6 +200,10 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
         .column("high", "1", |own| own.estimate.map(|estimate| estimate.high))
         .column("determined", "1", |own| own.estimate.is_some());
     let mut text = columns.to_text(&fit.parameters);
+    if !fit.contact_times.is_empty() {
+        let times: Vec<String> = fit.contact_times.iter().map(ToString::to_string).collect();
+        text += &format!("contact time: {}\n", times.join(", or "));
+    }
     for direction in &fit.undetermined {
         let parts: Vec<String> =
             direction.direction.iter().map(|(parameter, part)| format!("{part:.2} {parameter}")).collect();

@@ -263,6 +263,9 @@ fn fitted_parameters_have_units() {
     assert_eq!(lines[0], "parameter,unit,nominal,value,low,high,determined");
     assert!(lines[1].starts_with("friction,1,0.1,"), "{table}");
     assert!(lines[2].starts_with("phase_lag,rad,0.0,"), "{table}");
+    // All these are short: none can be told from another.
+    let text = folder.done("fit run.csv --preset paper-70-khz --parameter contact.time=1e-8:1e-6");
+    assert!(text.contains("contact time: anywhere in the range"), "{text}");
 }
 
 #[test]

@@ -6,6 +6,7 @@
 //! transients can determine.
 
 mod bootstrap;
+mod contact_time;
 mod determined;
 mod display;
 pub(crate) mod estimate;
@@ -25,11 +26,12 @@ use nalgebra::DVector;
 use crate::error::{Error, check, within_limit};
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::parameter_fit::bootstrap::resampled_places;
-use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
+use crate::estimate::parameter_fit::contact_time::{MOST_TIMES, scan};
+use crate::estimate::parameter_fit::estimate::{ContactTimes, ParameterEstimate, UndeterminedDirection};
 use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
 use crate::estimate::parameter_fit::model::{Model, mean_of};
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
-use crate::estimate::parameter_fit::search::{Evaluations, Linearised, least_squares};
+use crate::estimate::parameter_fit::search::{Evaluations, Linearised};
 use crate::estimate::parameter_fit::settings::ParameterFitSettings;
 use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
 use crate::estimate::refusal::{FitError, FitRefusal, refused};
@@ -91,6 +93,9 @@ pub struct ParameterFit {
     /// direction: its place there is that of the data sheet, or, for a direction that lost its determination
     /// during the search, the place reached by then.
     pub undetermined: Vec<UndeterminedDirection>,
+    /// Where the contact time is fitted, the ranges that the transients do not exclude, the shortest times first:
+    /// several are not decided between. Its estimate exists if there is one range with two ends.
+    pub contact_times: Vec<ContactTimes>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
     /// The remaining weighted sum of squares, not negative.
@@ -123,19 +128,16 @@ impl ParameterFit {
         observer: &dyn Observer,
     ) -> Result<Self, FitError> {
         let model = checked(nominal, transients, ranges, settings)?;
-        let watch = Watch::begin(observer, 0, settings.most_evaluations as u64)?;
-        let mut evaluations = Evaluations { spent: 0, most: settings.most_evaluations };
-        let start = ranges.iter().map(|range| range.place_of(range.parameter.of(nominal)).clamp(-1.0, 1.0));
-        let start = DVector::from_iterator(ranges.len(), start);
-        let mut state = Linearised::at(&model, start, &mut evaluations, &watch)?;
-        let mut is_near = state.directions.determined.ncols() == 0;
-        while !is_near {
-            let places = least_squares(&model, &state, &mut evaluations, &watch)?;
-            let next = Linearised::at(&model, places, &mut evaluations, &watch)?;
-            is_near = next.directions.determined.ncols() == 0 || next.is_near(&state);
-            state = next;
-        }
-        let fit = Self::of(&model, &state, evaluations.spent, &watch)?;
+        let scanned = ranges.iter().find(|range| range.parameter == FitParameter::ContactTime);
+        let contact_times = if scanned.is_some() { MOST_TIMES } else { 1 };
+        let watch = Watch::begin(observer, 0, (contact_times * settings.most_evaluations) as u64)?;
+        let fit = if let Some(range) = scanned {
+            scan(&model, *range, &watch)?
+        } else {
+            let mut evaluations = Evaluations { spent: 0, most: settings.most_evaluations };
+            let state = Linearised::search(&model, model.start(), &mut evaluations, &watch)?;
+            Self::of(&model, &state, evaluations.spent, &watch)?
+        };
         watch.end();
         Ok(fit)
     }
@@ -151,6 +153,29 @@ impl ParameterFit {
         let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
         let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
         let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
+        let parameters = Self::estimates(model, state, widening, watch)?;
+        let undetermined = directions.undetermined.iter();
+        Ok(Self {
+            parameters,
+            undetermined: undetermined
+                .map(|(direction, error)| named(&model.ranges, direction, *error))
+                .collect(),
+            contact_times: Vec::new(),
+            motor: model.motor(places)?,
+            misfit,
+            degrees_of_freedom,
+            evaluations,
+        })
+    }
+
+    /// The parameters of a search, whose intervals are wider by a factor.
+    fn estimates(
+        model: &Model<'_>,
+        state: &Linearised,
+        widening: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<ParameterEstimate>, FitError> {
+        let Linearised { places, local, weights, directions } = state;
         let response = directions.response();
         let resampled = resampled_places(model, local, weights, &response, &mut watch.work())?;
         let mut parameters = Vec::with_capacity(model.ranges.len());
@@ -174,17 +199,7 @@ impl ParameterFit {
             let nominal = range.parameter.of(&model.nominal);
             parameters.push(ParameterEstimate { parameter: range.parameter, nominal, estimate });
         }
-        let undetermined = directions.undetermined.iter();
-        Ok(Self {
-            parameters,
-            undetermined: undetermined
-                .map(|(direction, error)| named(model.ranges, direction, *error))
-                .collect(),
-            motor: model.motor(places)?,
-            misfit,
-            degrees_of_freedom,
-            evaluations,
-        })
+        Ok(parameters)
     }
 
     /// The value and interval of a parameter; `None` if it was not fitted or is not determined.
@@ -198,13 +213,13 @@ impl ParameterFit {
 fn checked<'a>(
     nominal: &Motor,
     transients: &'a [MeasuredTransient],
-    ranges: &'a [FitRange],
+    ranges: &[FitRange],
     settings: &'a ParameterFitSettings,
 ) -> Result<Model<'a>, FitError> {
     settings.check()?;
     check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
     within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
-    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 5]")?;
+    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 6]")?;
     for (k, range) in ranges.iter().enumerate() {
         range.check_for(nominal)?;
         let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
@@ -219,7 +234,7 @@ fn checked<'a>(
         }
         windows.push(Windows::of(transient, settings.windows, transient.error_variance()?, 0.0));
     }
-    Ok(Model { nominal: *nominal, transients, ranges, settings, windows })
+    Ok(Model { nominal: *nominal, transients, ranges: ranges.to_vec(), settings, windows })
 }
 
 /// Refuses transients whose times do not count from the switch-on. To first order an offset of the clock
@@ -233,7 +248,7 @@ fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Res
     let windows =
         all().map(|(own, transient)| Windows::of(transient, model.settings.windows, 0.0, step(own)));
     let moved =
-        Model { windows: windows.collect(), ..*model }.members(std::slice::from_ref(places), watch)?;
+        Model { windows: windows.collect(), ..model.clone() }.members(std::slice::from_ref(places), watch)?;
     let gained = mean_of(&moved[0]) - mean_of(&local.members);
     let rest = weights.apply(&(model.measured() - &local.smooth));
     let response = directions.response();

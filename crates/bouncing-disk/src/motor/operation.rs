@@ -7,7 +7,7 @@
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;
-mod driven_member;
+pub(crate) mod driven_member;
 mod energy_rows;
 pub(crate) mod ensemble;
 mod member;

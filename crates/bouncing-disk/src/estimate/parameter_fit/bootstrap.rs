@@ -10,11 +10,7 @@ use crate::estimate::parameter_fit::weights::Weights;
 use crate::statistics::{drawn_index, normal};
 
 /// The differences of the places of resampled fits from that of the fit: one column for each resample, sorted
-/// in each row.
-///
-/// A resampled measurement is the mean of as many members as runs were measured, with errors of measurement.
-/// It is compared with a model that is the mean of members drawn again. The best fit follows both along
-/// `response`.
+/// in each row. The best fit follows [`differences`] along `response`.
 pub(crate) fn resampled_places(
     model: &Model<'_>,
     local: &Local,
@@ -22,11 +18,26 @@ pub(crate) fn resampled_places(
     response: &DMatrix<f64>,
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<Vec<f64>>, Error> {
+    let mut places = vec![Vec::with_capacity(model.settings.resamples); response.nrows()];
+    for difference in differences(model, local) {
+        let moved = response * weights.apply(&difference);
+        places.iter_mut().zip(moved.iter()).for_each(|(all, &place)| all.push(place));
+        work.spend(local.members.nrows() as u64)?;
+    }
+    places.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
+    Ok(places)
+}
+
+/// Differences between a resampled measurement and a model that is the mean of members drawn again: the
+/// measurement is the mean of as many members as runs were measured, with errors of measurement.
+pub(crate) fn differences<'a>(
+    model: &'a Model<'_>,
+    local: &'a Local,
+) -> impl Iterator<Item = DVector<f64>> + 'a {
     let mut generator = SplitMix64::new(model.settings.seed ^ 0x5EED);
     let members = &local.members;
     let (count, mean) = (members.nrows(), mean_of(members));
-    let mut places = vec![Vec::with_capacity(model.settings.resamples); response.nrows()];
-    for _ in 0..model.settings.resamples {
+    (0..model.settings.resamples).map(move |_| {
         let mut difference = DVector::zeros(members.ncols());
         let mut first = 0;
         for (windows, transient) in model.windows.iter().zip(model.transients) {
@@ -53,10 +64,6 @@ pub(crate) fn resampled_places(
             }
             first += size;
         }
-        let moved = response * weights.apply(&difference);
-        places.iter_mut().zip(moved.iter()).for_each(|(all, &place)| all.push(place));
-        work.spend(count as u64)?;
-    }
-    places.iter_mut().for_each(|all| all.sort_by(f64::total_cmp));
-    Ok(places)
+        difference
+    })
 }

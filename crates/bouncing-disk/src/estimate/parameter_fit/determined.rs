@@ -29,6 +29,10 @@ impl Directions {
     /// subtracted.
     pub(crate) fn of(weights: &Weights, local: &Local) -> Self {
         let derivatives = &local.derivatives;
+        if derivatives.is_empty() {
+            let none = DMatrix::zeros(local.smooth.len(), 0);
+            return Self { determined: DMatrix::zeros(0, 0), undetermined: Vec::new(), derivatives: none };
+        }
         let columns: Vec<DVector<f64>> =
             derivatives.iter().map(|members| weights.apply(&mean_of(members))).collect();
         let weighted = DMatrix::from_columns(&columns);

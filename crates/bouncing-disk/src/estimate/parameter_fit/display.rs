@@ -71,6 +71,10 @@ impl Display for ParameterFit {
         }
         let (misfit, degrees) = (numbers(f)(self.misfit), self.degrees_of_freedom);
         write!(f, "sum of weighted squares {misfit} for {degrees} degrees of freedom")?;
+        for (index, times) in self.contact_times.iter().enumerate() {
+            f.write_str(if index == 0 { "\ncontact time: " } else { ", or " })?;
+            times.fmt(f)?;
+        }
         for direction in &self.undetermined {
             f.write_str("\nnot determined: ")?;
             direction.fmt(f)?;
@@ -107,6 +111,7 @@ mod tests {
                 ParameterEstimate { parameter: FitParameter::PhaseLag, nominal: 0.5, estimate: None },
             ],
             undetermined: vec![direction.clone()],
+            contact_times: Vec::new(),
             motor: Motor::paper_70_khz(),
             misfit: 17.26,
             degrees_of_freedom: 16,

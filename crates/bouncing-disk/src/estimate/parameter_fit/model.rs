@@ -32,11 +32,11 @@ pub(crate) const SPAN: f64 = 0.4;
 const NODES: usize = 9;
 
 /// The motor, what was measured of it, and what is to be found.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Model<'a> {
     pub(crate) nominal: Motor,
     pub(crate) transients: &'a [MeasuredTransient],
-    pub(crate) ranges: &'a [FitRange],
+    pub(crate) ranges: Vec<FitRange>,
     pub(crate) settings: &'a ParameterFitSettings,
     pub(crate) windows: Vec<Windows>,
 }
@@ -54,6 +54,12 @@ impl Model<'_> {
     pub(crate) fn measured(&self) -> DVector<f64> {
         let all = self.windows.iter().flat_map(|windows| windows.measured.iter().copied());
         DVector::from_iterator(self.statistics(), all)
+    }
+
+    /// The places of the data sheet.
+    pub(crate) fn start(&self) -> DVector<f64> {
+        let places = self.ranges.iter().map(|range| range.place_of(range.parameter.of(&self.nominal)));
+        DVector::from_iterator(self.ranges.len(), places.map(|place| place.clamp(-1.0, 1.0)))
     }
 
     /// The motor at these places in the ranges.

@@ -28,9 +28,21 @@ pub enum FitParameter {
     /// Twist amplitude Phi of the stator (rad), also where the data sheet has the peak angular speed omega
     /// Phi. Coordinate: its logarithm.
     TwistAmplitude,
+    /// How long an isolated impact lasts (s); zero where impacts are rigid. Coordinate: its logarithm.
+    ContactTime,
 }
 
 impl FitParameter {
+    /// All of them, in the order in which they are listed.
+    pub const ALL: [Self; 6] = [
+        Self::Friction,
+        Self::Restitution,
+        Self::PhaseLag,
+        Self::Amplitude,
+        Self::TwistAmplitude,
+        Self::ContactTime,
+    ];
+
     /// The field of the data sheet.
     const fn field(self) -> MotorField {
         match self {
@@ -39,6 +51,7 @@ impl FitParameter {
             Self::PhaseLag => MotorField::PhaseLag,
             Self::Amplitude => MotorField::Amplitude,
             Self::TwistAmplitude => MotorField::TwistAmplitude,
+            Self::ContactTime => MotorField::ContactTime,
         }
     }
 
@@ -56,7 +69,7 @@ impl FitParameter {
 
     /// Its value for a motor (SI).
     #[must_use]
-    pub const fn of(self, motor: &Motor) -> f64 {
+    pub fn of(self, motor: &Motor) -> f64 {
         let (stator, rotor) = (motor.system().platform(), motor.system().disk());
         match self {
             Self::Friction => rotor.friction(),
@@ -64,6 +77,7 @@ impl FitParameter {
             Self::PhaseLag => stator.phase_lag(),
             Self::Amplitude => stator.amplitude(),
             Self::TwistAmplitude => stator.twist_amplitude(),
+            Self::ContactTime => motor.system().soft_contact().map_or(0.0, |(_, time)| time),
         }
     }
 
@@ -73,7 +87,7 @@ impl FitParameter {
     }
 
     pub(crate) const fn is_size(self) -> bool {
-        matches!(self, Self::Friction | Self::Amplitude | Self::TwistAmplitude)
+        matches!(self, Self::Friction | Self::Amplitude | Self::TwistAmplitude | Self::ContactTime)
     }
 
     pub(crate) fn coordinate(self, value: f64) -> f64 {
@@ -121,7 +135,8 @@ impl std::fmt::Display for FitParameter {
 pub struct FitRange {
     /// The parameter.
     pub parameter: FitParameter,
-    /// Lower end (SI): positive, or in [0, 1) for the restitution, or finite for the phase lag.
+    /// Lower end (SI): positive, or in [0, 1) for the restitution, or finite for the phase lag. Contact times below a
+    /// tenth of a period count as rigid.
     pub low: f64,
     /// Upper end (SI), above the lower one, below 1 for the restitution, at most a turn above for the phase
     /// lag.
@@ -141,11 +156,17 @@ impl FitRange {
         Ok(())
     }
 
-    /// Checks the range, and that it holds the data sheet's value.
+    /// Checks the range, and that it holds the data sheet's value, unless it is the contact time's: that is
+    /// scanned.
     pub(crate) fn check_for(&self, motor: &Motor) -> Result<(), Error> {
         self.check()?;
         let Self { parameter, low, high } = *self;
         let nominal = parameter.of(motor);
+        if parameter == FitParameter::ContactTime {
+            motor.with(|sheet| parameter.set(sheet, low))?;
+            motor.with(|sheet| parameter.set(sheet, high))?;
+            return Ok(());
+        }
         check(
             nominal >= low && nominal <= high,
             parameter.name(),

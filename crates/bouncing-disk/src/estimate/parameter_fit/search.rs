@@ -63,6 +63,24 @@ impl Linearised {
         Ok(Self { places, local, weights, directions })
     }
 
+    /// The least squares from a place, with the weights and directions of their end.
+    pub(crate) fn search(
+        model: &Model<'_>,
+        start: DVector<f64>,
+        evaluations: &mut Evaluations,
+        watch: &Watch<'_>,
+    ) -> Result<Self, FitError> {
+        let mut state = Self::at(model, start, evaluations, watch)?;
+        let mut is_near = state.directions.determined.ncols() == 0;
+        while !is_near {
+            let places = least_squares(model, &state, evaluations, watch)?;
+            let next = Self::at(model, places, evaluations, watch)?;
+            is_near = next.directions.determined.ncols() == 0 || next.is_near(&state);
+            state = next;
+        }
+        Ok(state)
+    }
+
     /// Whether the weights and directions are those of the other place as well.
     pub(crate) fn is_near(&self, other: &Self) -> bool {
         let moved = &self.directions.derivatives * (&self.places - &other.places);
@@ -160,7 +178,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Search<'_> {
 }
 
 /// The place of the least squares along the directions that are determined, from a place.
-pub(crate) fn least_squares(
+fn least_squares(
     model: &Model<'_>,
     start: &Linearised,
     evaluations: &mut Evaluations,

@@ -3,14 +3,17 @@ use std::ops::ControlFlow;
 
 use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::sweep::InstructionSet;
 use bouncing_disk_core::{Phase, Progress, Unobserved};
 
 use super::measured_transient::RunPreload;
 use super::*;
 use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::estimate::parameter_fit::weights::Weights;
+use crate::motor::batch::shared_orbit::transients::shared_transients;
 use crate::motor::data_sheet::traps::low_period_traps;
 use crate::motor::rotor::transient::{TransientSettings, transient};
+use crate::parameters::contact::Contact;
 use crate::testing::Noise;
 
 const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.05, high: 1.0 };
@@ -300,6 +303,8 @@ fn input_that_means_nothing_is_refused_by_name() {
         FitRange { high: 1.0, ..RESTITUTION },
         FitRange { low: -0.1, ..RESTITUTION },
         FitRange { low: -PI, high: 1.1 * PI, ..LAG },
+        contact_range(0.0, 1.0),
+        contact_range(0.1, 1e9),
     ] {
         refusal(good.clone(), range);
     }
@@ -388,4 +393,83 @@ fn a_rare_misfit_is_that_of_one_fit_in_ten_thousand() {
         let tail = exp(-half) * sum;
         assert!((0.7e-4..1.1e-4).contains(&tail), "{pairs}: {tail}");
     }
+}
+
+/// A short run-up with much friction, of impacts that last for some periods: rigid ones for zero.
+fn soft(periods: f64, lag: f64) -> Motor {
+    let sheet =
+        Motor::paper_70_khz().with(|sheet| (sheet.friction, sheet.phase_lag) = (1.0, lag)).expect("legal");
+    lasting(&sheet, periods)
+}
+
+fn lasting(motor: &Motor, periods: f64) -> Motor {
+    let time = periods / 70e3;
+    motor.with(|sheet| sheet.contact = (time > 0.0).then(|| Contact::lasting(time))).expect("legal")
+}
+
+/// Contact times in periods.
+fn contact_range(low: f64, high: f64) -> FitRange {
+    FitRange { parameter: FitParameter::ContactTime, low: low / 70e3, high: high / 70e3 }
+}
+
+/// Synthetic.
+fn soft_run(motor: &Motor, duration: f64, seed: u64) -> MeasuredTransient {
+    let mut generator = SplitMix64::new(seed);
+    let phase = Phase::new(TAU * generator.unit()).expect("legal");
+    let settings = TransientSettings {
+        duration,
+        intervals: 160,
+        seed: generator.next_number(),
+        ..TransientSettings::default()
+    };
+    let watch = Watch::begin(&Unobserved, 0, 1).expect("goes on");
+    let curve =
+        shared_transients(&[*motor.system()], phase, &settings, InstructionSet::best(), &mut watch.work());
+    let curve = curve.expect("no failure").remove(0);
+    let mut noise = Noise::new(seed ^ 0xABCD);
+    let speeds = curve.speeds.iter().map(|speed| speed + 0.2 * noise.normal()).collect();
+    measured(motor.preload_acceleration(), curve.times, speeds, Some(0.2))
+}
+
+fn fit_soft(sheet: &Motor, run: MeasuredTransient, ranges: &[FitRange]) -> Result<ParameterFit, FitError> {
+    let settings = ParameterFitSettings { members: 24, ..ParameterFitSettings::default() };
+    ParameterFit::new(sheet, &[run], ranges, &settings, &Unobserved)
+}
+
+#[test]
+fn a_contact_time_of_a_period_is_found_from_a_rigid_data_sheet() {
+    let fit = fit_soft(&soft(0.0, 0.0), soft_run(&soft(1.0, 0.0), 0.1, 1), &[contact_range(0.8, 2.0)])
+        .expect("fitted");
+    let found = fit.estimate(FitParameter::ContactTime).expect("determined");
+    assert!(found.contains(1.0 / 70e3) && found.high < 1.1 * found.low, "{found:?}");
+    assert!((FitParameter::ContactTime.of(&fit.motor) - found.value).abs() <= 0.0);
+    assert_eq!(fit.parameters[0].nominal.to_bits(), 0);
+}
+
+#[test]
+fn short_contacts_have_an_upper_bound_only() {
+    for periods in [0.0, 0.05] {
+        let fit =
+            fit_soft(&soft(1.0, 0.0), soft_run(&soft(periods, 0.0), 0.1, 2), &[contact_range(0.01, 1.5)])
+                .expect("fitted");
+        assert_eq!(fit.estimate(FitParameter::ContactTime), None);
+        assert!(fit.contact_times[0].low.is_none(), "{fit}");
+        assert!(fit.contact_times[0].high.is_some_and(|high| high > 0.1 / 70e3), "{fit}");
+    }
+}
+
+/// The steady speed of rigid impacts is twice as high: there is no friction for which it is right.
+#[test]
+fn a_friction_is_found_on_contacts_that_take_time_and_not_on_rigid_ones() {
+    let truth = soft(1.0, 0.0);
+    let range = FitRange { high: 3.0, ..FRICTION };
+    let sheet = truth.with(|sheet| sheet.friction = 0.7).expect("legal");
+    let fit = fit_soft(&sheet, soft_run(&truth, 0.1, 3), &[range]).expect("fitted");
+    let found = fit.estimate(FitParameter::Friction).expect("determined");
+    assert!(found.contains(1.0) && found.high < 1.2 * found.low, "{fit}");
+    let error = fit_soft(&lasting(&sheet, 0.0), soft_run(&truth, 0.4, 3), &[range]).expect_err("too slow");
+    assert!(
+        matches!(error, FitError::Refused(FitRefusal::Misfit { .. } | FitRefusal::AtRangeEnd { .. })),
+        "{error}"
+    );
 }

@@ -1,5 +1,6 @@
 //! The weights of the squares: the scatter of the means of a measured transient.
 
+use bouncing_disk_core::numerics::elementary::ln;
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::error::{Error, finite};
@@ -55,6 +56,12 @@ impl Weights {
             first += size;
         }
         Ok(Self { blocks })
+    }
+
+    /// The logarithm of the determinant of the covariance.
+    pub(crate) fn ln_determinant(&self) -> f64 {
+        let diagonals = self.blocks.iter().map(|block| block.l_dirty().diagonal());
+        diagonals.map(|diagonal| diagonal.iter().map(|&root| 2.0 * ln(root)).sum::<f64>()).sum()
     }
 
     /// Numbers that are independent and of variance one where those of the windows scatter as these do.

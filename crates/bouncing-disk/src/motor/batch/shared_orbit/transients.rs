@@ -4,16 +4,19 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneLoop, LaneRunner};
 use bouncing_disk_core::{Impact, OrbitEvent, Phase};
 
+use crate::driven::DrivenSystem;
 use crate::error::{Error, room_for, within_limit};
 use crate::motion::phase_time::PhaseTime;
 use crate::motor::batch::members::{MAX_MEMBERS, MAX_SPEEDS};
 use crate::motor::batch::rotor_rows::{RotorRows, Row, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::shared_by;
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
+use crate::motor::operation::driven_member::Driven;
 use crate::motor::rotor::transient::{
     Bins, FLIGHTS_OF_EVENT, Interval, SpeedCurve, TransientSettings, curve, seconds,
 };
 use crate::motor::rotor::{Rotor, RotorStep};
+use crate::parameters::driven_platform::{DrivenPlatform, Waveform};
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
 
@@ -36,11 +39,13 @@ pub(crate) fn shared_transients(
     work: &mut WorkCount<'_>,
 ) -> Result<Vec<SpeedCurve>, Error> {
     let first = shared_by(systems)?;
-    first.rigid()?;
     settings.check_for(&first.scales())?;
     within_limit("rotors on one vertical motion", systems.len(), MAX_MEMBERS)?;
     within_limit("speeds of all curves", systems.len().saturating_mul(settings.intervals), MAX_SPEEDS)?;
     let perturbation = (settings.relaunch_perturbation, settings.seed);
+    if first.soft_contact().is_some() {
+        return soft_transients(systems, phase, settings, perturbation, work);
+    }
     let vertical = VerticalMotion::from_rest(first.dimensionless(), phase, settings.policy, perturbation)?;
     let Some(vertical) = vertical else {
         // Rotors that never leave the platform share no vertical motion.
@@ -49,6 +54,36 @@ pub(crate) fn shared_transients(
     let mut run = SharedRun::new(systems, phase, settings, vertical, set)?;
     run.compute(work)?;
     run.finished()
+}
+
+/// The same where contacts take time, up to the error of angles that are spread evenly between the releases next to
+/// the ends of the intervals.
+fn soft_transients(
+    systems: &[System],
+    phase: Phase,
+    settings: &TransientSettings,
+    perturbation: (f64, u64),
+    work: &mut WorkCount<'_>,
+) -> Result<Vec<SpeedCurve>, Error> {
+    let driven = systems.iter().map(|system| {
+        let stator = DrivenPlatform::new(*system.platform(), Waveform::Sine, Waveform::Sine)?;
+        DrivenSystem::new(&stator.with_contact(system.soft_contact()), system.disk())
+    });
+    let driven = driven.collect::<Result<Vec<_>, Error>>()?;
+    let mut member = Driven::new(driven.iter().map(|system| (system, 0.0)), phase, perturbation)?;
+    let bins = systems.iter().map(|_| Bins::new(settings.duration, settings.intervals));
+    let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
+    let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);
+    while bins[0].present.reached < settings.duration {
+        let window = member.next_window(bins[0].width / unit, 1..=u64::MAX, work)?;
+        passed += window.axial.duration;
+        impacts += window.axial.impacts;
+        for (bins, rotor) in bins.iter_mut().zip(&window.rotors) {
+            bins.add(passed * unit, rotor.angle);
+        }
+    }
+    let curves = bins.into_iter().zip(systems);
+    curves.map(|(bins, system)| curve(bins, &system.scales(), (impacts, impacts))).collect()
 }
 
 /// Angles turned by the rotors of a row.

@@ -56,6 +56,32 @@ fn assert_as_alone(systems: &[System], phase: Phase, settings: &TransientSetting
     }
 }
 
+/// Flights, taps, a transient between them, and a rotor that never leaves the stator: that of the engine that
+/// knows no taps, which shares neither windows nor the common motion.
+#[test]
+fn contacts_that_take_time_carry_rotors_as_the_engine_does() {
+    let settings = TransientSettings { duration: 0.01, intervals: 8, ..TransientSettings::default() };
+    for (periods, amplitude) in [(0.3, 1e-8), (0.65, 1e-8), (1.0, 1e-8), (8.0, 1e-8), (1.0, 4e-11)] {
+        let one = crate::Motor::paper_70_khz().with(|sheet| {
+            sheet.amplitude = amplitude;
+            sheet.contact = Some(crate::parameters::contact::Contact::lasting(periods / 70e3));
+        });
+        let one = one.expect("legal");
+        let other = one.with(|sheet| (sheet.friction, sheet.phase_lag) = (0.3, -1.0)).expect("legal");
+        let systems = [*one.system(), *other.system()];
+        let own = unobserved(&systems, zero(), &settings, InstructionSet::best()).expect("no failure");
+        for (own, motor) in own.iter().zip([one, other]) {
+            let engine =
+                crate::motor::DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).expect("legal");
+            let engine = engine.transient(zero(), &settings, &Unobserved).expect("no failure");
+            let (own, engine) = (own.speeds[7], engine.speeds[7]);
+            // Of flights the events before chaos parts them; the ends of intervals lie within a flight or a tap.
+            let tolerance = if periods < 0.7 { 0.5 } else { 0.02 };
+            assert!((own - engine).abs() < tolerance * engine.abs(), "{periods} {amplitude}: {own} {engine}");
+        }
+    }
+}
+
 /// Rows that are full, half full, and of one rotor; platforms that throw the rotor far, hardly and never;
 /// both ends of a chatter; starts that lie, that fly at once, and on the seams between the two.
 #[test]
