@@ -1,5 +1,7 @@
 //! Columns of orbit diagrams.
 
+use std::f64::consts::TAU;
+
 use bouncing_disk::core::attractors::driven_diagram;
 use bouncing_disk::core::sweep::{is_settling, orbit_diagram, repeats_every};
 use bouncing_disk::core::{ChatterPolicy, Error as CoreError, ImpactState, Observer, Unobserved};
@@ -50,16 +52,18 @@ pub(crate) fn answer(request: &DiagramRequest) -> Result<Reply, Refusal> {
         return Err(Refusal::out_of_range("patience", patience as f64, "at most 10^6"));
     }
     let (drive, policy) = (&request.drive, ChatterPolicy::Complete);
+    let contact = system.soft_contact().map(|(_, time)| time * system.platform().angular_frequency() / TAU);
     let maps = || forcings.iter().map(|forcing| map(*forcing, system.disk().restitution()));
     let columns = if request.rotation {
         drive.sine()?;
+        system.rigid()?;
         let columns = forcings.iter().map(|forcing| rotating(&system, *forcing, start, request));
         columns.collect::<Result<Vec<_>, _>>()?
-    } else if drive.sine().is_ok() {
+    } else if drive.sine().is_ok() && contact.is_none() {
         let orbits = maps().map(|map| Ok(map?.orbit(start, policy)));
         vertical(orbits.collect::<Result<_, Refusal>>()?, orbit_diagram, request)?
     } else {
-        let orbits = maps().map(|map| Ok(drive.map(&map?, None)?.orbit(start, policy)));
+        let orbits = maps().map(|map| Ok(drive.map(&map?, contact)?.orbit(start, policy)));
         vertical(orbits.collect::<Result<_, Refusal>>()?, driven_diagram, request)?
     };
     let mut numbers = Vec::with_capacity(4 * request.recorded * columns.len());

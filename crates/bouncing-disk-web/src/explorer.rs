@@ -4,7 +4,7 @@
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::reply::{Refusal, Reply};
-use crate::request::Request;
+use crate::request::{Request, rigid};
 use crate::shared_basins::SharedAttractors;
 use crate::{branches, diagram, motion, motor, orbit};
 
@@ -41,11 +41,13 @@ impl Explorer {
                 motion::answer(&system.build()?, start, periods, samples_per_period)
             }
             Request::Diagram(request) => diagram::answer(&request),
-            Request::Orbit { axial_forcing, restitution, start } => {
+            Request::Orbit { axial_forcing, restitution, contact_periods, start } => {
+                rigid(contact_periods)?;
                 orbit::verdict(axial_forcing, restitution, start)
             }
             Request::Branches { restitution, axial_forcing } => branches::answer(restitution, axial_forcing),
-            Request::Attractors { axial_forcing, restitution } => {
+            Request::Attractors { axial_forcing, restitution, contact_periods } => {
+                rigid(contact_periods)?;
                 self.attractors.list(axial_forcing, restitution)
             }
             Request::Basins(request) => self.attractors.rows(&request),

@@ -1,11 +1,15 @@
 //! The motion of the engine: samples for an animation, and the events.
 
+use std::f64::consts::TAU;
+
 use bouncing_disk::core::Phase;
 use bouncing_disk::core::{ChatterPolicy, Unobserved};
+use bouncing_disk::driven::{DrivenEngine, DrivenSystem};
 use bouncing_disk::motion::{
-    DiskState, EnergyLedger, EventKind, MAX_SAMPLES, Mode, PhaseSpan, PlatformState, SlipDirection,
+    DiskState, EnergyLedger, EventKind, MAX_SAMPLES, Mode, PhaseSpan, PhaseTime, PlatformState,
+    SlipDirection, Snapshot,
 };
-use bouncing_disk::parameters::Scales;
+use bouncing_disk::parameters::{DrivenPlatform, Scales};
 use bouncing_disk::toss::CollisionState;
 use bouncing_disk::{Engine, Event, EventRecord, InitialCondition, System};
 use serde_json::json;
@@ -38,29 +42,9 @@ pub(crate) fn answer(
     if samples_per_period == 0 || samples > MAX_SAMPLES as u64 {
         return Err(Refusal::out_of_range("samples", samples as f64, "at most 2^24 together"));
     }
-    let mut engine = Engine::new(*system, condition(system, start)?, ChatterPolicy::Complete)?;
-    let (scales, begun) = (system.scales(), engine.time());
-    let span = PhaseSpan { periods, remainder: 0.0 };
-    let end = begun.after(span);
-    let snapshots = engine.clone().sample(span, samples as usize, &Unobserved)?;
-    let mut records = Vec::new();
-    let mut ledger = EnergyLedger::default();
-    // The event after the end, and what follows the last one where nothing more happens, are unfinished.
-    let unfinished = loop {
-        match engine.advance()? {
-            Some(record) if record.time.order(&end).is_gt() => {
-                break record.segment.ledger_after(engine.system(), end.since(&record.segment.start));
-            }
-            Some(record) => {
-                ledger += record.ledger;
-                if records.len() < MOST_EVENTS {
-                    records.push(record);
-                }
-            }
-            None => break engine.ledger_after(end.since(&engine.time())),
-        }
-    };
-
+    let scales = system.scales();
+    let follow = if system.soft_contact().is_some() { soft } else { rigid };
+    let Course { begun, snapshots, records, ledger } = follow(system, start, periods, samples_per_period)?;
     let mut numbers = Vec::with_capacity(9 * snapshots.len() + 6 * records.len());
     let mut bytes = Vec::with_capacity(snapshots.len() + records.len());
     for snapshot in &snapshots {
@@ -84,7 +68,7 @@ pub(crate) fn answer(
         numbers.extend(event(&scales, record));
         bytes.push(kind(&record.event));
     }
-    let ledger = scales.energy(&(ledger + unfinished));
+    let ledger = scales.energy(&ledger);
     let json = json!({
         "samples": snapshots.len(),
         "events": records.len(),
@@ -98,6 +82,91 @@ pub(crate) fn answer(
         },
     });
     Reply::new(&json, numbers, bytes)
+}
+
+/// A motion in the units of the engine.
+struct Course {
+    begun: PhaseTime,
+    snapshots: Vec<Snapshot>,
+    records: Vec<EventRecord>,
+    ledger: EnergyLedger,
+}
+
+impl Course {
+    fn new(begun: PhaseTime, snapshots: Vec<Snapshot>) -> Self {
+        Self { begun, snapshots, records: Vec::new(), ledger: EnergyLedger::default() }
+    }
+
+    fn take(&mut self, record: EventRecord) {
+        self.ledger += record.ledger;
+        if self.records.len() < MOST_EVENTS {
+            self.records.push(record);
+        }
+    }
+}
+
+fn rigid(system: &System, start: MotionStart, periods: u64, samples: u64) -> Result<Course, Refusal> {
+    let mut engine = Engine::new(*system, condition(system, start)?, ChatterPolicy::Complete)?;
+    let begun = engine.time();
+    let span = PhaseSpan { periods, remainder: 0.0 };
+    let end = begun.after(span);
+    let snapshots = engine.clone().sample(span, (periods * samples + 1) as usize, &Unobserved)?;
+    let mut course = Course::new(begun, snapshots);
+    // The event after the end, and what follows the last one where nothing more happens, are unfinished.
+    let unfinished = loop {
+        match engine.advance()? {
+            Some(record) if record.time.order(&end).is_gt() => {
+                break record.segment.ledger_after(engine.system(), end.since(&record.segment.start));
+            }
+            Some(record) => course.take(record),
+            None => break engine.ledger_after(end.since(&engine.time())),
+        }
+    };
+    course.ledger += unfinished;
+    Ok(course)
+}
+
+/// A motion through contacts that take time. An impact at the start is the touch of the first one.
+fn soft(system: &System, start: MotionStart, periods: u64, samples: u64) -> Result<Course, Refusal> {
+    let platform = DrivenPlatform::from(*system.platform()).with_contact(system.soft_contact());
+    let (driven, policy) = (DrivenSystem::new(&platform, system.disk())?, ChatterPolicy::Complete);
+    let at = |phase| PlatformState::at(system.dimensionless(), phase);
+    let mut next = match start {
+        MotionStart::Impact { impact_phase, normalised_speed, angular_speed } if normalised_speed > 0.0 => {
+            let impact = ImpactStart { impact_phase, normalised_speed }.state()?;
+            let mut state = DiskState { mode: Mode::Flight, ..carried(&at(impact.phase())) };
+            state.axial_velocity += impact.velocity();
+            state.angular_speed = angular_speed / system.scales().angular_speed;
+            let begun = PhaseTime { periods: 0, phase: impact.phase() };
+            DrivenEngine::of_state(driven, begun, state, policy)?
+        }
+        start => DrivenEngine::new(driven, condition(system, start)?, policy)?,
+    };
+    let mut course = Course::new(next.time(), Vec::new());
+    let instant = |begun: PhaseTime, index: u64| {
+        let share = (index % samples) as f64 / samples as f64;
+        begun.after(PhaseSpan { periods: index / samples, remainder: TAU * share })
+    };
+    let end = instant(course.begun, periods * samples);
+    loop {
+        let engine = next.clone();
+        let record = next.advance()?;
+        while course.snapshots.len() as u64 <= periods * samples {
+            let time = instant(course.begun, course.snapshots.len() as u64);
+            if record.is_some_and(|record| time.order(&record.time).is_ge()) {
+                break;
+            }
+            let (_, disk) = engine.state_after(time.since(&engine.time()).radians());
+            course.snapshots.push(Snapshot { time, disk, platform: at(time.phase) });
+        }
+        match record.filter(|record| record.time.order(&end).is_le()) {
+            Some(record) => course.take(record),
+            None => {
+                course.ledger += engine.ledger_after(end.since(&engine.time()).radians());
+                return Ok(course);
+            }
+        }
+    }
 }
 
 /// The start in the units of the engine.

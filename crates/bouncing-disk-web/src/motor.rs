@@ -5,9 +5,10 @@ use std::iter;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{FitError, FitRefusal, FitSettings, RiseForm, Spread, TransientFit};
 use bouncing_disk::motor::{
-    Estimate, MotorParameters, OperatingSettings, Operation, Shortfall, SpeedCurve, TransientMember,
-    TransientSettings, transients,
+    DrivenMotor, Estimate, MotorParameters, OperatingSettings, Operation, Shortfall, SpeedCurve,
+    TransientMember, TransientSettings, transients,
 };
+use bouncing_disk::parameters::{ContactLaw, ContactStatement, DriveParameters};
 use bouncing_disk::{Error, Motor, System};
 use serde_json::{Value, json};
 
@@ -20,16 +21,22 @@ const FEW_IMPACTS: u64 = 5_000_000;
 /// Most impacts that a request may allow: those of the library's default.
 const MOST_IMPACTS: u64 = 20_000_000;
 
+/// A tap takes longer than an impact, and taps scatter less: so many times fewer members and impacts.
+const FEWER: usize = 4;
+
 /// The distance up to which a trap is reported, as a relative change of the preload or the amplitude.
 const TRAP_RANGE: f64 = 0.02;
 
 /// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
 /// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
-/// relative change of the preload or the amplitude that reaches it, and its range of the forcing.
+/// relative change of the preload or the amplitude that reaches it, and its range of the forcing; none is looked
+/// for where contacts take time.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     let report = motor.report(&Unobserved)?;
-    let trap = motor.nearest_trap(TRAP_RANGE, &Unobserved)?.map(|trap| {
+    let rigid = soft(motor)?.is_none();
+    let trap = if rigid { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
+    let trap = trap.map(|trap| {
         json!({
             "preload_acceleration": trap.preload_acceleration,
             "caught": trap.relative_distance == 0.0,
@@ -41,6 +48,7 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
         "axial_forcing": report.axial_forcing,
         "angular_forcing": report.angular_forcing,
         "regime": report.regime.to_string(),
+        "contact": ContactStatement::rows(report.contact.as_ref()),
         "largest_torque": report.largest_torque,
         "warnings": report.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
         "text": report.to_string(),
@@ -50,16 +58,25 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     }))
 }
 
+/// The motor whose contacts take time, if they do.
+fn soft(motor: Motor) -> Result<Option<DrivenMotor>, Error> {
+    DrivenMotor::where_needed(motor, &DriveParameters::default())
+}
+
 /// The form that fits a run-up best, an exponential or a ramp: its time constant, or the time at which the straight rise
 /// ends (s), and the root mean square of what it misses (rad/s); or why there is none. Numbers: rows of the time (s), the
 /// mean angular speed over the members and its standard error (rad/s).
 pub(crate) fn transient(request: &TransientRequest) -> Result<Reply, Refusal> {
     let TransientRequest { sheet, members, rise_times, points: intervals, seed } = *request;
-    let system = *sheet.build()?.system();
+    let motor = sheet.build()?;
+    let system = *motor.system();
     let duration = rise_times * system.rise_time();
     let settings = TransientSettings { duration, intervals, seed, ..TransientSettings::default() };
     let runs = TransientMember::of_ensemble(&system, &settings, members)?;
-    let curves = transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?;
+    let curves = match soft(motor)? {
+        Some(soft) => soft.transients(&runs, &Unobserved)?,
+        None => transients(&runs, &Unobserved)?.into_iter().collect::<Result<Vec<SpeedCurve>, Error>>()?,
+    };
     let times = curves.first().map_or(&[][..], |curve| &curve.times);
     let mut numbers = Vec::new();
     for (place, time) in times.iter().enumerate() {
@@ -103,8 +120,16 @@ const fn refused_since(reason: &FitRefusal) -> &'static str {
 /// numbers are the best so far), 2 runaway (the load drives the rotor; the numbers are NaN).
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
     let LoadsRequest { sheet, load_torques, relative_error, most_impacts, seed } = request;
-    let settings = settings(*relative_error, *most_impacts, *seed)?;
-    let operations = sheet.build()?.torque_speed_curve(load_torques, &settings, &Unobserved)?;
+    let mut settings = settings(*relative_error, *most_impacts, *seed)?;
+    let motor = sheet.build()?;
+    let operations = match soft(motor)? {
+        Some(soft) => {
+            settings.members /= FEWER;
+            settings.most_impacts /= FEWER as u64;
+            soft.torque_speed_curve(load_torques, &settings, &Unobserved)?
+        }
+        None => motor.torque_speed_curve(load_torques, &settings, &Unobserved)?,
+    };
     let shortfalls: Vec<_> = operations.iter().map(lacking).collect();
     Reply::new(&json!({ "shortfalls": shortfalls }), operations.iter().flat_map(row).collect(), Vec::new())
 }
@@ -154,8 +179,12 @@ fn lacking(operation: &Operation) -> Option<String> {
 
 /// A motor that does not turn without a load has no stall load, which is an answer and no failure.
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
-    let (torque, speed) = match sheet.build()?.stall_load(&settings(relative_error, None, seed)?, &Unobserved)
-    {
+    let motor = sheet.build()?;
+    if soft(motor)?.is_some() {
+        let message = "with a contact time the search takes minutes: use bouncing-disk motor stall";
+        return Err(Refusal::new("computation", message.to_owned()));
+    }
+    let (torque, speed) = match motor.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
         Ok(stall) => (Some(stall.torque), stall.no_load_speed),
         Err(Error::DoesNotTurn { speed, standard_error }) => {
             (None, Estimate { value: speed, standard_error })
@@ -175,8 +204,15 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
     Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
+/// The page has one law of contacts that take time.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
-    sheet_of(&Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?)
+    let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
+    if let Some((ContactLaw::Hysteresis, _)) = motor.system().soft_contact() {
+        let message =
+            "contact.law = \"hysteresis\" is for the command line and Python: contacts have a damper here";
+        return Err(Refusal::new("text", message.to_owned()));
+    }
+    sheet_of(&motor)
 }
 
 /// The sheet of a system and a mass (kg), with the load as a torque.

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk::System;
 use bouncing_disk::core::attractors::{UndecidedReason, Verdict, VerdictSettings};
+use bouncing_disk::parameters::ContactStatement;
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
@@ -11,6 +12,7 @@ use crate::request::{ImpactStart, map};
 
 /// The angular forcing is null without friction, the rise time (that of a motor without load) where nothing
 /// turns; the peak acceleration is in units of the preload. A platform that `bounces` leaves a disk at rest.
+/// The contact time over the period and the indentation are null where no time is given.
 pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
     Reply::short(&json!({
         "axial_forcing": system.axial_forcing(),
@@ -20,6 +22,7 @@ pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
         "stroke": system.stroke().stroke,
         "rise_time": Some(system.rise_time()).filter(|time| time.is_finite() && *time > 0.0),
         "bounces": system.dimensionless().vibration().separation_phase().is_some(),
+        "contact": system.contact_statement(None).map(|own| ContactStatement::rows(Some(&own))),
     }))
 }
 

@@ -2,15 +2,18 @@
 //! periods of the platform, and the speeds of impacts are normalised by the amplitude of the platform's
 //! velocity, |w_A| Gamma/(A omega), as in Fig. 7 of the paper. A range goes from a low to a high number.
 
+use std::f64::consts::TAU;
+
+use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 use bouncing_disk::motor::MotorParameters;
-use bouncing_disk::parameters::Waveform;
+use bouncing_disk::parameters::{Contact, Waveform};
 use bouncing_disk::{DiskParameters, PlatformParameters, System};
 use serde::{Deserialize, Serialize};
 
 use crate::reply::Refusal;
 
-/// Platform and disk in SI units, in one flat table.
+/// Platform and disk in SI units, in one flat table, with the time of a contact with a damper; 0 is rigid.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SystemParameters {
@@ -18,17 +21,22 @@ pub(crate) struct SystemParameters {
     platform: PlatformParameters,
     #[serde(flatten)]
     disk: DiskParameters,
+    #[serde(default)]
+    contact_time: f64,
 }
 
 impl SystemParameters {
     pub(crate) fn build(self) -> Result<System, Refusal> {
-        Ok(System::new(self.platform.build()?, self.disk.build()?)?)
+        let time = Some(self.contact_time).filter(|time| *time != 0.0);
+        let contact = time.map(|_| Contact { time, ..Contact::default() });
+        Ok(System::new(self.platform.build()?, self.disk.build()?)?.with_contact(contact)?)
     }
 }
 
 impl From<&System> for SystemParameters {
     fn from(system: &System) -> Self {
-        Self { platform: system.platform().parameters(), disk: system.disk().parameters() }
+        let contact_time = system.contact().and_then(|contact| contact.time).unwrap_or(0.0);
+        Self { platform: system.platform().parameters(), disk: system.disk().parameters(), contact_time }
     }
 }
 
@@ -80,6 +88,8 @@ pub(crate) enum Request {
     Orbit {
         axial_forcing: f64,
         restitution: f64,
+        #[serde(default)]
+        contact_periods: f64,
         start: ImpactStart,
     },
     /// The branches of one impact every few periods in a range, stable and unstable, with their doublings.
@@ -91,6 +101,8 @@ pub(crate) enum Request {
     Attractors {
         axial_forcing: f64,
         restitution: f64,
+        #[serde(default)]
+        contact_periods: f64,
     },
     Basins(BasinsRequest),
     /// The report of a data sheet before anything turns.
@@ -145,6 +157,8 @@ pub(crate) struct DiagramRequest {
 pub(crate) struct BasinsRequest {
     pub(crate) axial_forcing: f64,
     pub(crate) restitution: f64,
+    #[serde(default)]
+    pub(crate) contact_periods: f64,
     pub(crate) phase_periods: [f64; 2],
     pub(crate) phases: usize,
     pub(crate) normalised_speed: [f64; 2],
@@ -174,6 +188,15 @@ pub(crate) struct LoadsRequest {
     #[serde(default)]
     pub(crate) most_impacts: Option<u64>,
     pub(crate) seed: u64,
+}
+
+/// Refuses a contact time of so many periods, unless it is too short to matter ([`System::soft_contact`]).
+pub(crate) fn rigid(contact_periods: f64) -> Result<(), Refusal> {
+    if TAU * contact_periods < Compliance::CONTACT_TIMES[0] {
+        return Ok(());
+    }
+    let message = "verdicts and basins are those of rigid impacts: set the contact time to 0";
+    Err(Refusal::new("computation", message.to_owned()))
 }
 
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, Refusal> {

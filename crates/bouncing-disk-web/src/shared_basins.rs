@@ -7,7 +7,7 @@ use bouncing_disk::core::attractors::{
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
-use crate::request::{BasinsRequest, ImpactStart, map};
+use crate::request::{BasinsRequest, ImpactStart, map, rigid};
 
 /// The attractors of the map that was asked about last: the rows of its basins follow.
 #[derive(Debug, Default)]
@@ -43,6 +43,7 @@ impl SharedAttractors {
 
     /// Bytes: the labels of rows of a grid of starts, with the phase along a row, from the lowest speed up.
     pub(crate) fn rows(&mut self, request: &BasinsRequest) -> Result<Reply, Refusal> {
+        rigid(request.contact_periods)?;
         let ([low, high], [slow, fast]) = (request.phase_periods, request.normalised_speed);
         let grid = Grid::new(Axis::new(low, high, request.phases)?, Axis::new(slow, fast, request.speeds)?)?;
         let [from, to] = request.rows;

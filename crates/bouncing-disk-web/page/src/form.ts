@@ -4,7 +4,7 @@ import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
 import { abridged, prefixOf, shown, stepped, typed } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
-import { amplitudeOf } from "./state";
+import { amplitudeOf, contactPeriods } from "./state";
 import type { ChangeOptions } from "./store";
 
 type Propose = (change: Change, options: ChangeOptions) => void;
@@ -29,14 +29,17 @@ interface Parameter {
   hint?(value: number, state: State): string;
 }
 
-/** The forcing with the fewest digits that sets the amplitude of a system: what was typed, if that set it. */
-function asTyped(axialForcing: number, system: Readonly<SystemParameters>): number {
+/** The number with the fewest digits that `sets` the same parameter: what was typed, if that set it. */
+function asTyped(exact: number, sets: (shorter: number) => boolean): number {
   for (let digits = 1; digits < 17; digits += 1) {
-    const shorter = Number(axialForcing.toPrecision(digits));
-    if (amplitudeOf(shorter, system) === system.amplitude) return shorter;
+    const shorter = Number(exact.toPrecision(digits));
+    if (sets(shorter)) return shorter;
   }
-  return axialForcing;
+  return exact;
 }
+
+const contactTime = (periods: number, { angular_frequency }: Readonly<SystemParameters>): number =>
+  (periods * 2 * Math.PI) / angular_frequency;
 
 const inPi = (value: number): string => (value === 0 ? "" : `${shown(value / Math.PI, 4)} π`);
 
@@ -84,7 +87,8 @@ const GROUPS: Readonly<Record<string, readonly Parameter[]>> = {
       label: "axial forcing, sets A",
       unit: "",
       slider: LOGARITHMIC,
-      value: ({ system }, summary) => (summary === null ? null : asTyped(summary.axial_forcing, system)),
+      value: ({ system }, summary) =>
+        summary && asTyped(summary.axial_forcing, (forcing) => amplitudeOf(forcing, system) === system.amplitude),
       // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
       change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
       // The range of the library's `Vibration::from_axial_forcing`.
@@ -100,6 +104,17 @@ const GROUPS: Readonly<Record<string, readonly Parameter[]>> = {
   ],
   Disk: [
     ofSystem("restitution", "ε", "coefficient of restitution", "", () => [0, 0.95]),
+    {
+      name: "contact_periods",
+      symbol: "T_c",
+      label: "contact time",
+      unit: "2π/ω",
+      slider: () => [0, 2],
+      value: ({ system }) =>
+        asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
+      change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
+      hint: (_, { system }) => (system.contact_time === 0 ? "rigid impacts" : measured(system.contact_time, "s")),
+    },
     ofSystem("friction", "μ", "coefficient of friction", "", () => [0, 1]),
     ofSystem("contact_radius", "a_e", "contact radius", "m", LOGARITHMIC, { hint: metres }),
     ofSystem("gyration_radius", "a_g", "radius of gyration", "m", LOGARITHMIC, { hint: metres }),
@@ -149,13 +164,15 @@ export class Parameters {
   /** What follows from the state that is shown next, as the module gives it. */
   follow(summary: Summary): void {
     this.summary = summary;
-    const { angular_forcing, rise_time } = summary;
+    const { angular_forcing, rise_time, contact } = summary;
     const rows = [
       ["Γ_T", "angular forcing", angular_forcing === null ? "none, no friction" : shown(angular_forcing, 4)],
       ["Aω²/g", "peak acceleration", `${shown(summary.peak_acceleration, 4)} g`],
       ["2π/ω", "period", measured(summary.period, "s")],
       ["c", "stroke", measured(summary.stroke, "m")],
       ["t_r", "rise time", rise_time === null ? "none" : measured(rise_time, "s")],
+      ["T_c", "over the period", contact?.[0][1] ?? "rigid impacts"],
+      ["mg/kA", "static indentation", contact?.[1][1] ?? "none"],
     ] as const;
     this.list.replaceChildren(
       ...rows.map(([sign, name, value]) =>

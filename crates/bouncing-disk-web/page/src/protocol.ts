@@ -7,15 +7,15 @@
 /** From a low to a high number. */
 export type Range = [number, number];
 
-/** Platform and disk, as `System` of the library. */
+/** Platform and disk, as `System` of the library, and how long a contact lasts (s); 0: impacts are rigid. */
 export const SYSTEM_NAMES = [
   "amplitude", "twist_amplitude", "angular_frequency", "phase_lag", "contact_radius", "gyration_radius",
-  "friction", "restitution", "preload_acceleration", "load_acceleration",
+  "friction", "restitution", "preload_acceleration", "load_acceleration", "contact_time",
 ] as const; // prettier-ignore
 export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
-export type MotorSheet = { readonly load_torque: number } & Readonly<Record<string, number | null>>;
+export type MotorSheet = { readonly load_torque: number; readonly contact?: { readonly time?: number } | null };
 
 /** An impact that an orbit begins with: its phase (rad), and its normalised speed |w_A| Gamma/(A omega), positive. */
 export interface ImpactStart {
@@ -71,8 +71,14 @@ export interface Refusal {
   readonly message: string;
 }
 
+/** Contact time over the period and m g/(k A), each with its name in the library. */
+export type ContactJson = readonly [[string, string], [string, string]];
+
 export type Summary = Readonly<Record<"axial_forcing" | "period" | "peak_acceleration" | "stroke", number>> &
-  Readonly<Record<"angular_forcing" | "rise_time", number | null>> & { readonly bounces: boolean };
+  Readonly<Record<"angular_forcing" | "rise_time", number | null>> & {
+    readonly bounces: boolean;
+    readonly contact: ContactJson | null;
+  };
 
 export interface MotionJson {
   readonly samples: number;
@@ -128,6 +134,7 @@ export interface ReportJson {
   readonly axial_forcing: number;
   readonly angular_forcing: number | null;
   readonly regime: string;
+  readonly contact: ContactJson;
   readonly largest_torque: number;
   readonly warnings: readonly string[];
   readonly text: string;

@@ -238,6 +238,10 @@ export function axialForcing(system: Readonly<SystemParameters>): number {
   return (system.amplitude * system.angular_frequency ** 2) / (Math.PI * system.preload_acceleration);
 }
 
+/** How many periods of the platform a contact lasts. */
+export const contactPeriods = ({ contact_time, angular_frequency }: Readonly<SystemParameters>): number =>
+  (contact_time * angular_frequency) / (2 * Math.PI);
+
 export function amplitudeOf(axialForcing: number, system: Readonly<SystemParameters>): number {
   return (axialForcing * Math.PI * system.preload_acceleration) / system.angular_frequency ** 2;
 }

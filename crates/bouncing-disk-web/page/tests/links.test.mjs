@@ -21,7 +21,8 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
     phase_lag: -3 * random(),
     contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
-    preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5, mass: positive(),
+    preload_acceleration: 9.8 + random(), load_acceleration: random() - 0.5,
+    contact_time: round % 4 ? 0 : random() / 9, mass: positive(),
     impact_phase: 6 * random(), normalised_speed: positive(), angular_speed: -5e-324 * (round % 2),
     throw: round % 3 ? `${6 * random()},${random() / 3},${random() - 0.5},${-5e-324 * (round % 2)}` : "none",
     diagram_forcing: `${0.3 + random() / 10},${0.5 + random() / 10}`, diagram_quantity: "impact_phase",
@@ -92,6 +93,7 @@ const LINKS = [
     { throw: "none", friction: "0.3", normalised_speed: "1.1" },
     said,
   ]),
+  ["contact_time=-1&friction=0.3", { contact_time: "0", friction: "0.3" }, ["contact.time = -1"]],
   // A throw counts wherever it stands, and a link without one begins with the impact.
   [
     "throw=1,0.1,0.5,2&impact_phase=0.3&normalised_speed=1.1",
@@ -104,7 +106,7 @@ const LINKS = [
   ...[
     ["", []],
     ["%%%", ["means nothing"]],
-    ["restitution=7&amplitude=-1&angular_frequency=0&mass=-3&normalised_speed=-1", ["not possible"]],
+    ["restitution=7&amplitude=-1&contact_time=-1&angular_frequency=0&mass=-3&normalised_speed=-1", ["not possible"]],
     ["<script>alert(1)</script>", ["means nothing"]],
   ].map(([hash, said]) => [hash, { restitution: "0.5", angular_frequency: "15" }, said]),
 ];

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, type, whenText, within as open } from "./browser.mjs";
+import { fact, type, whenAddress, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
@@ -144,4 +144,16 @@ test("a trap is told with digits enough to find it", () => {
   assert.match(told, /2\.0 × 10⁻⁶ % away: .* 1\.000000020 m\/s² .* Γ from 615\.752100 to 615\.752120\.$/);
   const caught = { preload_acceleration: 9.8, caught: true, relative_distance: 0, forcing_from_to: [6.2811, 6.2837] };
   assert.match(words.describeTrap(caught, { system: { preload_acceleration: 9.8 } }), /^Trap: .*\.$/);
+});
+
+onPage("a contact time is stated, and what it rules out is said", `${MOTOR}&contact_time=1e-6`, async (page) => {
+  await done(page);
+  assert.equal(await fact(page, "motor", "Contact time over the period"), "0.07 (contacts take it)");
+  assert.match(await fact(page, "motor", "Regime"), /^of rigid impacts: /);
+  assert.match(await fact(page, "motor", "Stall load"), /bouncing-disk motor stall$/);
+  await page.click("#tab-basins");
+  await whenText(page, "#status", /set the contact time to 0$/);
+  await type(page, "contact_periods", "0.25");
+  await whenAddress(page, "contact_time", String(0.25 * 2 * Math.PI / 439822.9715025711));
+  assert.equal(await page.inputValue("#field-contact_periods"), "0.25");
 });

@@ -90,7 +90,8 @@ async function statesToShow() {
   const { changed, DEFAULT_STATE, toHash, VIEW_NAMES } = await sourceOf("state.ts");
   assert.equal(PRESETS.length, 17);
   const rotation = { view: "diagram", diagram: { quantity: "angular_speed" } };
-  const views = [...VIEW_NAMES.map((view) => ({ view })), rotation];
+  const soft = ["toss", "diagram"].map((view) => ({ view, system: { contact_time: 0.03 } }));
+  const views = [...VIEW_NAMES.map((view) => ({ view })), rotation, ...soft];
   const panels = PRESETS.flatMap(({ id, panels }) => panels.map((panel) => [`${id} ${panel.label}`, stateOf(panel)]));
   const states = [...views.map((change) => [change.view, changed(DEFAULT_STATE, change)]), ...panels];
   return states.map(([name, state]) => ({ name, hash: toHash(state) }));

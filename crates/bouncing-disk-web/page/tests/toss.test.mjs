@@ -91,6 +91,13 @@ onPage("a motion goes on where it was left, and stays where somebody has stopped
   assert.equal(await page.textContent(".controls .play"), "Play");
 });
 
+onPage("a disk on soft hands goes into the contact", "#contact_time=0.06", async (page) => {
+  await page.click(".controls .play");
+  await seek(page, 0.05);
+  await whenText(page, "#view-toss .alternative", /\d mm into the contact, and turns/);
+  assert.match(await fact(page, "toss", "Height above the platform"), /^−\d/);
+});
+
 onPage("a throw is in the address, and a link of it shows the same motion", {}, async (page) => {
   await page.click(".controls .play");
   await seek(page, 0);

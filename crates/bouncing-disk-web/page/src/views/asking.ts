@@ -3,12 +3,13 @@
 import { Cancelled, messageOf, type Context, type State } from "../contract";
 import { element } from "../elements";
 import type { ImpactStart, VerdictJson } from "../protocol";
-import { axialForcing } from "../state";
+import { axialForcing, contactPeriods } from "../state";
 
 /** The map of the vertical motion of the shared system. */
 export const mapOf = ({ system }: State) => ({
   axial_forcing: axialForcing(system),
   restitution: system.restitution,
+  contact_periods: contactPeriods(system),
 });
 
 export type MapParameters = ReturnType<typeof mapOf>;
@@ -70,11 +71,12 @@ export class RoundingCaution {
     this.root = element("p", { class: "caution", hidden: true }, `Rounding-dependent: ${text}`);
   }
 
-  /** A map of which no verdict comes has no caution, and its own view says why. */
+  /** A map of which no verdict comes has no caution, and its own view says why; nor have contacts that take time. */
   show(context: Context, state: State): void {
     const map = mapOf(state);
     const ask = async () => {
       this.root.hidden = true;
+      if (map.contact_periods > 0) return;
       this.root.hidden = !(await verdictOf(context, this.slot, map, REST)).rounding_dependent;
     };
     this.verdict.get(map, ask).catch(() => {});

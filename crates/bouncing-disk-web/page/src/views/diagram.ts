@@ -9,9 +9,11 @@ import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
-import { amplitudeOf, axialForcing, DEFAULT_STATE } from "../state";
+import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
-import { areDrawn, BRANCHES, branchesOf, describeBifurcations, paintBranches, type Branches } from "./diagram/branches";
+import {
+  areDrawn, BRANCHES, branchesOf, describeBifurcations, isPlain, paintBranches, type Branches,
+} from "./diagram/branches"; // prettier-ignore
 import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
@@ -56,7 +58,7 @@ class DiagramView implements View {
       move: (window, settled) => this.move(window, settled),
       reset: () => context.change({ diagram: { axial_forcing: DEFAULT_STATE.diagram.axial_forcing, range: null } }),
       point: (at) => {
-        if (at !== null && this.diagram.drive === "sine") this.verdict.point(at[0], context.state());
+        if (at !== null && isPlain(context.state())) this.verdict.point(at[0], context.state());
       },
       pick: ([forcing]) => void this.choose(forcing),
     });
@@ -91,7 +93,7 @@ class DiagramView implements View {
     this.quantity.value = quantity;
     this.drive.value = drive;
     this.branchesBox.checked = branches;
-    this.branchesBox.disabled = rotation || drive !== "sine";
+    this.branchesBox.disabled = rotation || !isPlain(state);
     this.note.hidden = !rotation;
     if (rotation) setText(this.note, noteOf(state));
     this.picture.redraw();
@@ -176,7 +178,7 @@ class DiagramView implements View {
       start: impactOf(state),
       axial_forcing: diagram.axial_forcing,
       count: clamp(laid.columns, 2, MOST_COLUMNS),
-      rotation: diagram.quantity === "angular_speed" && diagram.drive === "sine",
+      rotation: diagram.quantity === "angular_speed" && isPlain(state),
       drive: diagram.drive,
     };
     try {
@@ -189,7 +191,7 @@ class DiagramView implements View {
       const window = diagram.axial_forcing;
       // The verdicts come from the other worker, at the same time.
       const [verdicts] = await Promise.all([
-        this.verdicts.get([window, restitution, wanted.start], () => verdictsOf(this.context, state)),
+        this.verdicts.get([window, restitution, wanted.start, isPlain(state)], () => verdictsOf(this.context, state)),
         areDrawn(state) && this.branches.get([window, restitution], () => this.fetchBranches(state)),
       ]);
       if (turn !== this.turn) return;
@@ -266,8 +268,9 @@ class DiagramView implements View {
 }
 
 /** What there is to say below a diagram of angular speeds. */
-function noteOf({ system, diagram }: State): string {
-  if (diagram.drive !== "sine") return "Angular speeds are those of the sine: there is nothing to draw.";
+function noteOf(state: State): string {
+  const { system } = state;
+  if (!isPlain(state)) return "Angular speeds are those of the sine with rigid impacts: there is nothing to draw.";
   const idle = system.friction === 0 ? "Without friction" : system.twist_amplitude === 0 ? "Without a twist" : null;
   if (idle !== null) return `${idle} the platform hands no spin on to the disk: there is nothing to draw.`;
   return "Branches are those of the vertical motion, and have no angular speed.";
@@ -276,7 +279,7 @@ function noteOf({ system, diagram }: State): string {
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */
 function keyOf({ system, ...others }: Wanted): string {
   const { amplitude: _, ...rest } = system;
-  return JSON.stringify([others, others.rotation ? rest : system.restitution]);
+  return JSON.stringify([others, others.rotation ? rest : [system.restitution, contactPeriods(system)]]);
 }
 
 export const diagram: ViewKind = {

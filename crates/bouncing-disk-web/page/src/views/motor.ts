@@ -8,12 +8,12 @@ import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../pro
 import { Asked, tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
-  MEMBERS, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
+  membersOf, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
 } from "./motor/sheet"; // prettier-ignore
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
-const REMARK =
-  `Bands are two standard errors wide on either side; run-ups are means of ${MEMBERS} motors. ` +
+const remarkOf = (sheet: MotorSheet | null): string =>
+  `Bands are two standard errors wide on either side; run-ups are means of ${membersOf(sheet)} motors. ` +
   "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
   "A cross is a load that drives the rotor.";
 
@@ -41,7 +41,7 @@ class MotorView implements View {
   private readonly reportPanel = new ReportPanel();
   private readonly runUpChart = new ScreenChart(chartHeight);
   private readonly curveCharts = CURVES.map(() => new ScreenChart(chartHeight));
-  private readonly remark = element("p", { class: "remark" }, REMARK);
+  private readonly remark = element("p", { class: "remark" });
   private known = new Known();
   private imported: SheetJson | null = null;
   /** What the motor that is shown depends on. */
@@ -206,7 +206,7 @@ class MotorView implements View {
   private paint(): void {
     const { report, transient, problems, own, operations, stall } = this.known;
     const still = report === null ? null : whyNothingTurns(report);
-    setText(this.remark, still ?? REMARK);
+    setText(this.remark, still ?? remarkOf(this.known.sheet));
     for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = still !== null;
     if (transient === null || report === null)
       this.runUpChart.showWord(problems.runUp ?? "The run-up is being computed.");

@@ -14,9 +14,12 @@ export interface Branches {
   readonly numbers: Float64Array;
 }
 
-/** Where branches are drawn: those of the sine, which have no angular speed. */
-export const areDrawn = ({ diagram }: State): boolean =>
-  diagram.branches && diagram.quantity !== "angular_speed" && diagram.drive === "sine";
+/** What branches, verdicts and the rotation are computed for. */
+export const isPlain = ({ system, diagram }: State): boolean => diagram.drive === "sine" && system.contact_time === 0;
+
+/** Where branches are drawn: they have no angular speed. */
+export const areDrawn = (state: State): boolean =>
+  state.diagram.branches && state.diagram.quantity !== "angular_speed" && isPlain(state);
 
 export function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
   const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;

@@ -4,8 +4,9 @@ import type { Context, State } from "../../contract";
 import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, plain, withError } from "../../numbers";
 import type { DiagramJson, VerdictJson } from "../../protocol";
-import { impactOf, tellFailure, verdictOf } from "../asking";
-import { areDrawn, endText, forcingText } from "./branches";
+import { contactPeriods } from "../../state";
+import { impactOf, mapOf, tellFailure, verdictOf } from "../asking";
+import { areDrawn, endText, forcingText, isPlain } from "./branches";
 import { DESCRIBED, RECORDED, TRANSIENT } from "./columns";
 
 const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as const;
@@ -37,7 +38,7 @@ export class Verdict {
   }
 
   private async fetch(forcing: number, state: State): Promise<void> {
-    const map = { axial_forcing: forcing, restitution: state.system.restitution };
+    const map = { ...mapOf(state), axial_forcing: forcing };
     try {
       this.tell(forcing, await verdictOf(this.context, "diagram-orbit", map, impactOf(state)));
     } catch (error) {
@@ -75,10 +76,9 @@ const slotOf = (sample: number): string => `diagram-words-${sample}`;
 
 /** What some orbits of a diagram do for good: for those who do not see it. */
 export function verdictsOf(context: Context, state: State): Promise<VerdictJson[]> {
-  const { restitution } = state.system;
-  if (state.diagram.drive !== "sine") return Promise.resolve([]);
+  if (!isPlain(state)) return Promise.resolve([]);
   const asked = samplesOf(state).map((axial_forcing, sample) =>
-    verdictOf(context, slotOf(sample), { axial_forcing, restitution }, impactOf(state)),
+    verdictOf(context, slotOf(sample), { ...mapOf(state), axial_forcing }, impactOf(state)),
   );
   return Promise.all(asked);
 }
@@ -100,7 +100,9 @@ export function describeDiagram(
     (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
   );
   const forGood = `What the vertical motion does for good: ${does.join(", ")}`;
-  const end = drive === "sine" ? forGood : `The platform moves as ${drive}`;
+  const contact = state.system.contact_time === 0 ? "" : `; a contact lasts ${brief(contactPeriods(state.system), 3)} periods, ` +
+    "and a dot is a release, as the impact of which it is the rigid rebound";
+  const end = isPlain(state) ? forGood : `The platform moves as ${drive}${contact}`;
   return (
     `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
     `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +

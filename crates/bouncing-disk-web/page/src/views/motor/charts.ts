@@ -6,7 +6,7 @@ import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/ch
 import { ONE_COLUMN, rowsOf, tableOffers } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
-import { MEMBERS, SEED, type Operation, type Transient } from "./sheet";
+import { membersOf, SEED, type Operation, type Transient } from "./sheet";
 
 const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 
@@ -147,7 +147,7 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
   const written = async () => new Blob([text], { type: "application/json" });
   const offers: Offer[] = [{ name: "motor data sheet", kind: "json", make: written }];
   if (transient !== null) {
-    const parameters = { sheet, members: MEMBERS, seed: SEED };
+    const parameters = { sheet, members: membersOf(sheet), seed: SEED };
     const columns = ["time_s", "speed_rad_per_s", "speed_error_rad_per_s"];
     const rows = () => rowsOf(transient.numbers, TRANSIENT_COLUMNS.length);
     offers.push(...tableOffers({ name: "motor run-up", parameters, columns, rows }));

@@ -6,7 +6,7 @@ import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protoc
 import type { Operation, Transient } from "./sheet";
 
 const NAMES = [
-  "Regime", "Forcing Γ", "Largest torque of friction", "Steady speed", "Time constant", "Stall load",
+  "Regime", "Forcing Γ", "Contact time over the period", "Static indentation over A", "Largest torque of friction", "Steady speed", "Time constant", "Stall load",
 ] as const; // prettier-ignore
 
 export class ReportPanel {
@@ -33,8 +33,11 @@ export class ReportPanel {
   }
 
   report(report: ReportJson): void {
-    this.facts.set("Regime", report.regime);
+    this.facts.set("Regime", `${report.system.contact_time > 0 ? "of rigid impacts: " : ""}${report.regime}`);
     this.facts.set("Forcing Γ", plain(report.axial_forcing, 5));
+    const [[, time], [, depth]] = report.contact;
+    this.facts.set("Contact time over the period", time);
+    this.facts.set("Static indentation over A", depth);
     this.facts.set("Largest torque of friction", quantity(report.largest_torque, "N m"));
     this.trap.hidden = report.trap === null;
     if (report.trap !== null) setText(this.trap, describeTrap(report.trap, report));

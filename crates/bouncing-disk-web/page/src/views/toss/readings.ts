@@ -31,7 +31,7 @@ export class Readings {
     const texts = [
       moment.mode,
       `${periods.toFixed(2)} periods, ${quantity(moment.time, "s")}`,
-      quantity(Math.max(gap, 0), "m"),
+      quantity(recording.system.contact_time > 0 ? gap : Math.max(gap, 0), "m"),
       `${plain(spin, 3)} rad/s`,
       String(impacts),
       quantity(velocity ** 2 / 2, "J/kg"),
@@ -63,7 +63,9 @@ const WORDS: Readonly<Record<string, string>> = {
 export function describeMoment(moment: Moment, periods: number, impacts: number, recording: Recording): string {
   const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
   const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);
-  const place = gap > 0 ? `, ${quantity(gap, "m")} above the platform,` : "";
+  const indented = gap < 0 && recording.system.contact_time > 0;
+  const place =
+    gap > 0 || indented ? `, ${quantity(Math.abs(gap), "m")} ${indented ? "into the contact" : "above the platform"},` : "";
   return (
     `After ${periods.toFixed(2)} periods and ${impacts} impacts the disk ${WORDS[moment.mode] ?? moment.mode}${place} ` +
     `and turns at ${speed(moment.angular_speed)} rad/s; the platform at ${speed(moment.platform_angular_speed)} rad/s.`
