@@ -20,21 +20,30 @@ const DEGREE: f64 = 9.0;
 /// A polynomial on a piece, in Bernstein's form.
 type Piece = [f64; COUNT];
 
+/// cos t, sin t, u1 and u2 at a time since the touch.
+type Anchor = [f64; 4];
+
+/// Anchors within a piece.
+const ANCHORS: usize = (PIECE / (2.0 * NEAR)) as usize + 2;
+
+/// Terms of a Taylor series.
+const TERMS: usize = 9;
+
 /// Length of a piece, in radians of the fastest change.
 const PIECE: f64 = 1.5;
 
 /// Most pieces of a table: contacts that last for longer are left to the general solver.
 const MOST_PIECES: f64 = 256.0;
 
-/// A step in radians of the fastest change over which the Taylor series of [`TapInstant`] holds: its first
-/// omitted term is 3e-17.
+/// A step in radians of the fastest change over which Taylor series hold: their first omitted terms are below
+/// 3e-17. [`Anchor`]s lie twice as far from each other.
 const NEAR: f64 = 0.05;
-
-/// A step over which half of the terms do: 3e-18.
-const SMALL: f64 = 2.0e-4;
 
 /// Rounding of the coefficients of a piece, in units of the terms that are added.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
+
+/// Most pieces over which a short flight is followed.
+const SCANNED: f64 = 5.0;
 
 /// The share of its first piece over which a function that starts at zero must rise for certain.
 const START: f64 = 0.125;
@@ -73,6 +82,12 @@ pub struct TapSolver {
     pieces: Vec<[Piece; 4]>,
     /// Their largest errors, with those of their coefficients.
     errors: [f64; 4],
+    /// The four at the starts of the pieces and, evenly spaced, within the first, and the Taylor series of u1 and
+    /// u2 at zero.
+    starts: Vec<Anchor>,
+    anchors: [Anchor; ANCHORS],
+    spacing: f64,
+    series: [[f64; TERMS]; 2],
 }
 
 /// An instant of a contact.
@@ -172,6 +187,10 @@ impl TapSolver {
             rate,
             pieces: Vec::new(),
             errors: [0.0; 4],
+            starts: Vec::new(),
+            anchors: [[0.0; 4]; ANCHORS],
+            spacing: 2.0 * NEAR / rate,
+            series: [[0.0; TERMS]; 2],
         };
         let span = (4.0 * TAU).max(2.0 * platform.compliance().contact_time());
         let count = (span * rate / PIECE).min(MOST_PIECES) as usize + 1;
@@ -210,10 +229,23 @@ impl TapSolver {
         solver.errors = [1.0, 1.0, tenth, tenth / own].map(|most| share * most);
         let sizes = [1.0, 1.0, 1.0, 1.0 / own];
         solver.errors = [0, 1, 2, 3].map(|of| solver.errors[of] + ROUNDING * sizes[of]);
+        let mut factor = 1.0;
+        for (n, term) in terms[..TERMS].iter().enumerate() {
+            factor /= n.max(1) as f64;
+            let [first, second] = &mut solver.series;
+            (first[n], second[n]) = (term[0] * factor, term[1] * factor);
+        }
+        let anchor = |t: f64| {
+            let ((sin, cos), [u1, u2]) = (sin_cos(t), solver.oscillations(t));
+            [cos, sin, u1, u2]
+        };
+        let starts = (0..count).map(|index| anchor(index as f64 * solver.length)).collect();
+        let anchors = core::array::from_fn(|index| anchor(index as f64 * solver.spacing));
+        (solver.starts, solver.anchors) = (starts, anchors);
         Some(solver)
     }
 
-    /// The free oscillations that start with value 1 and slope 0, and with value 0 and slope 1.
+    /// u1, which starts with value 1 and slope 0, and u2, with 0 and 1.
     fn oscillations(&self, t: f64) -> [f64; 2] {
         if self.over {
             let slow = self.stiffness / (self.decay + self.frequency);
@@ -227,60 +259,56 @@ impl TapSolver {
         [decayed * cos + self.decay * second, second]
     }
 
-    /// The instant `after` the touch of a contact that begins with `start`, where sine and cosine of the phase
-    /// are these.
-    #[must_use]
-    pub fn instant(&self, start: &TapInstant, after: f64, (sin, cos): (f64, f64)) -> TapInstant {
-        let [u1, u2] = self.oscillations(after);
-        let (value, slope) = (start.free, start.free_slope);
+    /// These over a step that is near.
+    fn near_oscillations(&self, step: f64) -> [f64; 2] {
+        self.series.map(|c| {
+            let (s2, s4) = (step * step, (step * step) * (step * step));
+            let low = (c[0] + c[1] * step) + s2 * (c[2] + c[3] * step);
+            let high = (c[4] + c[5] * step) + s2 * (c[6] + c[7] * step);
+            low + s4 * (high + s4 * c[8])
+        })
+    }
+
+    /// The instant at which cos t, sin t, u1 and u2 are these, `after` another one.
+    fn later(&self, from: &TapInstant, after: f64, [cos, sin, u1, u2]: Anchor) -> TapInstant {
+        let (value, slope) = (from.free, from.free_slope);
         TapInstant {
-            after,
-            sin,
-            cos,
+            after: from.after + after,
+            sin: from.sin * cos + from.cos * sin,
+            cos: from.cos * cos - from.sin * sin,
             free: value * u1 + slope * u2,
             free_slope: slope * u1 - (self.stiffness * value + self.damping * slope) * u2,
         }
     }
 
     /// The instant `step` later, if that is near.
-    fn moved(&self, from: &TapInstant, step: f64) -> Option<TapInstant> {
-        let near = step.abs() * self.rate <= NEAR;
-        if !near {
-            return None;
-        }
-        let square = step * step;
-        // Series up to the ninth power.
-        let versine =
-            square * (0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square * (1.0 / 40_320.0))));
-        let sine = step
-            * (1.0
-                - square
-                    * (1.0 / 6.0
-                        - square * (1.0 / 120.0 - square * (1.0 / 5_040.0 - square * (1.0 / 362_880.0)))));
-        let mut terms = [from.free, from.free_slope, 0.0];
-        let (mut power, mut value, mut slope) = (1.0, from.free, from.free_slope);
-        let count = if step.abs() * self.rate <= SMALL { 4 } else { 8 };
-        for inverse in &INVERSES[..count] {
-            terms[2] = -(self.stiffness * terms[0] + self.damping * terms[1]);
-            power *= step * inverse;
-            value += terms[1] * power;
-            slope += terms[2] * power;
-            terms = [terms[1], terms[2], 0.0];
-        }
-        Some(TapInstant {
-            after: from.after + step,
+    fn moved(&self, from: &TapInstant, step: f64) -> TapInstant {
+        let NearSine { sine, versine, .. } = NearSine::of(step);
+        let [u1, u2] = self.near_oscillations(step);
+        let moved = self.later(from, step, [0.0, sine, u1, u2]);
+        TapInstant {
             sin: from.sin + (from.cos * sine - from.sin * versine),
             cos: from.cos - (from.sin * sine + from.cos * versine),
-            free: value,
-            free_slope: slope,
-        })
+            ..moved
+        }
+    }
+
+    /// The instant `after` the touch of a contact that begins with `start`; nothing beyond the table.
+    #[must_use]
+    pub fn instant(&self, start: &TapInstant, after: f64) -> Option<TapInstant> {
+        let piece = (after >= 0.0).then_some((after / self.length) as usize)?;
+        let begun = piece as f64 * self.length;
+        let index = ((after - begun) / self.spacing + 0.5) as usize;
+        let begun_at = self.later(start, begun, *self.starts.get(piece)?);
+        let passed = index as f64 * self.spacing;
+        let anchor = self.later(&begun_at, passed, *self.anchors.get(index)?);
+        Some(self.moved(&anchor, after - (begun + passed)))
     }
 
     /// A root near an instant of the function whose value and three derivatives this gives; `None` if the steps do
     /// not converge.
     pub fn polished(
         &self,
-        angle: f64,
         start: &TapInstant,
         from: TapInstant,
         function: impl Fn(&TapInstant) -> [f64; 4],
@@ -288,13 +316,9 @@ impl TapSolver {
         let mut at = from;
         for _ in 0..STEPS {
             let step = step_of(function(&at));
-            let next = at.after + step;
-            at = match self.moved(&at, step) {
-                Some(at) => at,
-                None if next >= 0.0 => self.instant(start, next, sin_cos(angle + next)),
-                None => return None,
-            };
-            if step.abs() * self.rate <= LAST_STEP {
+            let size = step.abs() * self.rate;
+            at = if size <= NEAR { self.moved(&at, step) } else { self.instant(start, at.after + step)? };
+            if size <= LAST_STEP {
                 return Some(at);
             }
         }
@@ -397,15 +421,18 @@ impl TapSolver {
         let slope = -(k * start.free_slope + c * value);
         let weights = [p * sin + r * cos, p * cos - r * sin, value, slope];
         let margin = self.margin(&weights, 1.0);
-        let (mut largest, mut found) = (0.0_f64, None);
+        // The energy of a free oscillation falls.
+        let largest = 1.0
+            + (p * p + r * r).sqrt()
+            + (value * value + slope * slope * self.inverse_stiffness).sqrt()
+            + margin;
+        let mut found = None;
         for (index, piece) in self.pieces.iter().enumerate() {
             let force: Piece = core::array::from_fn(|i| {
                 1.0 + (weights[0] * piece[0][i] + weights[1] * piece[1][i])
                     + (weights[2] * piece[2][i] + weights[3] * piece[3][i])
             });
-            let (low, high) = range(&force);
-            largest = largest.max(high + margin);
-            if low > margin {
+            if lowest(&force) > margin {
                 continue;
             }
             let share = first_fall_after(&force, margin, index == 0 && gap < 0.0)?;
@@ -415,8 +442,7 @@ impl TapSolver {
             }
         }
         let (index, near) = found?;
-        let near = self.instant(&start, near, sin_cos(phase.angle() + near));
-        let end = self.polished(phase.angle(), &start, near, |at| {
+        let end = self.polished(&start, self.instant(&start, near)?, |at| {
             let [slope, bend, third] = self.force_slopes(at);
             [self.force(at), slope, bend, third]
         })?;
@@ -463,18 +489,10 @@ impl TapSolver {
             peak * (c * sin - k * cos),
         ];
         let rounding = self.margin(&[weights[3], weights[4], 0.0, 0.0], weights[0].abs());
-        let fall = |t: f64| {
-            let (s, c) = sin_cos(t);
-            let (deficit, versine) =
-                if t < 0.5 { (sine_deficit(t, s), t * t * versine_ratio(t)) } else { (t - s, 1.0 - c) };
-            Fall {
-                sin: sin + (cos * s - sin * versine),
-                cos: cos - (sin * s + cos * versine),
-                gap: gap + t * (velocity - 0.5 * t) + peak * (cos * deficit + sin * versine),
-                velocity: velocity - t + peak * (cos * versine + sin * s),
-            }
-        };
-        let mut below = gap;
+        let release = Fall { sin, cos, gap, velocity };
+        // Beyond some pieces the search for impacts takes less time.
+        let near = 2.0 * start <= SCANNED * self.length;
+        let (mut below, mut fallen) = (gap, false);
         for (index, piece) in self.pieces.iter().enumerate() {
             let (from, to) = (index as f64 * self.length, (index + 1) as f64 * self.length);
             let [first, second] = [weights[1] * self.length, weights[2] * self.length * self.length];
@@ -489,62 +507,80 @@ impl TapSolver {
             });
             let steps = (index + 1) as f64;
             let margin = rounding + ROUNDING * steps * (first.abs() + steps * second.abs());
-            let again = first_fall_after(&pulls, margin, index == 0)?;
-            let (until, above) = if let Some(share) = again {
-                // The force sets in again, if the spring is not free before.
-                let (after, there) = newton(from + share * self.length, &(from..=to), peak, |t| {
-                    let there = fall(t);
-                    let [gap, speed, bend, third, fourth] = there.derivatives(peak);
-                    (
-                        [
-                            k * gap + c * speed,
-                            k * speed + c * bend,
-                            k * bend + c * third,
-                            k * third + c * fourth,
-                        ],
-                        there,
-                    )
-                })?;
-                if there.gap < 0.0 {
-                    let (phase, turns) = there.phase(phase, after);
-                    let gap = self.gap_at_release(there.velocity);
-                    return Some(TapTouch { duration: after, phase, turns, gap, velocity: there.velocity });
-                }
-                (after, there.gap)
-            } else {
-                let above = gap
-                    + to * (velocity - 0.5 * to)
-                    + peak * (cos * (to - piece[1][COUNT - 1]) + sin * (1.0 - piece[0][COUNT - 1]));
-                (to, above)
-            };
-            if above > 0.0 {
-                let early =
-                    if index == 0 { step_of([gap, velocity, peak * sin - 1.0, peak * cos]) } else { 0.0 };
-                let line = from + below / (below - above) * (until - from);
-                let guess = if early > from && early < until { early } else { line };
-                let (freed, there) = newton(guess, &(from..=until), peak, |t| {
-                    let there = fall(t);
-                    let [gap, speed, bend, third, _] = there.derivatives(peak);
-                    ([gap, speed, bend, third], there)
-                })?;
-                let rises = there.velocity > 0.0;
-                if !rises {
+            let above = gap
+                + to * (velocity - 0.5 * to)
+                + peak * (cos * (to - piece[1][COUNT - 1]) + sin * (1.0 - piece[0][COUNT - 1]));
+            let mut falls = None;
+            if fallen {
+                let pushes = lowest(&pulls.map(|pull| -pull)) > margin;
+                if !pushes {
                     return None;
                 }
-                let (start, turns) = there.phase(phase, freed);
-                let impact = self.vibration.impact_after(start, there.velocity).ok()?;
-                return Some(TapTouch {
-                    duration: freed + impact.duration(),
-                    phase: impact.phase,
-                    turns: turns + impact.turns,
-                    gap: 0.0,
-                    velocity: impact.velocity,
-                });
+            } else if let Some(share) = first_fall_after(&pulls, margin, index == 0)? {
+                (fallen, falls) = (true, Some(from + share * self.length));
+            } else if above > 0.0 && !near {
+                let early =
+                    if index == 0 { step_of([gap, velocity, peak * sin - 1.0, peak * cos]) } else { 0.0 };
+                let line = from + below / (below - above) * (to - from);
+                let guess = if early > from && early < to { early } else { line };
+                return self.long_flight(phase, newton(guess, &(from..=to), peak, &release, gap_of)?);
             }
             below = above;
+            if !fallen || above > 0.0 {
+                continue;
+            }
+            let line = [
+                (gap + peak * sin) + from * (start - 0.5 * from),
+                (start - from) * self.length,
+                -0.5 * self.length * self.length,
+            ];
+            let gaps: Piece = core::array::from_fn(|i| {
+                (line[0] + (line[1] * SHARES[i] + line[2] * PAIRS[i]))
+                    - peak * (sin * piece[0][i] + cos * piece[1][i])
+            });
+            let touch = gaps[..COUNT - 1].iter().rposition(|&gap| gap > 0.0).and_then(|last| {
+                let share = last as f64 + gaps[last] / (gaps[last] - gaps[last + 1]);
+                newton(from + share / DEGREE * self.length, &(from..=to), peak, &release, gap_of)
+            });
+            let ended = |(duration, there): (f64, Fall), gap: f64| {
+                let (phase, turns) = there.phase(phase, duration);
+                Some(TapTouch { duration, phase, turns, gap, velocity: there.velocity })
+            };
+            // While the force would push, the gap falls below zero once at most.
+            if let Some(touch) = touch
+                && touch.1.velocity < 0.0
+            {
+                return ended(touch, 0.0);
+            }
+            let pull = |[gap, speed, bend, third, fourth]: [f64; 5]| {
+                [k * gap + c * speed, k * speed + c * bend, k * bend + c * third, k * third + c * fourth]
+            };
+            let again = newton(falls?, &(from..=to), peak, &release, pull)?;
+            return (again.1.gap < 0.0).then(|| ended(again, self.gap_at_release(again.1.velocity)))?;
         }
         None
     }
+
+    /// The flight of a disk whose spring is `freed`: the sine's first impact ends it.
+    fn long_flight(&self, phase: Phase, (freed, there): (f64, Fall)) -> Option<TapTouch> {
+        let rises = there.velocity > 0.0;
+        if !rises {
+            return None;
+        }
+        let (start, turns) = there.phase(phase, freed);
+        let impact = self.vibration.impact_after(start, there.velocity).ok()?;
+        Some(TapTouch {
+            duration: freed + impact.duration(),
+            phase: impact.phase,
+            turns: turns + impact.turns,
+            gap: 0.0,
+            velocity: impact.velocity,
+        })
+    }
+}
+
+const fn gap_of([gap, speed, bend, third, _]: [f64; 5]) -> [f64; 4] {
+    [gap, speed, bend, third]
 }
 
 /// The step to a root by the value and three derivatives of a function: of fourth order.
@@ -554,23 +590,22 @@ fn step_of([value, slope, bend, third]: [f64; 4]) -> f64 {
         / (slope * (square - value * bend) + value * value * third * (1.0 / 6.0))
 }
 
-/// A root in this range of the function whose value and three derivatives this gives, and the disk there.
+/// A root in this range of the function whose value and three derivatives are made from those of the gap, and
+/// the disk there.
 fn newton(
     from: f64,
     range: &RangeInclusive<f64>,
     peak: f64,
-    function: impl Fn(f64) -> ([f64; 4], Fall),
+    release: &Fall,
+    function: impl Fn([f64; 5]) -> [f64; 4],
 ) -> Option<(f64, Fall)> {
-    let mut at = from;
+    let (mut at, mut there) = (from, release.after(from, peak));
     for _ in 0..STEPS {
-        let (jet, fall) = function(at);
-        let step = step_of(jet);
+        let step = step_of(function(there.derivatives(peak)));
         at += step;
-        if !range.contains(&at) {
-            return None;
-        }
-        if step.abs() <= LAST_STEP * at {
-            return Some((at, fall.moved(step, peak)));
+        there = if step.abs() <= NEAR { there.after(step, peak) } else { release.after(at, peak) };
+        if step.abs() <= LAST_STEP * at.min(1.0) {
+            return range.contains(&at).then_some((at, there));
         }
     }
     None
@@ -592,16 +627,25 @@ impl Fall {
         [self.gap, self.velocity, sine - 1.0, cosine, -sine]
     }
 
-    /// The disk after a last step.
-    fn moved(&self, step: f64, peak: f64) -> Self {
-        let [gap, speed, bend, third, _] = self.derivatives(peak);
-        let half = 0.5 * step;
-        let (sine, versine) = (step * (1.0 - half * step * (1.0 / 3.0)), half * step);
+    /// The disk so long after.
+    fn after(&self, t: f64, peak: f64) -> Self {
+        let NearSine { sine, versine, deficit } = if t.abs() <= NEAR {
+            NearSine::of(t)
+        } else {
+            let (sine, cosine) = sin_cos(t);
+            let (deficit, versine) = if t < 0.5 {
+                (sine_deficit(t, sine), t * t * versine_ratio(t))
+            } else {
+                (t - sine, 1.0 - cosine)
+            };
+            NearSine { sine, versine, deficit }
+        };
+        let &Self { sin, cos, gap, velocity } = self;
         Self {
-            sin: self.sin + (self.cos * sine - self.sin * versine),
-            cos: self.cos - (self.sin * sine + self.cos * versine),
-            gap: gap + step * (speed + half * bend),
-            velocity: speed + step * (bend + half * third),
+            sin: sin + (cos * sine - sin * versine),
+            cos: cos - (sin * sine + cos * versine),
+            gap: gap + t * (velocity - 0.5 * t) + peak * (cos * deficit + sin * versine),
+            velocity: velocity - t + peak * (cos * versine + sin * sine),
         }
     }
 
@@ -609,6 +653,23 @@ impl Fall {
     fn phase(&self, from: Phase, after: f64) -> (Phase, u64) {
         let (angle, turns) = phase_of(from.angle() + after);
         (Phase::from_parts(angle, self.sin, self.cos), turns)
+    }
+}
+
+/// sin t, 1 - cos t and t - sin t.
+struct NearSine {
+    sine: f64,
+    versine: f64,
+    deficit: f64,
+}
+
+impl NearSine {
+    /// For a step that is near, by series up to the ninth power.
+    fn of(t: f64) -> Self {
+        let s = t * t;
+        let versine = s * (0.5 - s * (1.0 / 24.0 - s * (1.0 / 720.0 - s * (1.0 / 40_320.0))));
+        let deficit = t * s * (1.0 / 6.0 - s * (1.0 / 120.0 - s * (1.0 / 5_040.0 - s * (1.0 / 362_880.0))));
+        Self { sine: t - deficit, versine, deficit }
     }
 }
 
@@ -623,9 +684,6 @@ const SHARES: Piece =
     [0.0, 1.0 / 9.0, 2.0 / 9.0, 3.0 / 9.0, 4.0 / 9.0, 5.0 / 9.0, 6.0 / 9.0, 7.0 / 9.0, 8.0 / 9.0, 1.0];
 const PAIRS: Piece =
     [0.0, 0.0, 2.0 / 72.0, 6.0 / 72.0, 12.0 / 72.0, 20.0 / 72.0, 30.0 / 72.0, 42.0 / 72.0, 56.0 / 72.0, 1.0];
-
-/// Inverses of whole numbers.
-const INVERSES: [f64; 8] = [1.0, 0.5, 1.0 / 3.0, 0.25, 0.2, 1.0 / 6.0, 1.0 / 7.0, 0.125];
 
 /// The polynomial with these derivatives at both ends of a piece of this length.
 fn between(from: &[f64; COUNT / 2], to: &[f64; COUNT / 2], length: f64) -> Piece {
@@ -647,10 +705,10 @@ fn between(from: &[f64; COUNT / 2], to: &[f64; COUNT / 2], length: f64) -> Piece
     piece
 }
 
-fn range(piece: &Piece) -> (f64, f64) {
-    piece.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &value| {
-        (if value < low { value } else { low }, if value > high { value } else { high })
-    })
+fn lowest(piece: &Piece) -> f64 {
+    let least = |a: f64, b: f64| if a < b { a } else { b };
+    let half: [f64; COUNT / 2] = core::array::from_fn(|i| least(piece[i], piece[i + COUNT / 2]));
+    least(least(least(half[0], half[1]), least(half[2], half[3])), half[4])
 }
 
 /// The parts of a polynomial on both sides of a share of its piece.

@@ -18,6 +18,6 @@ pub(crate) mod settings;
 mod settling;
 pub(crate) mod spread;
 pub(crate) mod stall_load;
-mod tapped;
+pub(crate) mod tapped;
 pub(crate) mod trap_ranges;
 mod window;

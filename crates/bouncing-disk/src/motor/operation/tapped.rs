@@ -129,6 +129,12 @@ impl Tapped {
         Ok(decided)
     }
 
+    /// Goes on to the next release; the angle that the first rotor turns, or nothing as for [`Self::tap`].
+    pub(crate) fn turn(&mut self) -> Option<f64> {
+        self.tap(&mut AxialWindow::default())?;
+        Some(self.rotors[0].done.angle)
+    }
+
     /// Goes on to the next release, and adds what is done up to there to a window; nothing happens if that is
     /// not decided here.
     pub(crate) fn tap(&mut self, axial: &mut AxialWindow) -> Option<()> {
@@ -175,12 +181,6 @@ impl TappedRotor {
         speed - (self.parts[0] * cos - self.parts[1] * sin)
     }
 
-    /// Sine and cosine of the phase at which the angle's phase has this cosine and this sine.
-    fn phase_of(&self, cosine: f64, sine: f64) -> (f64, f64) {
-        let [ahead, across] = self.parts.map(|part| part / self.twist);
-        (sine * ahead - cosine * across, cosine * ahead + sine * across)
-    }
-
     /// A flight and a contact; nothing if that is not decided here.
     fn carry(
         &mut self,
@@ -205,7 +205,7 @@ impl TappedRotor {
         let (mut last, mut before, mut now) = (0.0, *from, speed);
         if speed.abs() < self.twist {
             let cosine = speed / self.twist;
-            let (corner, sine) = (acos(cosine), ((1.0 - cosine) * (1.0 + cosine)).sqrt());
+            let corner = acos(cosine);
             let begin = wrapped_angle(tap.angle + self.lag);
             let (mut next, expected) = match begin {
                 _ if begin < corner => (corner, -1.0),
@@ -217,10 +217,9 @@ impl TappedRotor {
             }
             while next - begin < tap.end.after + EARLIER {
                 // The platform turns as fast as the rotor there, and falls or rises.
-                let pair = self.phase_of(cosine, if direction < 0.0 { sine } else { -sine });
-                let near = solver.instant(&tap.start, next - begin, pair);
+                let near = solver.instant(&tap.start, next - begin)?;
                 let pull = direction * mu;
-                let reversal = solver.polished(tap.angle, &tap.start, near, |at| {
+                let reversal = solver.polished(&tap.start, near, |at| {
                     let turned = self.slip(0.0, at.sin, at.cos);
                     let rising = self.parts[0] * at.sin + self.parts[1] * at.cos;
                     let gained = load * (at.after - last) + pull * (solver.impulse(at) - before.impulse);
