@@ -172,7 +172,7 @@ export class Parameters {
       ["c", "stroke", measured(summary.stroke, "m")],
       ["t_r", "rise time", rise_time === null ? "none" : measured(rise_time, "s")],
       ["T_c", "over the period", contact?.[0][1] ?? "rigid impacts"],
-      ["mg/kA", "static indentation", contact?.[1][1] ?? "none"],
+      ["mg/kA", "indentation", contact?.[1][1] ?? "none"],
     ] as const;
     this.list.replaceChildren(
       ...rows.map(([sign, name, value]) =>

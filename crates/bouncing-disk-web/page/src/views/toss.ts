@@ -256,6 +256,7 @@ class TossView implements View {
     const heights = recording.extent("height", "platform_height");
     const stage = new Stage(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
     const words = [stage.describe(), describePath(recording.system), "Drag the disk upwards or sideways to throw it."];
+    if (recording.system.contact_time > 0) words.push("Below the platform's surface it is in the contact, which yields.");
     setText(this.gains, words.join(" "));
     return stage;
   }
