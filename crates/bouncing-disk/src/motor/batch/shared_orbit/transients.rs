@@ -75,7 +75,8 @@ fn soft_transients(
     let mut bins = bins.collect::<Result<Vec<_>, Error>>()?;
     let (mut passed, mut impacts, unit) = (0.0, 0, systems[0].scales().time);
     while bins[0].present.reached < settings.duration {
-        let window = member.next_window(bins[0].width / unit, 1..=u64::MAX, work)?;
+        let left = (bins[0].present.end - bins[0].present.reached) / unit;
+        let window = member.next_window(left, 1..=u64::MAX, work)?;
         passed += window.axial.duration;
         impacts += window.axial.impacts;
         for (bins, rotor) in bins.iter_mut().zip(&window.rotors) {
