@@ -92,7 +92,7 @@ def physics(m):
 
 
 DOUBLES = physics(math)
-flight, slope, step, derivative = DOUBLES.flight, DOUBLES.slope, DOUBLES.step, DOUBLES.derivative
+flight, gap, slope, step, derivative = DOUBLES.flight, DOUBLES.gap, DOUBLES.slope, DOUBLES.step, DOUBLES.derivative
 
 
 @numba.njit
@@ -185,3 +185,114 @@ def motor(P, Q, r, theta, load, periods, kick, seed, windows):
         w = r * speed
         attached = w < 1e-9 and P * math.sin(tau) < 1
     return means / width
+
+
+@numba.njit
+def impact_of(damping):
+    """Duration and restitution of an impact of speed 1 on a spring of stiffness 1 with this damper, up to the zero of its force."""
+    y, v, t, h = 0.0, -1.0, 0.0, 1e-4
+    while True:
+        # The classical fourth-order step of y'' = -y - damping y'.
+        a, b = y, v
+        dy, dv = 0.0, 0.0
+        for share, weight in ((0.5, 1 / 6), (0.5, 1 / 3), (1.0, 1 / 3), (0.0, 1 / 6)):
+            force = -a - damping * b
+            dy, dv = dy + weight * h * b, dv + weight * h * force
+            a, b = y + share * h * b, v + share * h * force
+        before, after = -y - damping * v, -(y + dy) - damping * (v + dv)
+        if after <= 0:
+            left = before / (before - after)
+            return t + left * h, v + left * dv
+        y, v, t = y + dy, v + dv, t + h
+
+
+def spring(contact_time, restitution):
+    """Stiffness and damping of the contact that lasts so long (rad) and keeps this share of the speed, by halving."""
+    low, high = 0.0, 50.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if impact_of(middle)[1] > restitution else (low, middle)
+    root = impact_of(low)[0] / contact_time
+    return root * root, low * root
+
+
+@numba.njit
+def press(P, k, c, tau, y, v, h):
+    """Gap and relative velocity after a step of fourth order in contact: y'' = P sin(tau) - 1 - k y - c y'."""
+    middle, end = P * math.sin(tau + h / 2) - 1, P * math.sin(tau + h) - 1
+    a1 = P * math.sin(tau) - 1 - k * y - c * v
+    v2 = v + h / 2 * a1
+    a2 = middle - k * (y + h / 2 * v) - c * v2
+    v3 = v + h / 2 * a2
+    a3 = middle - k * (y + h / 2 * v2) - c * v3
+    v4 = v + h * a3
+    a4 = end - k * (y + h * v3) - c * v4
+    return y + h / 6 * (v + 2 * v2 + 2 * v3 + v4), v + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+
+
+@numba.njit
+def slack(P, k, c, tau, y, v, h):
+    """Whether after the time h of a flight the gap is still negative, and the force would still be."""
+    after = y + h * gap(P, tau, v, h)
+    return after <= 0 and k * after + c * slope(P, tau, v, h) >= 0
+
+
+@numba.njit
+def soft_motor(P, Q, k, c, lags, q, settling, periods, windows, step, seed, only_flights):
+    """Mean speed in each of equal windows of rotors on one vertical motion, by steps of at most `step` in contact.
+
+    They have these lags, and the speeds `q` at first. With `only_flights` a motion that has lost its long flights (none of ten periods
+    in 200 touches) starts anew, and all else goes on from the last of them.
+    """
+    np.random.seed(seed)
+    width, now, end = periods / windows * 2 * math.pi, -settling * 2 * math.pi, periods * 2 * math.pi
+    sums, q = np.zeros((len(q) + 1, windows)), q.copy()
+    kept_sums, kept_q, kept_now, short, flying, anew = sums.copy(), q.copy(), now, 0, 0.0, True
+    while now < end:
+        if anew:
+            tau, y, v, anew = 2 * math.pi * np.random.random(), 0.0, P * (0.2 + 0.8 * np.random.random()), False
+        force, before, impulse = -k * y - c * v, q.copy(), 0.0
+        if y >= 0 and v > 0:
+            h = flight(P, tau, v)
+            y, v, flying = 0.0, slope(P, tau, v, h), flying + h
+        elif force <= 0:
+            # Not free, and not yet in flight: the gap is negative. The end is where the gap closes or the force sets in again.
+            low, h = 0.0, step
+            while not slack(P, k, c, tau, y, v, h) and h - low > 1e-9:
+                low, h = (low, (low + h) / 2) if not slack(P, k, c, tau, y, v, (low + h) / 2) else ((low + h) / 2, h)
+            y, v = y + h * gap(P, tau, v, h), slope(P, tau, v, h)
+        else:
+            if flying > 0:
+                short += 1
+                if flying > 20 * math.pi:
+                    kept_sums[:], kept_q[:], kept_now, short = sums, q, now, 0
+                flying = 0.0
+                if only_flights and short == 200:
+                    sums[:], q[:], now, short, anew = kept_sums, kept_q, kept_now, 0, True
+                    continue
+            h = step
+            after, w = press(P, k, c, tau, y, v, h)
+            for _ in range(8):
+                if k * after + c * w <= 0 or h <= 1e-9:
+                    break
+                h = max(h * force / (force + k * after + c * w), 1e-9)
+                after, w = press(P, k, c, tau, y, v, h)
+            # The force is 1 + x''.
+            impulse = max(w - v + P * (math.cos(tau + h) - math.cos(tau)) + h, 0.0)
+            y, v = after, w
+            for rotor in range(len(q)):
+                first = q[rotor] - Q * math.cos(tau + lags[rotor])
+                push = -math.copysign(impulse, first)
+                last = q[rotor] + push - Q * math.cos(tau + h + lags[rotor])
+                if first * last >= 0:
+                    q[rotor] += push
+                elif abs(Q * math.sin(tau + h / 2 + lags[rotor])) * h <= impulse:
+                    q[rotor] = Q * math.cos(tau + h + lags[rotor])
+                else:
+                    q[rotor] += push * (2 * first / (first - last) - 1)
+        if now >= 0:
+            window = min(int(now / width), windows - 1)
+            sums[:-1, window] += (before + q) / 2 * h
+            sums[-1, window] += h
+        tau, now = (tau + h) % (2 * math.pi), now + h
+    return sums[:-1] / sums[-1]

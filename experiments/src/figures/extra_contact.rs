@@ -167,11 +167,14 @@ impl Experiment for ExtraContact {
 
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::FRAC_1_PI;
+    use std::f64::consts::{FRAC_1_PI, TAU};
 
     use bouncing_disk::Motor;
+    use bouncing_disk::core::Unobserved;
     use bouncing_disk::core::numerics::roots::bisection;
-    use bouncing_disk::motor::NormalImpulses;
+    use bouncing_disk::core::numerics::statistics::{mean, standard_deviation};
+    use bouncing_disk::motor::{DrivenMotor, Estimate, NormalImpulses, OperatingSettings, Operation};
+    use bouncing_disk::parameters::Waveform;
 
     use super::compute::{Law, cell, paper_contacts, tapped_start};
     use super::*;
@@ -205,6 +208,56 @@ mod tests {
         let doubling = bisection(0.5, 0.6, 40, stable).unwrap();
         let words = format!("stability at T_c/T = {doubling:.4} by a doubling");
         assert!(PAGE.contains(&words), "{words}");
+    }
+
+    /// Speeds with the motor's friction; of flights that end after some 40,000 periods, with little friction.
+    #[test]
+    fn the_page_has_the_speeds() {
+        let paper = Motor::paper_70_khz();
+        let period = TAU / paper.system().platform().angular_frequency();
+        let settings = OperatingSettings {
+            members: 4,
+            relative_error: 0.02,
+            most_impacts: 4_000_000,
+            ..OperatingSettings::default()
+        };
+        let speed = |time: f64, phase_lag: f64| {
+            let motor = paper.with(|sheet| sheet.phase_lag = phase_lag).unwrap();
+            let soft = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).unwrap();
+            let soft = soft.with_contact_time(time * period).unwrap();
+            match soft.torque_speed_curve(&[0.0], &settings, &Unobserved).unwrap().remove(0) {
+                Operation::Steady(point) | Operation::Unsettled(point, _) => point.speed,
+                other => panic!("{other:?}"),
+            }
+        };
+        let flown = |lag: f64| {
+            const PERIODS: usize = 10_000;
+            let law = Law {
+                contact_time: Some(0.6),
+                restitution: paper.system().disk().restitution(),
+                hysteretic: false,
+            };
+            let histories = (1..=32).filter_map(|k| {
+                let forcing = paper.system().axial_forcing() * (1.0 + 1e-9 * f64::from(k));
+                let impulses =
+                    NormalImpulses::of_contact(law.map(forcing).unwrap().compliant()?, 500, PERIODS);
+                // A rotor that is tapped has a landing in each period.
+                let impulses = impulses.ok().filter(|own| own.landings.len() < PERIODS / 5)?;
+                Some(impulses.balance(lag).steady_speed() * paper.system().platform().peak_angular_speed())
+            });
+            let speeds: Vec<f64> = histories.collect();
+            let standard_error = standard_deviation(&speeds) / (speeds.len() as f64).sqrt();
+            Estimate { value: mean(&speeds), standard_error }
+        };
+        let words =
+            |own: Estimate| format!("{:.2} ± {:.2}", own.value, (100.0 * own.standard_error).ceil() / 100.0);
+        let rows = [0.05, 0.2, 0.5, 0.6, 0.8, 1.0, 2.0, 5.0, 18.0].map(|time| {
+            format!("| {time} | {} | {} |", words(speed(time, 0.0)), words(speed(time, -FRAC_PI_2)))
+        });
+        let flights = format!("| 0.6, flights | {} | {} |", words(flown(0.0)), words(flown(-FRAC_PI_2)));
+        let rows = rows.into_iter().chain([flights]);
+        let missing: Vec<_> = rows.filter(|row| !PAGE.contains(row.as_str())).collect();
+        assert!(missing.is_empty(), "{}", missing.join("\n"));
     }
 
     /// The rows of the page, computed.
@@ -268,6 +321,18 @@ mod tests {
             let name = time.map_or_else(|| "rigid".to_owned(), |time| format!("{time:.1}"));
             let counts = found.map(|count| count.to_string()).join(" | ");
             rows.push(format!("| {name} | {counts} |"));
+        }
+        // At 184 kHz, at the printed lag.
+        let motor = Motor::paper_184_khz();
+        let [ring, plane] = paper_contacts(&motor).unwrap();
+        for time in [1.0, ring[0], ring[1], plane[1]] {
+            let speeds = [BELOW, WITHIN[0], WITHIN[1], WITHIN[2], ABOVE].map(|preload| {
+                let own = motor.system();
+                let forcing = own.axial_forcing() * own.disk().preload_acceleration() / preload;
+                let (impulses, _) = law(Some(time)).impulses(forcing).unwrap();
+                format!("{:.2}", impulses.balance(0.0).steady_speed())
+            });
+            rows.push(format!("| {time:.1} | {} |", speeds.join(" | ")));
         }
         let missing: Vec<_> = rows.into_iter().filter(|row| !PAGE.contains(row.as_str())).collect();
         assert!(missing.is_empty(), "{}", missing.join("\n"));

@@ -1,6 +1,6 @@
 //! Taps against the engine, each from the same state.
 
-use bouncing_disk_core::numerics::elementary::{exp, ln};
+use bouncing_disk_core::numerics::elementary::{cos, exp, ln, sin};
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::{ChatterPolicy, Drive};
 
@@ -203,4 +203,41 @@ fn taps_on_seams_are_those_of_the_engine_or_left_to_it() {
         (decided, taps) = (decided + pair.decided, taps + pair.taps);
     }
     assert!(decided > taps / 2, "{decided} {taps}");
+}
+
+/// Both against steps of 1/2000 of a period that know only the law of the force, sliding friction and flight.
+#[test]
+fn a_motor_turns_as_small_steps_say() {
+    for periods in [0.8, 2.0, 5.0] {
+        let mut pair = Pair::new(Case { periods, lag: -0.3, ..MOTOR });
+        pair.follow(3_000);
+        let compliance = *pair.engine.system().compliance.as_ref().expect("soft").compliance();
+        let (from, launch) = (pair.engine.time(), pair.engine.flight().expect("a release"));
+        let start = pair.engine.state().angular_speed;
+        for _ in 0..50 {
+            let launch = pair.engine.flight().expect("a release");
+            pair.tap(pair.engine.time(), launch, pair.engine.state().angular_speed).expect("a tap");
+        }
+        let rate = |t: f64, [y, v, q]: [f64; 3]| {
+            let force = (-compliance.stiffness() * y - compliance.damping() * v).max(0.0);
+            let force = if y <= 0.0 { force } else { 0.0 };
+            [v, MOTOR.peak * sin(t) - 1.0 + force, -(q - MOTOR.twist * cos(t - 0.3)).signum() * force]
+        };
+        let span = pair.engine.time().since(&from).radians();
+        let steps = (span / TAU * 2_000.0).ceil();
+        let h = span / steps;
+        let mut x = [launch[0], launch[1], start];
+        for step in 0..steps as u32 {
+            let t = from.phase.angle() + h * f64::from(step);
+            let along = |k: [f64; 3], by: f64| [0, 1, 2].map(|i| x[i] + by * k[i]);
+            let a = rate(t, x);
+            let b = rate(t + 0.5 * h, along(a, 0.5 * h));
+            let c = rate(t + 0.5 * h, along(b, 0.5 * h));
+            let d = rate(t + h, along(c, h));
+            x = [0, 1, 2].map(|i| x[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        }
+        let end = pair.engine.state().angular_speed;
+        let off = (x[2] - end) / (end - start);
+        assert!(off.abs() < 1e-3, "{periods}: {start} {end} {} {off:e}", x[2]);
+    }
 }
