@@ -1,5 +1,5 @@
 //! The contact time: scanned, because each one has a vertical motion of its own, and flights, taps and transients
-//! between them make several ranges fit equally well. docs/numerics/motors.md, "The contact time".
+//! between them make several ranges fit equally well. docs/numerics/motors.md, "Parameters from transients".
 
 use std::f64::consts::TAU;
 
