@@ -94,13 +94,15 @@ pub struct ParameterFit {
     /// during the search, the place reached by then.
     pub undetermined: Vec<UndeterminedDirection>,
     /// Where the contact time is fitted, the ranges that the transients do not exclude, the shortest times first:
-    /// several are not decided between. Its estimate exists if there is one range with two ends.
+    /// several are not decided between. Its estimate exists if there is one range with two ends. A time at which the
+    /// search does not converge is not excluded, and the other parameters then have no estimates.
     pub contact_times: Vec<ContactTimes>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
     /// The remaining weighted sum of squares, not negative.
     pub misfit: f64,
-    /// The expected misfit: the number of means minus the number of determined directions.
+    /// The expected misfit: the number of means minus the number of determined directions, among which a contact
+    /// time is not counted.
     pub degrees_of_freedom: usize,
     /// How often the search has computed all motors, at least once.
     pub evaluations: usize,
@@ -152,7 +154,7 @@ impl ParameterFit {
         let Linearised { places, local, weights, directions } = state;
         let misfit = weights.apply(&(model.measured() - &local.smooth)).norm_squared();
         let degrees_of_freedom = model.statistics().saturating_sub(directions.determined.ncols());
-        let widening = widening_for(misfit, degrees_of_freedom, model)? * sample_widening(model);
+        let widening = widening_for(misfit, degrees_of_freedom, model)?;
         let parameters = Self::estimates(model, state, widening, watch)?;
         let undetermined = directions.undetermined.iter();
         Ok(Self {
@@ -225,6 +227,13 @@ fn checked<'a>(
         let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
         check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
     }
+    // Not every restitution is legal together with a contact time.
+    let scanned = ranges.iter().find(|range| range.parameter == FitParameter::ContactTime);
+    let lasting =
+        nominal.with(|sheet| scanned.iter().for_each(|time| time.parameter.set(sheet, time.high)))?;
+    for (range, end) in ranges.iter().flat_map(|range| [(range, range.low), (range, range.high)]) {
+        lasting.with(|sheet| range.parameter.set(sheet, end))?;
+    }
     let mut windows = Vec::with_capacity(transients.len());
     for transient in transients {
         transient.check_for_fit()?;
@@ -269,10 +278,11 @@ fn check_clocks(model: &Model<'_>, state: &Linearised, watch: &Watch<'_>) -> Res
     Ok(())
 }
 
-/// The factor by which a large but accepted misfit widens the intervals.
+/// The factor by which a small number of members, and a large but accepted misfit, widen the intervals.
 fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, FitError> {
+    let widening = sample_widening(model);
     if degrees == 0 {
-        return Ok(1.0);
+        return Ok(widening);
     }
     let expected = degrees as f64;
     let rare = rare_misfit(expected);
@@ -280,7 +290,7 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, F
     if misfit > largest {
         return refused(FitRefusal::Misfit { misfit, degrees_of_freedom: degrees, largest });
     }
-    Ok(if misfit > rare { (misfit / expected).sqrt() } else { 1.0 })
+    Ok(if misfit > rare { widening * (misfit / expected).sqrt() } else { widening })
 }
 
 /// The misfit that one fit of 10,000 exceeds, whose mean is `expected`: Wilson and Hilferty's approximation of

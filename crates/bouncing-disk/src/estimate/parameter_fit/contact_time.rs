@@ -7,14 +7,15 @@ use bouncing_disk_core::numerics::elementary::{exp, ln};
 use bouncing_disk_core::run::Watch;
 use nalgebra::{DMatrix, DVector};
 
+use crate::error::Error;
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::parameter_fit::bootstrap::differences;
 use crate::estimate::parameter_fit::estimate::{ContactTimes, ParameterEstimate};
 use crate::estimate::parameter_fit::model::Model;
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
 use crate::estimate::parameter_fit::search::{Evaluations, Linearised};
-use crate::estimate::parameter_fit::{ParameterFit, sample_widening};
-use crate::estimate::refusal::FitError;
+use crate::estimate::parameter_fit::{ParameterFit, widening_for};
+use crate::estimate::refusal::{FitError, FitRefusal, refused};
 use crate::statistics::percentile;
 
 /// Contact times over the period below which they count as one: rigid impacts are valid there.
@@ -104,6 +105,8 @@ pub(super) struct Scan<'a> {
     /// The time (s) below which impacts count as rigid.
     rigid: f64,
     candidates: Vec<Candidate<'a>>,
+    /// Times without a best fit, and the middles of steps that stay too long: nothing excludes them.
+    undecided: Vec<f64>,
     evaluations: Evaluations,
 }
 
@@ -114,7 +117,7 @@ impl<'a> Scan<'a> {
         let rest = Model { ranges, ..whole.clone() };
         let rigid = RIGID * TAU / whole.nominal.system().platform().angular_frequency();
         let evaluations = Evaluations { spent: 0, most: 0 };
-        let mut scan = Self { rest, rigid, candidates: Vec::new(), evaluations };
+        let mut scan = Self { rest, rigid, candidates: Vec::new(), undecided: Vec::new(), evaluations };
         let first = range.low.max(rigid);
         if range.low < first {
             scan.add(0.0, watch)?;
@@ -126,6 +129,9 @@ impl<'a> Scan<'a> {
                 scan.add((first * exp(width * step as f64 / steps)).min(range.high), watch)?;
             }
         }
+        if scan.candidates.is_empty() {
+            return refused(FitRefusal::NotConverged { evaluations: scan.evaluations.spent });
+        }
         Ok(scan)
     }
 
@@ -134,8 +140,10 @@ impl<'a> Scan<'a> {
         let after = self.candidates.partition_point(|known| known.time < time);
         let near = self.candidates.get(after.saturating_sub(1));
         let start = near.map_or_else(|| self.rest.start(), |near| near.state.places.clone());
-        let new = Candidate::at(&self.rest, (time, start), &mut self.evaluations, watch)?;
-        self.candidates.insert(after, new);
+        match Candidate::at(&self.rest, (time, start), &mut self.evaluations, watch) {
+            Err(FitError::Refused(FitRefusal::NotConverged { .. })) => self.undecided.push(time),
+            new => self.candidates.insert(after, new?),
+        }
         Ok(())
     }
 
@@ -154,10 +162,15 @@ impl<'a> Scan<'a> {
                 .collect();
             let deviances = known.iter().map(|known| known.deviance(measured));
             let least = deviances.chain(steps.iter().map(|step| step.0)).fold(f64::INFINITY, f64::min);
-            steps.retain(|&(deviance, change, _)| {
-                change > FINE && deviance < least + PLAUSIBLE + BEND * BEND * change * change
+            steps.retain(|&(deviance, change, time)| {
+                change > FINE
+                    && deviance < least + PLAUSIBLE + BEND * BEND * change * change
+                    && !self.undecided.contains(&time)
             });
-            if steps.is_empty() || known.len() + steps.len() > MOST_TIMES {
+            if known.len() + self.undecided.len() + steps.len() > MOST_TIMES {
+                self.undecided.extend(steps.drain(..).map(|step| step.2));
+            }
+            if steps.is_empty() {
                 return Ok(());
             }
             for (_, _, time) in steps {
@@ -166,40 +179,52 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// The best candidate, and which ones cannot be excluded: the ratio of the best likelihood to theirs is not beyond
-    /// what 95 % of measurements of theirs have.
-    pub(super) fn accepted(&self, measured: &DVector<f64>) -> (usize, Vec<bool>) {
-        let known = &self.candidates;
-        let deviances: Vec<f64> = known.iter().map(|own| own.deviance(measured)).collect();
-        let best = (1..known.len())
-            .fold(0, |best, next| if deviances[next] < deviances[best] { next } else { best });
-        let widening = sample_widening(&self.rest);
-        let accepts = |(own, deviance): (&Candidate<'_>, &f64)| {
-            let excess = deviance - deviances[best];
-            if excess <= 0.0 || excess > EXCLUDED {
-                return excess <= 0.0;
-            }
-            let resampled = differences(&own.model, &own.state.local).map(|difference| {
-                let means = &own.state.local.smooth + difference;
-                let least = known.iter().map(|other| other.deviance(&means)).fold(f64::INFINITY, f64::min);
-                own.deviance(&means) - least
-            });
-            let mut resampled: Vec<f64> = resampled.collect();
-            resampled.sort_by(f64::total_cmp);
-            excess <= widening * widening * percentile(&resampled, 0.95)
-        };
-        (best, known.iter().zip(&deviances).map(accepts).collect())
+    /// The candidate with the least deviance.
+    pub(super) fn best(&self, measured: &DVector<f64>) -> usize {
+        let deviances: Vec<f64> = self.candidates.iter().map(|own| own.deviance(measured)).collect();
+        (1..deviances.len()).fold(0, |best, next| if deviances[next] < deviances[best] { next } else { best })
     }
 
-    /// The ranges of the accepted candidates, each up to the next one that is excluded.
+    /// Which candidates cannot be excluded: the ratio of the best likelihood to theirs is not beyond what 95 % of
+    /// measurements of theirs have.
+    pub(super) fn accepted(
+        &self,
+        measured: &DVector<f64>,
+        widening: f64,
+        watch: &Watch<'_>,
+    ) -> Result<Vec<bool>, Error> {
+        let (known, mut work) = (&self.candidates, watch.work());
+        let least = known[self.best(measured)].deviance(measured);
+        let accepts = |own: &Candidate<'_>| {
+            let excess = own.deviance(measured) - least;
+            if excess <= 0.0 || excess > EXCLUDED {
+                return Ok(excess <= 0.0);
+            }
+            let resampled = differences(&own.model, &own.state.local).map(|difference| {
+                work.spend(known.len() as u64)?;
+                let means = &own.state.local.smooth + difference;
+                let least = known.iter().map(|other| other.deviance(&means)).fold(f64::INFINITY, f64::min);
+                Ok(own.deviance(&means) - least)
+            });
+            let mut resampled = resampled.collect::<Result<Vec<f64>, Error>>()?;
+            resampled.sort_by(f64::total_cmp);
+            Ok(excess <= widening * widening * percentile(&resampled, 0.95))
+        };
+        known.iter().map(accepts).collect()
+    }
+
+    /// The ranges of accepted and undecided times, each up to the next one that is excluded.
     pub(super) fn times(&self, accepted: &[bool]) -> Vec<ContactTimes> {
         let mut ranges: Vec<ContactTimes> = Vec::new();
         let flights = FLIGHTS / RIGID * self.rigid;
         let near = |end: f64| (NEAR_FLIGHTS * end).min(flights).max(NEAR * end);
-        for (index, own) in self.candidates.iter().enumerate().filter(|&(index, _)| accepted[index]) {
-            let low = index.checked_sub(1).map(|before| self.candidates[before].time);
-            let low = low.filter(|_| own.time > (1.0 + 1e-9) * self.rigid);
-            let high = self.candidates.get(index + 1).map(|next| next.time);
+        let known = self.candidates.iter().map(|own| own.time).zip(accepted.iter().copied());
+        let mut all: Vec<_> = known.chain(self.undecided.iter().map(|&time| (time, true))).collect();
+        all.sort_by(|one, next| one.0.total_cmp(&next.0));
+        for (index, &(time, _)) in all.iter().enumerate().filter(|(_, own)| own.1) {
+            let low = index.checked_sub(1).map(|before| all[before].0);
+            let low = low.filter(|_| time > (1.0 + 1e-9) * self.rigid);
+            let high = all.get(index + 1).map(|next| next.0);
             match ranges.last_mut() {
                 Some(last) if last.high.is_some_and(|end| low <= Some(near(end))) => last.high = high,
                 _ => ranges.push(ContactTimes { low, high }),
@@ -213,14 +238,21 @@ impl<'a> Scan<'a> {
 pub(super) fn scan(whole: &Model<'_>, range: FitRange, watch: &Watch<'_>) -> Result<ParameterFit, FitError> {
     let (mut scan, measured) = (Scan::over(range, whole, watch)?, whole.measured());
     scan.refine(&measured, watch)?;
-    let (best, accepted) = scan.accepted(&measured);
+    let best = scan.best(&measured);
     let Candidate { model, state, time: value, .. } = &scan.candidates[best];
     let mut fit = ParameterFit::of(model, state, scan.evaluations.spent, watch)?;
-    // The others have intervals that hold those at all accepted times.
+    let widening = widening_for(fit.misfit, fit.degrees_of_freedom, model)?;
+    let accepted = scan.accepted(&measured, widening, watch)?;
+    // The others have intervals that hold those at all accepted times, and none if these are not known at one.
+    let mut unknown = !scan.undecided.is_empty();
     for (index, own) in scan.candidates.iter().enumerate() {
         if index != best && accepted[index] && !fit.parameters.is_empty() {
-            let others = ParameterFit::estimates(&own.model, &own.state, sample_widening(model), watch)?;
-            for (all, other) in fit.parameters.iter_mut().zip(others) {
+            let others = ParameterFit::estimates(&own.model, &own.state, widening, watch);
+            if matches!(others, Err(FitError::Refused(FitRefusal::AtRangeEnd { .. }))) {
+                unknown = true;
+                continue;
+            }
+            for (all, other) in fit.parameters.iter_mut().zip(others?) {
                 let both = all.estimate.zip(other.estimate);
                 all.estimate = both.map(|(all, other)| IntervalEstimate {
                     value: all.value,
@@ -230,6 +262,7 @@ pub(super) fn scan(whole: &Model<'_>, range: FitRange, watch: &Watch<'_>) -> Res
             }
         }
     }
+    fit.parameters.iter_mut().filter(|_| unknown).for_each(|all| all.estimate = None);
     fit.contact_times = scan.times(&accepted);
     let estimate = match fit.contact_times[..] {
         [ContactTimes { low: Some(low), high: Some(high) }] => {

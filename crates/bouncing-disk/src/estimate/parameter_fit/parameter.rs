@@ -162,13 +162,8 @@ impl FitRange {
         self.check()?;
         let Self { parameter, low, high } = *self;
         let nominal = parameter.of(motor);
-        if parameter == FitParameter::ContactTime {
-            motor.with(|sheet| parameter.set(sheet, low))?;
-            motor.with(|sheet| parameter.set(sheet, high))?;
-            return Ok(());
-        }
         check(
-            nominal >= low && nominal <= high,
+            parameter == FitParameter::ContactTime || nominal >= low && nominal <= high,
             parameter.name(),
             nominal,
             "within the range that is searched",

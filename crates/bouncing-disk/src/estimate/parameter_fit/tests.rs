@@ -312,6 +312,10 @@ fn input_that_means_nothing_is_refused_by_name() {
     assert!(ParameterFit::new(&sheet, &transients, &[], &settings(), &Unobserved).is_err());
     assert!(ParameterFit::new(&sheet, &transients, &[FRICTION, FRICTION], &settings(), &Unobserved).is_err());
     assert!(ParameterFit::new(&sheet, &[], &[FRICTION], &settings(), &Unobserved).is_err());
+    // Legal with rigid impacts only.
+    let inelastic = [contact_range(0.5, 1.0), FitRange { low: 0.0, ..RESTITUTION }];
+    let error = fit(&transients, &inelastic).expect_err("illegal");
+    assert!(error.to_string().contains("restitution of a contact that takes time = 0"), "{error}");
     let default = ParameterFitSettings::default();
     for settings in [
         ParameterFitSettings { members: 23, ..default },
@@ -448,7 +452,8 @@ fn intervals_of_the_contact_time_hold_the_truth() {
         let run = run(seed);
         let measured = checked(&sheet, &run, &range, &settings).expect("legal").measured();
         scan.refine(&measured, &watch).expect("no failure");
-        let times = scan.times(&scan.accepted(&measured).1);
+        let accepted = scan.accepted(&measured, sample_widening(&model), &watch).expect("goes on");
+        let times = scan.times(&accepted);
         let [ContactTimes { low: Some(low), high: Some(high) }] = times[..] else { panic!("{times:?}") };
         assert!(high < 1.1 * low, "{times:?}");
         (low..=high).contains(&(1.0 / 70e3))
@@ -470,6 +475,22 @@ fn a_contact_time_is_found_beside_a_friction_from_a_rigid_data_sheet() {
         time.contains(1.0 / 70e3) && (FitParameter::ContactTime.of(&fit.motor) - time.value).abs() <= 0.0
     );
     assert_eq!(fit.parameters[1].nominal.to_bits(), 0);
+}
+
+/// Six evaluations are enough at one of two times; three at none.
+#[test]
+fn a_time_at_which_the_search_does_not_converge_is_not_excluded() {
+    let run = [soft_run(&soft(1.0, 0.0), 0.1, 1)];
+    let ranges = [FitRange { low: 0.5, high: 2.0, ..FRICTION }, contact_range(0.97, 1.0)];
+    let fit = |most_evaluations| {
+        let settings = ParameterFitSettings { members: 24, most_evaluations, ..settings() };
+        ParameterFit::new(&soft(0.0, 0.0), &run, &ranges, &settings, &Unobserved)
+    };
+    let open = fit(6).expect("fitted");
+    assert_eq!(open.contact_times, [ContactTimes { low: None, high: None }]);
+    assert_eq!(ranges.map(|range| open.estimate(range.parameter)), [None; 2]);
+    let error = fit(3).expect_err("too few");
+    assert!(matches!(error, FitError::Refused(FitRefusal::NotConverged { evaluations: 6 })), "{error}");
 }
 
 #[test]
