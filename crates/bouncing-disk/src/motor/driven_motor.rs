@@ -376,6 +376,7 @@ mod tests {
         };
         let (soft, stiff, drive) = (motor(1e-5), motor(1e-12), DriveParameters::default());
         assert_eq!(soft.torque_speed_curve(&[0.0], &settings(), &Unobserved), Err(Error::SoftContact));
+        assert_eq!(soft.nearest_trap(0.1, &Unobserved), Err(Error::SoftContact));
         let phase = Phase::new(0.3).expect("finite");
         let settings = TransientSettings { duration: 1e-3, intervals: 4, ..TransientSettings::default() };
         let run = |motor: &Motor| crate::motor::transient(motor.system(), phase, &settings, &Unobserved);

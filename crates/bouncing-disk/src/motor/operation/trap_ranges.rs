@@ -152,7 +152,8 @@ impl Motor {
     /// The items of `observer` are the steps of the scan.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for another range; the errors of the flights.
+    /// [`Error::OutOfRange`] for another range; [`Error::SoftContact`] for contacts that take time; the errors of the
+    /// flights.
     pub fn nearest_trap(
         &self,
         relative_range: f64,
@@ -160,6 +161,7 @@ impl Motor {
     ) -> Result<Option<NearestTrap>, Error> {
         let legal = relative_range > 0.0 && relative_range <= 1.0;
         check(legal, "relative_range", relative_range, "(0, 1]")?;
+        self.system().rigid()?;
         let reach = ln_1p(relative_range);
         let scan = Scan { motor: self, step: 0.5 * LEAST_TRAP_WIDTH };
         let near = |[from, to]: &[f64; 2]| if *from > 0.0 { *from } else { to.min(0.0) };
