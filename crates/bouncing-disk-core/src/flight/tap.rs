@@ -24,7 +24,7 @@ type Piece = [f64; COUNT];
 type Anchor = [f64; 4];
 
 /// Anchors within a piece.
-const ANCHORS: usize = (PIECE / (2.0 * NEAR)) as usize + 2;
+const ANCHORS: usize = (PIECE / (2.0 * NEAR)) as usize + 1;
 
 /// Terms of a Taylor series.
 const TERMS: usize = 9;
@@ -435,7 +435,7 @@ impl TapSolver {
             if lowest(&force) > margin {
                 continue;
             }
-            let share = first_fall_after(&force, margin, index == 0 && gap < 0.0)?;
+            let share = first_fall_after(&force, margin, [index == 0 && gap < 0.0, false])?;
             if let Some(share) = share {
                 found = Some((index as f64, (index as f64 + share) * self.length));
                 break;
@@ -447,7 +447,8 @@ impl TapSolver {
             [self.force(at), slope, bend, third]
         })?;
         let slope = self.force_slopes(&end)[0];
-        // No second root within the margin: no bend of the polynomial is larger than 288 of its coefficients.
+        // No second root within the margin: the force bends by less than twice its size times the square of the
+        // rate, and 288 of the lengths of a piece are more.
         let bend = 288.0 * largest / (self.length * self.length);
         let within = (index * self.length..=(index + 1.0) * self.length).contains(&end.after);
         if !(within && slope < 0.0 && slope * slope > 8.0 * margin * bend) {
@@ -516,7 +517,7 @@ impl TapSolver {
                 if !pushes {
                     return None;
                 }
-            } else if let Some(share) = first_fall_after(&pulls, margin, index == 0)? {
+            } else if let Some(share) = first_fall_after(&pulls, margin, [index == 0, true])? {
                 (fallen, falls) = (true, Some(from + share * self.length));
             } else if above > 0.0 && !near {
                 let early =
@@ -726,9 +727,9 @@ fn split(piece: &Piece, share: f64) -> (Piece, Piece) {
 /// As [`first_fall`], of a function that may rise from zero at the start of its piece: the errors of the table
 /// vanish there with the fifth power of the time.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
-fn first_fall_after(piece: &Piece, margin: f64, from_zero: bool) -> Option<Option<f64>> {
+fn first_fall_after(piece: &Piece, margin: f64, [from_zero, for_good]: [bool; 2]) -> Option<Option<f64>> {
     if !from_zero {
-        return first_fall(piece, margin, HALVINGS);
+        return first_fall(piece, margin, for_good, HALVINGS);
     }
     if piece[1..].iter().all(|&value| value > 4.0 * margin) {
         return Some(None);
@@ -737,13 +738,14 @@ fn first_fall_after(piece: &Piece, margin: f64, from_zero: bool) -> Option<Optio
     if near[1..].iter().any(|&value| value <= 4.0 * margin) {
         return None;
     }
-    Some(first_fall(&far, margin, HALVINGS)?.map(|share| START + (1.0 - START) * share))
+    Some(first_fall(&far, margin, for_good, HALVINGS)?.map(|share| START + (1.0 - START) * share))
 }
 
 /// The share of the piece at which a function that starts above zero first falls below it, roughly, if it
-/// does; nothing if what lies within the margin of zero may decide.
+/// does, and, if it shall do so `for_good`, stays below up to the end of the piece; nothing if what lies within
+/// the margin of zero may decide.
 #[allow(clippy::option_option, reason = "not decided, and no root")]
-fn first_fall(piece: &Piece, margin: f64, halvings: u32) -> Option<Option<f64>> {
+fn first_fall(piece: &Piece, margin: f64, for_good: bool, halvings: u32) -> Option<Option<f64>> {
     let falls = piece.iter().position(|&value| value <= margin);
     let Some(falls) = falls else { return Some(None) };
     let below = piece.iter().position(|&value| value < -margin);
@@ -761,8 +763,9 @@ fn first_fall(piece: &Piece, margin: f64, halvings: u32) -> Option<Option<f64>> 
         return None;
     }
     let (left, right) = split(piece, 0.5);
-    match first_fall(&left, margin, halvings - 1)? {
+    match first_fall(&left, margin, for_good, halvings - 1)? {
+        Some(_) if for_good && right.iter().any(|&value| value >= -margin) => None,
         Some(share) => Some(Some(0.5 * share)),
-        None => Some(first_fall(&right, margin, halvings - 1)?.map(|share| 0.5 + 0.5 * share)),
+        None => Some(first_fall(&right, margin, for_good, halvings - 1)?.map(|share| 0.5 + 0.5 * share)),
     }
 }

@@ -113,6 +113,8 @@ const GROUPS: Readonly<Record<string, readonly Parameter[]>> = {
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
+      // The range of the library's `Compliance`.
+      refusedAs: { quantities: ["contact.time", "contact time"], range: "[0, 1590]" },
       hint: (_, { system }) => (system.contact_time === 0 ? "rigid impacts" : measured(system.contact_time, "s")),
     },
     ofSystem("friction", "μ", "coefficient of friction", "", () => [0, 1]),

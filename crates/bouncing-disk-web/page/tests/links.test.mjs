@@ -93,6 +93,7 @@ const LINKS = [
     { throw: "none", friction: "0.3", normalised_speed: "1.1" },
     said,
   ]),
+  ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
   ["contact_time=-1&friction=0.3", { contact_time: "0", friction: "0.3" }, ["contact.time = -1"]],
   // A throw counts wherever it stands, and a link without one begins with the impact.
   [

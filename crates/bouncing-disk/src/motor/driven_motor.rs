@@ -230,6 +230,9 @@ impl DrivenMotor {
                 }
                 let speed = tapped.speeds().next().unwrap_or_default();
                 engine.fly_from(tapped.time, tapped.launch, speed);
+                if bins.present.reached >= settings.duration {
+                    break;
+                }
             }
             work.spend(FLIGHTS_OF_EVENT)?;
             let (angle, now) = (engine.state().angle, engine.time().since(&began).radians());
@@ -247,7 +250,7 @@ impl DrivenMotor {
                 break;
             };
             match record.event {
-                Event::Impact { .. } | Event::Kick { .. } => impacts += 1,
+                Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => impacts += 1,
                 Event::Separation => {
                     separations += 1;
                     if settings.relaunch_perturbation > 0.0 {

@@ -241,3 +241,25 @@ fn a_motor_turns_as_small_steps_say() {
         assert!(off.abs() < 1e-3, "{periods}: {start} {end} {} {off:e}", x[2]);
     }
 }
+
+/// Releases from which the force nearly or really sets in and ends again within a radian, next to one at which it
+/// does so before the touch.
+#[test]
+fn the_force_may_set_in_again_and_end_before_the_touch() {
+    let mut random = SplitMix64::new(11);
+    let mut pair = Pair::new(Case {
+        peak: 1.188_519_49,
+        restitution: 0.804_360_370_609_722,
+        periods: 0.808_261_185_596_879_6,
+        twist: 100.0,
+        ..MOTOR
+    });
+    for index in 0..300 {
+        let off = if index == 0 { 0.0 } else { 0.1 };
+        let phase = 5.921_427_226_317_031 + off * (random.unit() - 0.5);
+        let velocity = 0.787_019_819_925_675_5 + off * (random.unit() - 0.5);
+        let launch = [pair.tapped.solver.gap_at_release(velocity), velocity];
+        pair.tap(PhaseTime::in_first_period(phase_at(phase)), launch, 200.0);
+    }
+    assert!(pair.decided > 50, "{}", pair.decided);
+}
