@@ -475,8 +475,9 @@ impl TapSolver {
 
     /// The flight from a release with this `gap` < 0 and `velocity` to the next touch, if it is decided.
     ///
-    /// With z = k y + c y', what the spring and damper would pull with, the gap y rises as long as z > 0 and
-    /// y < 0: where it vanishes with z > 0 ever since the release, it does for the first time.
+    /// Let z = k y + c y', what the spring and damper would pull with at the gap y. y exp(k t/c) rises where z > 0 and
+    /// falls where z < 0: so y vanishes once, at most, after z has fallen below zero for good, and at the release
+    /// z is zero and rises.
     #[must_use]
     pub fn flight(&self, phase: Phase, gap: f64, velocity: f64) -> Option<TapTouch> {
         let (sin, cos) = (phase.sin(), phase.cos());
@@ -557,7 +558,8 @@ impl TapSolver {
                 [k * gap + c * speed, k * speed + c * bend, k * bend + c * third, k * third + c * fourth]
             };
             let again = newton(falls?, &(from..=to), peak, &release, pull)?;
-            return (again.1.gap < 0.0).then(|| ended(again, self.gap_at_release(again.1.velocity)))?;
+            let gap = self.gap_at_release(again.1.velocity);
+            return if again.1.gap < 0.0 { ended(again, gap) } else { None };
         }
         None
     }

@@ -65,7 +65,7 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
         curves(&data.over_preload, cell(3, 1), |own| &own.stall_shares, longest)
             .title("(k) stall torque over preload")
             .x(preload())
-            .y(Axis::linear(-0.6, 1.05).label("torque").ticks(Ticks::every(0.5).minor(5))),
+            .y(Axis::linear(-0.6, 1.05).label(r"torque / $\mu m g a_e$").ticks(Ticks::every(0.5).minor(5))),
     );
     let lag = || Axis::linear(-PI, PI).label(r"$\theta$").ticks(Ticks::pi(1, 2));
     panels.push(
@@ -78,12 +78,14 @@ pub(super) fn draw(data: &ExtraContactData) -> Figure {
     panels.push(
         curves(&data.over_lag, cell(4, 0), |own| &own.stall_shares, |_, lag| lag == 0)
             .x(lag())
-            .y(Axis::linear(-1.05, 1.05).label("torque").ticks(Ticks::every(0.5).minor(5)))
+            .y(Axis::linear(-1.05, 1.05).label(r"torque / $\mu m g a_e$").ticks(Ticks::every(0.5).minor(5)))
             .title("(m) stall torque over the lag"),
     );
     panels.push(
         curves(&data.over_restitution, cell(4, 1), speeds, longest)
-            .x(Axis::linear(RESTITUTIONS.0, RESTITUTIONS.1).label(r"restitution $\epsilon$"))
+            .x(Axis::linear(RESTITUTIONS.0, RESTITUTIONS.1)
+                .label(r"restitution $\epsilon$")
+                .ticks(Ticks::every(0.2).minor(2)))
             .y(speed())
             .title("(n) speed over restitution"),
     );
@@ -127,17 +129,15 @@ fn regimes(data: &ExtraContactData, area: Rect) -> Panel {
     let own = data.ring.map(|time| (time, data.axial_forcing));
     plane(area)
         .title("(a) motion")
-        .layer(Raster::new(
-            data.cells.columns,
-            data.cells.regimes.len(),
-            cells,
-            &palette,
-            CONTACT_TIMES,
-            FORCINGS,
-        ))
+        .layer(raster(data, cells, &palette))
         .layers([0.1, 1.0, 10.0].map(line))
         .layer(Line::new(own).colour(Colour::WHITE).width(2.0))
         .layers(REGIMES.map(|(words, _, (x, y))| Text::at_data(x, y, words).anchor(Anchor::Centre).size(6.5)))
+}
+
+/// The cells of a map in the plane.
+fn raster(data: &ExtraContactData, cells: Vec<u8>, palette: &[Colour]) -> Raster {
+    Raster::new(data.cells.columns, data.cells.regimes.len(), cells, palette, CONTACT_TIMES, FORCINGS)
 }
 
 /// A map with the bar of its colours, whose `ends` are in this unit.
@@ -164,15 +164,7 @@ fn map(
     let own = plane(area);
     let first = area.left < DOUBLE_COLUMN / 4.0;
     let own = if first { own } else { own.y(Axis::log(FORCINGS.0, FORCINGS.1).without_numbers()) };
-    let map = own.title(title).layer(Raster::new(
-        data.cells.columns,
-        data.cells.regimes.len(),
-        cells,
-        &palette,
-        CONTACT_TIMES,
-        FORCINGS,
-    ));
-    [map, bar]
+    [own.title(title).layer(raster(data, cells, &palette)), bar]
 }
 
 fn transition(data: &ExtraContactData, area: Rect) -> Panel {
