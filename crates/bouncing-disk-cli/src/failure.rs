@@ -78,6 +78,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::WaveformJump { .. }
             | Error::DriveNotSine
             | Error::SoftContact
+            | Error::YieldingStator
             | Error::ScheduledDrive
             | Error::Segment { .. }
             | Error::ScheduleJump { .. }

@@ -26,8 +26,11 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     /// put a wrong file right. The second is the table `[drive]`.
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
 
-    /// Whether the file has a table `[contact]`.
-    fn has_contact(&self) -> bool;
+    /// The tables that a template does not write, but for the drive, and whether the file has them.
+    fn tables(&self) -> [(&'static str, bool); 2];
+
+    /// That the motion is prescribed.
+    fn prescribed(&self) -> Result<(), bouncing_disk::Error>;
 
     /// That contacts take no time.
     fn rigid(&self) -> Result<(), bouncing_disk::Error>;
@@ -67,7 +70,9 @@ impl<D: Described> SourceArgs<D> {
 
     /// The parameters of what is computed for a sine only, also with contacts that take time.
     pub(crate) fn get(&self) -> Result<D> {
-        self.driven().and_then(sine)
+        let given = self.driven()?;
+        given.0.prescribed()?;
+        sine(given)
     }
 
     fn driven(&self) -> Result<(D, DriveParameters)> {
@@ -104,14 +109,16 @@ impl<D: Described> SourceArgs<D> {
     ) -> Result<Option<(D, DriveParameters)>> {
         let (parameters, drive) = self.driven()?;
         if self.template {
-            let tables = [("[drive]", !drive.is_sine()), ("[contact]", parameters.has_contact())];
-            if let Some((table, _)) = tables.into_iter().find(|(_, given)| *given) {
+            let drive = [("[drive]", !drive.is_sine())];
+            let mut tables = drive.into_iter().chain(parameters.tables());
+            if let Some((table, _)) = tables.find(|(_, given)| *given) {
                 let copy = format!("--template writes no table {table}: copy that of the file");
                 return Err(Failure::Usage(copy));
             }
             output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
             return Ok(None);
         }
+        parameters.prescribed()?;
         drive.warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
         Ok(Some((parameters, drive)))
     }

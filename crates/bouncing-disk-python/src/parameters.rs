@@ -67,7 +67,7 @@ impl Motor {
         let (platform, disk) = (motor.system().platform(), motor.system().disk());
         let all = [
             ("drive_frequency", Some(sheet.drive_frequency)),
-            ("amplitude", Some(sheet.amplitude)),
+            ("amplitude", Some(platform.amplitude())),
             ("peak_angular_speed", Some(platform.peak_angular_speed())),
             ("twist_amplitude", Some(platform.twist_amplitude())),
             ("phase_lag", Some(sheet.phase_lag)),
@@ -274,7 +274,7 @@ pub(crate) fn known_system(name: &str) -> System {
 pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
     let sheet = MotorParameters {
         drive_frequency: a.real("drive_frequency")?,
-        amplitude: a.real("amplitude")?,
+        amplitude: Some(a.real("amplitude")?),
         peak_angular_speed: a.optional("peak_angular_speed")?,
         twist_amplitude: a.optional("twist_amplitude")?,
         phase_lag: a.real("phase_lag")?,
@@ -291,6 +291,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
         contact: None,
+        stator: None,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }

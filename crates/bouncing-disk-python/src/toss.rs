@@ -85,6 +85,7 @@ pub(crate) fn single_toss<'py>(
     let done = long_call::caught(|| {
         let contact = time.map(|Real(time)| Contact { time: Some(time), ..Contact::default() });
         let system = if contact.is_some() { system.with_contact(contact)? } else { system };
+        system.prescribed()?;
         let contact = system.soft_contact();
         if drive.is_sine() && contact.is_none() {
             return toss(&system, initial);

@@ -14,7 +14,7 @@ fn main() -> Result<(), Error> {
     // The motor of the data sheet above: 40 kHz, 0.5 um, 20 g under 5 N.
     let motor = Motor::paper_70_khz().with(|sheet| {
         sheet.drive_frequency = 40e3;
-        sheet.amplitude = 0.5e-6;
+        sheet.amplitude = Some(0.5e-6);
         (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
         sheet.phase_lag = FRAC_PI_6;
         (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);

@@ -156,6 +156,11 @@ pub enum Error {
          sweeps and fits of parameters"
     )]
     SoftContact,
+    /// A stator whose motion the rotor changes where only a prescribed motion can be computed.
+    #[error(
+        "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the table"
+    )]
+    YieldingStator,
     /// A schedule in place of a periodic motion.
     #[error(
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"

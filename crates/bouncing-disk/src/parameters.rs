@@ -28,6 +28,7 @@ pub(crate) mod driven_platform;
 pub(crate) mod platform;
 pub(crate) mod presets;
 pub(crate) mod scales;
+pub(crate) mod stator;
 pub(crate) mod stroke;
 pub(crate) mod system;
 
@@ -36,4 +37,5 @@ pub use contact::{Contact, ContactLaw, Geometry, Material};
 pub use dimensionless::{DimensionlessParameters, DimensionlessSystem, ForcingParameters};
 pub use driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 pub use scales::Scales;
+pub use stator::{Circuit, ElectricalInput, Stator, StatorKind, StatorParameters, VibrationMode};
 pub use stroke::{LaunchSpeeds, Stroke};

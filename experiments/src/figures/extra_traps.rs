@@ -83,7 +83,7 @@ impl Experiment for ExtraTraps {
         let [least, most] = paper::preloads()?.preload_accelerations_m_per_s2;
         let preloads = middles((least, most), quality.choose(400, 4_000));
         let trapped = |amplitude: f64| {
-            let motor = motor.with(|sheet| sheet.amplitude = amplitude)?;
+            let motor = motor.with(|sheet| sheet.amplitude = Some(amplitude))?;
             let verdicts = low_period_traps(&motor, &preloads, &Unobserved)?;
             let trapped = verdicts.iter().filter(|verdict| verdict.is_trap).count();
             Ok::<_, ExperimentError>((amplitude, trapped as f64 / preloads.len() as f64))

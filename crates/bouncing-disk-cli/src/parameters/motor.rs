@@ -32,8 +32,13 @@ impl Described for Motor {
         read.map_err(|error| error.to_string())
     }
 
-    fn has_contact(&self) -> bool {
-        self.parameters().contact.is_some()
+    fn tables(&self) -> [(&'static str, bool); 2] {
+        let sheet = self.parameters();
+        [("[contact]", sheet.contact.is_some()), ("[stator]", sheet.stator.is_some())]
+    }
+
+    fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
+        self.system().prescribed()
     }
 
     fn rigid(&self) -> Result<(), bouncing_disk::Error> {
@@ -43,13 +48,13 @@ impl Described for Motor {
     fn template(&self) -> String {
         let sheet = self.parameters();
         let mut text = "# The data sheet of a motor. SI units.\n\n".to_owned();
-        for field in MotorField::ALL {
+        for field in MotorField::ALL.into_iter().filter(|field| !field.in_table()) {
             if let Some(value) = field.value(&sheet) {
                 text += &format!("{field} = {value:?} # {}\n", described(field));
             }
         }
         text += "\n# What else there may be; of fields that say the same, only one.\n";
-        let outside = |field: &MotorField| *field != MotorField::ContactTime && field.value(&sheet).is_none();
+        let outside = |field: &MotorField| !field.in_table() && field.value(&sheet).is_none();
         for field in MotorField::ALL.into_iter().filter(outside) {
             let excluded: Vec<&str> = field.excluded().iter().map(|other| other.name()).collect();
             let instead = if excluded.is_empty() {
@@ -84,6 +89,11 @@ fn described(field: MotorField) -> String {
         MotorField::Restitution => "coefficient of restitution, in [0, 1)",
         MotorField::LoadTorque => "load torque; a positive one decelerates a positive rotation",
         MotorField::ContactTime => "how long an impact lasts",
+        MotorField::StatorMass => "effective mass M of the stator that yields",
+        MotorField::StatorQuality => "its quality factor Q",
+        MotorField::StatorResonance => "its resonance",
+        MotorField::StatorForce => "amplitude of the force that drives it",
+        MotorField::StatorVolts => "amplitude of the voltage that drives it",
     };
     match field.unit() {
         "1" => meaning.to_owned(),

@@ -3,7 +3,7 @@
 use bouncing_disk::System;
 use bouncing_disk::core::ChatterPolicy;
 use bouncing_disk::driven::{Schedule, ScheduledEngine};
-use bouncing_disk::parameters::{Contact, DriveParameters};
+use bouncing_disk::parameters::{Contact, DriveParameters, StatorParameters};
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
@@ -29,7 +29,7 @@ const FIELDS: [(&str, &str, &str); 11] = [
 
 /// A file, which may lack parameters that --set gives.
 #[derive(Serialize, Deserialize, Default)]
-#[serde(deny_unknown_fields, default, expecting = "the tables platform, disk, drive and contact")]
+#[serde(deny_unknown_fields, default, expecting = "the tables platform, disk, drive, contact and stator")]
 struct File {
     platform: PlatformTable,
     disk: DiskTable,
@@ -37,6 +37,8 @@ struct File {
     drive: DriveParameters,
     #[serde(skip_serializing_if = "Option::is_none")]
     contact: Option<Contact>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    stator: Option<StatorParameters>,
 }
 
 #[derive(Serialize, Deserialize, Default)]
@@ -108,8 +110,12 @@ impl Described for System {
         Ok((system, file.drive))
     }
 
-    fn has_contact(&self) -> bool {
-        self.contact().is_some()
+    fn tables(&self) -> [(&'static str, bool); 2] {
+        [("[contact]", self.contact().is_some()), ("[stator]", self.stator().is_some())]
+    }
+
+    fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
+        Self::prescribed(self)
     }
 
     fn rigid(&self) -> Result<(), bouncing_disk::Error> {

@@ -165,6 +165,47 @@ fn contacts() {
     folder.all_refused(2, &lines);
 }
 
+/// A stator that yields is legal or refused by name, and never ignored.
+#[test]
+fn stators() {
+    let folder = Folder::new();
+    for (lines, mass) in [
+        (
+            &["toss", "toss --many", "verdicts", "doublings", "design", "diagram", "orbits", "basins"][..],
+            "0.5",
+        ),
+        (
+            &[
+                "motor report",
+                "motor traps",
+                "motor curve",
+                "motor stall",
+                "motor transient",
+                "motor sweep --over friction=0.1:0.2:2",
+            ],
+            "0.01",
+        ),
+    ] {
+        let template = folder.done(&format!("{} --template", lines[0]));
+        let file = |name: &str, table: &str| {
+            folder.write(&format!("{name}.toml"), &format!("{template}\n[stator]\n{table}\n"));
+        };
+        file("yielding", &format!("mass = {mass}\nquality = 300"));
+        file("driven", &format!("mass = {mass}\nquality = 300\nforce = 1"));
+        file("light", "mass = -1\nquality = 300");
+        for line in lines {
+            for (name, told) in [
+                ("yielding", "the table [stator] makes it yield"),
+                ("driven", "both amplitude and stator.force are given"),
+                ("light", "stator.mass = -1 is outside"),
+            ] {
+                folder.all_refused(2, &[(&format!("{line} {name}.toml"), told)]);
+            }
+        }
+    }
+    folder.all_refused(2, &[("motor curve --set stator.mass=0.01", "stator.quality is not given")]);
+}
+
 #[test]
 fn words_of_the_line_that_are_not_legal() {
     let folder = Folder::new();

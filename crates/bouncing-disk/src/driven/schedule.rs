@@ -79,10 +79,11 @@ impl Schedule {
     /// The platform of a system, with its contact, and the schedule of a file's table.
     ///
     /// # Errors
-    /// Those of [`DrivenPlatform::new`]; the rest is checked by [`ScheduledEngine::at_rest`].
+    /// Those of [`DrivenPlatform::new`]; [`Error::YieldingStator`]; the rest is checked by [`ScheduledEngine::at_rest`].
     pub fn of_drive(system: &System, drive: &DriveParameters) -> Result<Self, Error> {
         let DriveParameters { height, angle, start_phase, segments, then } = drive.clone();
         let platform = DrivenPlatform::new(*system.platform(), height, angle)?;
+        system.prescribed()?;
         let platform = platform.with_contact(system.soft_contact());
         Ok(Self { platform, start_phase, segments, then })
     }

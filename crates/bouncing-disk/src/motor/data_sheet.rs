@@ -24,6 +24,7 @@ use crate::motor::data_sheet::rise_bound::highest_rise;
 use crate::parameters::contact::Contact;
 use crate::parameters::disk::DiskParameters;
 use crate::parameters::platform::PlatformParameters;
+use crate::parameters::stator::{GivenMotion, Stator};
 use crate::parameters::system::System;
 
 /// A motor with a legal data sheet: a [`System`] together with its mass and its preload as a force.
@@ -100,6 +101,12 @@ impl Motor {
         self.parameters.preload_force.unwrap_or_else(|| self.mass * self.preload_acceleration())
     }
 
+    /// The stator, if the rotor changes its motion; without a rotor it moves as the platform of [`Self::system`].
+    #[must_use]
+    pub fn stator(&self) -> Option<Stator> {
+        self.system.stator()
+    }
+
     /// Load torque T_L (N m).
     #[must_use]
     pub const fn load_torque(&self) -> f64 {
@@ -171,14 +178,7 @@ impl MotorParameters {
             self.drive_frequency,
             "[3.6e-309, 2.8e307] (Hz)",
         )?;
-        let twist = one_of(
-            ("peak_angular_speed", self.peak_angular_speed),
-            ("twist_amplitude", self.twist_amplitude),
-        )?;
-        let twist_amplitude = match twist {
-            Alternative::One(speed) => speed / angular_frequency,
-            Alternative::Other(amplitude) => amplitude,
-        };
+        let platform = self.platform(angular_frequency)?;
         let mass = self.rotor_mass()?;
         let gyration_radius = match (self.gyration_radius, self.rotor_radius) {
             (Some(gyration), _) => gyration,
@@ -200,12 +200,6 @@ impl MotorParameters {
         };
         let force = mass * preload_acceleration;
         check(force.is_normal(), "preload_force = mass*preload_acceleration", force, "normal (N)")?;
-        let stator = PlatformParameters {
-            amplitude: self.amplitude,
-            twist_amplitude,
-            angular_frequency,
-            phase_lag: self.phase_lag,
-        };
         let rotor = DiskParameters {
             contact_radius: self.contact_radius,
             gyration_radius,
@@ -220,22 +214,49 @@ impl MotorParameters {
             (None, Some(_)) => Ok(contact),
             (None, None) => Ok(Contact { mass: Some(mass), ..contact }),
         });
-        let system = System::new(stator.build()?, rotor.build()?)?.with_contact(contact.transpose()?)?;
+        let system = System::new(platform.build()?, rotor.build()?)?;
+        let system = system.with_contact(contact.transpose()?)?.with_stator(self.stator)?;
         Ok(Motor { parameters: self, system, mass })
+    }
+
+    /// The motion without a rotor: what the sheet gives, and what its stator computes.
+    fn platform(&self, angular_frequency: f64) -> Result<PlatformParameters, Error> {
+        let twist = one_of(
+            ("peak_angular_speed", self.peak_angular_speed),
+            ("twist_amplitude", self.twist_amplitude),
+        );
+        let twist = match twist {
+            Ok(Alternative::One(speed)) => Ok(("peak_angular_speed", speed / angular_frequency)),
+            Ok(Alternative::Other(amplitude)) => Ok(("twist_amplitude", amplitude)),
+            Err(error) => Err(error),
+        };
+        let (amplitude, phase_lag) = (self.amplitude, self.phase_lag);
+        let Some(stator) = self.stator else {
+            let amplitude = amplitude.ok_or(Error::NotGiven { field: "amplitude" })?;
+            let (_, twist_amplitude) = twist?;
+            return Ok(PlatformParameters { amplitude, twist_amplitude, angular_frequency, phase_lag });
+        };
+        let twist_amplitude = match twist {
+            Err(Error::NeitherGiven { .. }) => None,
+            twist => Some(twist?),
+        };
+        let given = GivenMotion { angular_frequency, amplitude, twist_amplitude, phase_lag };
+        Ok(stator.build(given)?.motion())
     }
 
     /// Checks each field by itself.
     fn check_ranges(&self) -> Result<(), Error> {
         positive("drive_frequency", self.drive_frequency)?;
-        not_negative("amplitude", self.amplitude)?;
         finite("phase_lag", self.phase_lag)?;
         positive("contact_radius", self.contact_radius)?;
         not_negative("friction", self.friction)?;
         restitution(self.restitution)?;
         finite("load_torque", self.load_torque)?;
-        for (field, value) in
-            [("peak_angular_speed", self.peak_angular_speed), ("twist_amplitude", self.twist_amplitude)]
-        {
+        for (field, value) in [
+            ("amplitude", self.amplitude),
+            ("peak_angular_speed", self.peak_angular_speed),
+            ("twist_amplitude", self.twist_amplitude),
+        ] {
             value.map(|value| not_negative(field, value)).transpose()?;
         }
         for (field, value) in [

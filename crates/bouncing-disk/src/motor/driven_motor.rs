@@ -59,6 +59,7 @@ impl DrivenMotor {
     }
 
     fn on(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
+        motor.system().prescribed()?;
         let stator = stator.with_contact(motor.system().soft_contact());
         let system = DrivenSystem::new(&stator, motor.system().disk())?;
         let scales = motor.system().scales();
@@ -300,7 +301,7 @@ mod tests {
             near(own.restitution_loss, known.restitution_loss);
         }
         assert_eq!(curve[2], known[2], "a runaway");
-        let strong = motor.with(|sheet| sheet.amplitude *= 10.0).expect("legal");
+        let strong = motor.with(|sheet| sheet.amplitude = Some(1e-7)).expect("legal");
         let driven = DrivenMotor::new(strong, Waveform::Sine, Waveform::Sine).expect("legal");
         let settings = TransientSettings {
             duration: 0.02,
@@ -393,7 +394,7 @@ mod tests {
     /// On a stator too slow to throw it the rotor creeps under a load, as on the sine.
     #[test]
     fn a_rotor_that_never_leaves_the_stator_has_its_steady_speed() {
-        let calm = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 4e-11).expect("legal");
+        let calm = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(4e-11)).expect("legal");
         let driven = DrivenMotor::new(calm, Waveform::Sine, Waveform::Sine).expect("legal");
         let loads = [0.0, 0.3 * calm.largest_torque()];
         let curve = driven.torque_speed_curve(&loads, &settings(), &Unobserved).expect("no failure");

@@ -206,17 +206,4 @@ impl Contact {
         }
         Ok(())
     }
-
-    /// The keys and values as a file has them, alike in JSON and TOML.
-    #[cfg(any(feature = "json", feature = "toml"))]
-    pub(crate) fn entries(&self) -> Vec<(String, String)> {
-        // `Debug` writes `Some(1.0)` and names of variants; serde writes what is read.
-        fn entry((key, value): (String, serde_json::Value)) -> (String, String) {
-            (key, value.to_string())
-        }
-        match serde_json::to_value(self) {
-            Ok(serde_json::Value::Object(fields)) => fields.into_iter().map(entry).collect(),
-            _ => Vec::new(),
-        }
-    }
 }

@@ -110,7 +110,7 @@ impl System {
     pub fn with_platform(&self, change: impl FnOnce(&mut PlatformParameters)) -> Result<Self, Error> {
         let mut parameters = self.platform().parameters();
         change(&mut parameters);
-        Self::new(parameters.build()?, *self.disk())?.with_contact(self.contact().copied())
+        self.with_parts(parameters.build()?, *self.disk())
     }
 
     /// The same system with other parameters of the disk.
@@ -120,7 +120,7 @@ impl System {
     pub fn with_disk(&self, change: impl FnOnce(&mut DiskParameters)) -> Result<Self, Error> {
         let mut parameters = self.disk().parameters();
         change(&mut parameters);
-        Self::new(*self.platform(), parameters.build()?)?.with_contact(self.contact().copied())
+        self.with_parts(*self.platform(), parameters.build()?)
     }
 
     /// The same system with a load `torque` (N m) on a disk of `mass` (kg).
@@ -128,7 +128,7 @@ impl System {
     /// # Errors
     /// Those of [`DiskParameters::with_load_torque`] and of [`Self::new`].
     pub fn with_load_torque(&self, torque: f64, mass: f64) -> Result<Self, Error> {
-        Self::new(*self.platform(), self.disk().parameters().with_load_torque(torque, mass)?.build()?)
+        self.with_parts(*self.platform(), self.disk().parameters().with_load_torque(torque, mass)?.build()?)
     }
 }
 

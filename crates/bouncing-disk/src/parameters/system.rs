@@ -12,6 +12,7 @@ use crate::parameters::disk::Disk;
 use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::platform::Platform;
 use crate::parameters::scales::Scales;
+use crate::parameters::stator::{Stator, StatorParameters};
 
 /// A disk on a platform.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +25,8 @@ pub struct System {
     dimensionless: DimensionlessSystem,
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     contact: Option<Contact>,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
+    stator: Option<StatorParameters>,
 }
 
 impl System {
@@ -47,7 +50,7 @@ impl System {
         }
         .build()?;
         Scales::new(&platform, &disk).check()?;
-        Ok(Self { platform, disk, dimensionless, contact: None })
+        Ok(Self { platform, disk, dimensionless, contact: None, stator: None })
     }
 
     /// The system of a file, whose platform must be that of Eq. (1).
@@ -57,9 +60,15 @@ impl System {
         disk: Disk,
         drive: DriveParameters,
         contact: Option<Contact>,
+        stator: Option<StatorParameters>,
     ) -> Result<Self, Error> {
         drive.sine()?;
-        Self::new(platform, disk)?.with_contact(contact)
+        Self::new(platform, disk)?.with_contact(contact)?.with_stator(stator)
+    }
+
+    /// The same system with another platform and disk.
+    pub(crate) fn with_parts(&self, platform: Platform, disk: Disk) -> Result<Self, Error> {
+        Self::new(platform, disk)?.with_contact(self.contact)?.with_stator(self.stator)
     }
 
     /// The platform.
@@ -102,11 +111,27 @@ impl System {
         holds.then_some((contact.law.unwrap_or_default(), time))
     }
 
-    /// That impacts are rigid.
+    /// The stator that the platform is, if the rotor changes its motion.
+    #[must_use]
+    pub fn stator(&self) -> Option<Stator> {
+        // It was built before, when the table was checked.
+        self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
+    }
+
+    /// That nothing changes the motion of the platform.
     ///
     /// # Errors
-    /// [`Error::SoftContact`].
+    /// [`Error::YieldingStator`].
+    pub const fn prescribed(&self) -> Result<(), Error> {
+        if self.stator.is_some() { Err(Error::YieldingStator) } else { Ok(()) }
+    }
+
+    /// That impacts are rigid, and the motion of the platform is prescribed.
+    ///
+    /// # Errors
+    /// [`Error::SoftContact`], [`Error::YieldingStator`].
     pub fn rigid(&self) -> Result<(), Error> {
+        self.prescribed()?;
         self.soft_contact().map_or(Ok(()), |_| Err(Error::SoftContact))
     }
 
@@ -127,6 +152,17 @@ impl System {
             Compliance::new(time * self.platform.angular_frequency(), self.disk.restitution())?;
         }
         Ok(system)
+    }
+
+    /// The same system with another table `[stator]`, whose steady motion without a rotor is that of the platform.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`], [`Error::NotGiven`], [`Error::NeitherGiven`] and [`Error::BothGiven`] name what is wrong;
+    /// the last one also where force, volts, torque or the twist over the height give another motion than the
+    /// platform has.
+    pub fn with_stator(&self, stator: Option<StatorParameters>) -> Result<Self, Error> {
+        stator.map(|stator| stator.of_platform(&self.platform)).transpose()?;
+        Ok(Self { stator, ..*self })
     }
 
     /// P = A omega^2/g, the platform's peak acceleration in units of the preload acceleration.
@@ -175,6 +211,8 @@ read_checked!(System as UncheckedSystem {
     drive: DriveParameters,
     #[serde(default)]
     contact: Option<Contact>,
+    #[serde(default)]
+    stator: Option<StatorParameters>,
 } => System::of_file);
 
 impl Display for System {

@@ -105,7 +105,7 @@ impl MotorCase {
             let motor = Motor::paper_70_khz().with(|sheet| {
                 sheet.contact = Some(Contact::PAPER);
                 sheet.drive_frequency = motor.frequency_hz;
-                sheet.amplitude = motor.amplitude_m;
+                sheet.amplitude = Some(motor.amplitude_m);
                 sheet.preload_acceleration = Some(motor.preload_acceleration_m_per_s2);
             });
             motor.ok()?.report(&Unobserved).ok()?.contact

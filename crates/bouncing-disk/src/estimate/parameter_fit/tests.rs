@@ -242,7 +242,7 @@ fn a_restitution_is_found_with_the_error_of_its_rough_response() {
 fn an_amplitude_that_its_rough_response_hides_is_named() {
     assert!(!is_trapped(&built()));
     let amplitude = FitParameter::Amplitude;
-    let sheet = built().with(|sheet| sheet.amplitude = 1.4 * amplitude.of(&built())).expect("legal");
+    let sheet = built().with(|sheet| sheet.amplitude = Some(1.4 * amplitude.of(&built()))).expect("legal");
     let settings = ParameterFitSettings { members: 32, ..ParameterFitSettings::default() };
     let runs = at_all_preloads(0.4, 9);
     let fit =

@@ -23,6 +23,7 @@ pub(crate) fn shared_by(systems: &[System]) -> Result<&System, Error> {
         return Err(Error::OutOfRange { field: "number of rotors", value: 0.0, legal: "[1, 1000000]" });
     };
     for system in systems {
+        system.prescribed()?;
         for (one, other) in of_vertical_motion(first).into_iter().zip(of_vertical_motion(system)) {
             let ((field, one), (_, other)) = (one, other);
             if one.to_bits() != other.to_bits() {

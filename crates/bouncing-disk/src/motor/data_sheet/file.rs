@@ -11,6 +11,7 @@ use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField, dista
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
+use crate::parameters::stator::StatorParameters;
 
 /// Why the text of a data sheet gives no motor.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -104,12 +105,12 @@ impl Motor {
     #[cfg(feature = "json")]
     #[must_use]
     pub fn to_json(&self) -> String {
+        let sheet = self.parameters();
         let mut lines: Vec<_> =
-            given(&self.parameters()).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
-        if let Some(contact) = self.parameters().contact {
-            let entries: Vec<_> =
-                contact.entries().iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
-            lines.push(format!("  \"contact\": {{{}}}", entries.join(", ")));
+            given(&sheet).map(|(field, value)| format!("  \"{field}\": {value:?}")).collect();
+        for (table, entries) in tables(&sheet) {
+            let entries: Vec<_> = entries.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+            lines.push(format!("  \"{table}\": {{{}}}", entries.join(", ")));
         }
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
@@ -182,36 +183,44 @@ impl Motor {
     pub fn to_toml(&self) -> String {
         let sheet = self.parameters();
         let lines = given(&sheet).map(|(field, value)| format!("{field} = {value:?} # {}\n", field.unit()));
-        let entries = sheet.contact.iter().flat_map(Contact::entries);
-        let contact = sheet.contact.map(|_| "[contact]\n".to_owned()).into_iter();
-        lines.chain(contact).chain(entries.map(|(key, value)| format!("{key} = {value}\n"))).collect()
+        let tables = tables(&sheet).map(|(table, entries)| {
+            let entries = entries.iter().map(|(key, value)| format!("{key} = {value}\n"));
+            format!("[{table}]\n{}", entries.collect::<String>())
+        });
+        lines.chain(tables).collect()
     }
 }
 
+/// The tables of a data sheet.
+const TABLES: [&str; 3] = ["drive", "contact", "stator"];
+
 /// The fields that a text names, and their values; `None` for `null`. And its tables.
-type Given = (BTreeMap<MotorField, Option<f64>>, Option<DriveParameters>, Option<Contact>);
+#[derive(Default)]
+struct Given {
+    fields: BTreeMap<MotorField, Option<f64>>,
+    drive: Option<DriveParameters>,
+    contact: Option<Contact>,
+    stator: Option<StatorParameters>,
+}
 
 /// A key of a data sheet.
 #[derive(Clone, Copy, serde::Deserialize)]
 #[serde(try_from = "String")]
 enum Key {
     Field(MotorField),
-    Drive,
-    Contact,
+    /// By its place among [`TABLES`].
+    Table(usize),
 }
 
 impl TryFrom<String> for Key {
     type Error = UnknownMotorField;
 
     fn try_from(name: String) -> Result<Self, UnknownMotorField> {
-        let near = |table| distance(&name.to_ascii_lowercase(), table) < 2;
-        match ["drive", "contact"].into_iter().find(|table| near(table)) {
-            Some("drive") if name == "drive" => Ok(Self::Drive),
-            Some("contact") if name == "contact" => Ok(Self::Contact),
-            Some(table) => Err(UnknownMotorField::instead_of(&name, table)),
-            None if name == MotorField::ContactTime.name() => {
-                Err(UnknownMotorField::instead_of(&name, "contact"))
-            }
+        let near = |table: &str| distance(&name.to_ascii_lowercase(), table) < 2;
+        let of_table = |table: &str| name.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'));
+        match TABLES.iter().position(|table| near(table) || of_table(table)) {
+            Some(index) if name == TABLES[index] => Ok(Self::Table(index)),
+            Some(index) => Err(UnknownMotorField::instead_of(&name, TABLES[index])),
             None => name.parse().map(Self::Field),
         }
     }
@@ -228,40 +237,38 @@ impl<'de> Visitor<'de> for Entries {
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Given, A::Error> {
-        let (mut given, mut drive, mut contact) = Given::default();
+        let mut given = Given::default();
         while let Some(key) = map.next_key::<Key>()? {
-            let twice = |name: &str| A::Error::custom(format_args!("the key \"{name}\" is there twice"));
-            match key {
-                Key::Field(field) if given.contains_key(&field) => return Err(twice(field.name())),
-                Key::Field(field) => {
-                    given.insert(field, map.next_value()?);
-                }
-                Key::Drive if drive.is_some() => return Err(twice("drive")),
-                Key::Drive => drive = Some(map.next_value()?),
-                Key::Contact if contact.is_some() => return Err(twice("contact")),
-                Key::Contact => contact = Some(map.next_value()?),
+            let (name, twice) = match key {
+                Key::Field(field) => (field.name(), given.fields.insert(field, map.next_value()?).is_some()),
+                Key::Table(0) => ("drive", given.drive.replace(map.next_value()?).is_some()),
+                Key::Table(1) => ("contact", given.contact.replace(map.next_value()?).is_some()),
+                Key::Table(_) => ("stator", given.stator.replace(map.next_value()?).is_some()),
+            };
+            if twice {
+                return Err(A::Error::custom(format_args!("the key \"{name}\" is there twice")));
             }
         }
-        Ok((given, drive, contact))
+        Ok(given)
     }
 }
 
 /// The motor of a text and of the `changes`, which take the place of what the text says before anything is
 /// checked.
 fn motor_of(
-    (mut given, drive, contact): Given,
+    Given { mut fields, drive, contact, stator }: Given,
     changes: &[(MotorField, f64)],
 ) -> Result<(Motor, DriveParameters), Error> {
-    let mut sheet = MotorParameters { contact, ..MotorParameters::EMPTY };
-    for (field, value) in &given {
+    let mut sheet = MotorParameters { contact, stator, ..MotorParameters::EMPTY };
+    for (field, value) in &fields {
         (field.field().set)(&mut sheet, *value);
     }
     for (field, value) in changes {
         field.set(&mut sheet, *value);
-        given.insert(*field, Some(*value));
+        fields.insert(*field, Some(*value));
     }
     for field in MotorField::ALL {
-        if field.field().needed && given.get(&field).copied().flatten().is_none() {
+        if field.field().needed && fields.get(&field).copied().flatten().is_none() {
             return Err(Error::NotGiven { field: field.name() });
         }
     }
@@ -295,8 +302,23 @@ fn without_mark(text: &str) -> &str {
 
 /// The fields that a data sheet has outside of its tables, in their order.
 fn given(sheet: &MotorParameters) -> impl Iterator<Item = (MotorField, f64)> {
-    let fields = MotorField::ALL.into_iter().filter(|field| *field != MotorField::ContactTime);
+    let fields = MotorField::ALL.into_iter().filter(|field| !field.in_table());
     fields.filter_map(|field| Some((field, field.value(sheet)?)))
+}
+
+/// The tables that it has, with the keys and values as a file has them, alike in JSON and TOML.
+fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(String, String)>)> {
+    // `Debug` writes `Some(1.0)` and names of variants; serde writes what is read.
+    fn entries(table: &impl serde::Serialize) -> Vec<(String, String)> {
+        match serde_json::to_value(table) {
+            Ok(serde_json::Value::Object(keys)) => {
+                keys.into_iter().map(|(key, value)| (key, value.to_string())).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+    let contact = sheet.contact.as_ref().map(|table| ("contact", entries(table)));
+    contact.into_iter().chain(sheet.stator.as_ref().map(|table| ("stator", entries(table))))
 }
 
 #[cfg(test)]

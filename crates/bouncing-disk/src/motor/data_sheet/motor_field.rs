@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::contact::Contact;
+use crate::parameters::stator::StatorParameters;
 
 /// Another unit in which a number may have been meant.
 #[derive(Debug, Clone, Copy)]
@@ -53,9 +54,38 @@ const fn reading(meant: &'static str, factor: f64, usual: (f64, f64)) -> Reading
 
 const MILLIMETRES: &[Reading] = &[reading("a length in mm", 1.0e-3, LENGTHS)];
 
+/// A table of a data sheet, some of whose keys are fields.
+trait FieldTable: Copy + Default + PartialEq {
+    /// What of it goes with a new value of such a key.
+    fn kept(self) -> Self;
+}
+
+impl FieldTable for Contact {
+    /// A time takes the place of materials.
+    fn kept(self) -> Self {
+        Self { law: self.law, ..Self::default() }
+    }
+}
+
+impl FieldTable for StatorParameters {
+    fn kept(self) -> Self {
+        self
+    }
+}
+
+/// Writes a key of a table, which is there as long as it says anything.
+fn write<T: FieldTable>(table: &mut Option<T>, key: fn(&mut T) -> &mut Option<f64>, value: Option<f64>) {
+    let mut new = table.unwrap_or_default();
+    if value.is_some() {
+        new = new.kept();
+    }
+    *key(&mut new) = value;
+    *table = (new != T::default()).then_some(new);
+}
+
 /// Makes the enum and the table of its fields, in the order in which a data sheet is written.
 macro_rules! motor_fields {
-    ($($(#[$doc:meta])* $variant:ident, $name:ident: $kind:ident, $unit:literal, $usual:expr, $readings:expr, $also:expr;)*) => {
+    ($($(#[$doc:meta])* $variant:ident, $name:ident $(. $key:ident)?: $kind:ident, $unit:literal, $usual:expr, $readings:expr, $also:expr;)*) => {
         /// A field of [`MotorParameters`], which is a number.
         ///
         /// It is printed, read and stored as the name of the field: `load_torque`.
@@ -80,12 +110,12 @@ macro_rules! motor_fields {
         }
 
         const FIELDS: &[Field] = &[$(Field {
-            name: motor_fields!(@name $kind $name),
+            name: concat!(stringify!($name) $(, ".", stringify!($key))?),
             unit: $unit,
             usual: $usual,
             readings: $readings,
-            get: motor_fields!(@get $kind $name),
-            set: motor_fields!(@set $kind $name),
+            get: motor_fields!(@get $kind $name $($key)?),
+            set: motor_fields!(@set $kind $name $($key)?),
             #[cfg(any(feature = "json", feature = "toml"))]
             needed: motor_fields!(@needed $kind),
             also: $also,
@@ -96,19 +126,11 @@ macro_rules! motor_fields {
             pub const ALL: [Self; FIELDS.len()] = [$(Self::$variant),*];
         }
     };
-    (@name contact_time $name:ident) => { "contact.time" };
-    (@name $kind:ident $name:ident) => { stringify!($name) };
-    (@get contact_time $name:ident) => { |sheet| sheet.$name.and_then(|contact| contact.time) };
+    (@get optional $name:ident $key:ident) => { |sheet| sheet.$name.and_then(|table| table.$key) };
     (@get optional $name:ident) => { |sheet| sheet.$name };
     (@get $kind:ident $name:ident) => { |sheet| Some(sheet.$name) };
-    (@set contact_time $name:ident) => {
-        |sheet, value| match value {
-            Some(time) => {
-                let law = sheet.$name.and_then(|contact| contact.law);
-                sheet.$name = Some(Contact { law, ..Contact::lasting(time) });
-            }
-            None => sheet.$name = sheet.$name.filter(|contact| contact.time.is_none()),
-        }
+    (@set optional $name:ident $key:ident) => {
+        |sheet, value| write(&mut sheet.$name, |table| &mut table.$key, value)
     };
     (@set optional $name:ident) => { |sheet, value| sheet.$name = value };
     (@set $kind:ident $name:ident) => { |sheet, value| sheet.$name = value.unwrap_or(sheet.$name) };
@@ -123,8 +145,8 @@ motor_fields! {
         reading("an angular frequency in rad/s", 1.0 / TAU, FREQUENCIES),
         reading("a frequency that was divided by 2 pi", TAU, FREQUENCIES),
     ], &["omega", "angular_frequency", "f"];
-    /// [`MotorParameters::amplitude`] A (m).
-    Amplitude, amplitude: needed, "m", Some(AMPLITUDES), &[
+    /// [`MotorParameters::amplitude`] A (m); takes the place of force and volts of the stator.
+    Amplitude, amplitude: optional, "m", Some(AMPLITUDES), &[
         reading("an amplitude in um", 1.0e-6, AMPLITUDES),
         reading("an amplitude in nm", 1.0e-9, AMPLITUDES),
         // Last: where another one fits as well, it is the likelier one.
@@ -174,7 +196,19 @@ motor_fields! {
     LoadTorque, load_torque: optional_with_default, "N m", None, &[], &["T_L", "load", "torque"];
     /// [`Contact::time`] of [`MotorParameters::contact`] (s); takes the place of materials, geometry and sizes. A file
     /// has it in the table `[contact]`.
-    ContactTime, contact: contact_time, "s", None, &[], &["contact_duration"];
+    ContactTime, contact.time: optional, "s", None, &[], &["contact_duration"];
+    /// [`StatorParameters::mass`] M of [`MotorParameters::stator`] (kg). A file has it in the table `[stator]`.
+    StatorMass, stator.mass: optional, "kg", Some(MASSES), &[reading("a mass in g", 1.0e-3, MASSES)], &["M"];
+    /// [`StatorParameters::quality`] Q.
+    StatorQuality, stator.quality: optional, "1", None, &[], &["Q"];
+    /// [`StatorParameters::resonance`] (Hz).
+    StatorResonance, stator.resonance: optional, "Hz", Some(FREQUENCIES), &[
+        reading("a frequency in kHz", 1.0e3, FREQUENCIES),
+    ], &["f_r", "omega_1"];
+    /// [`StatorParameters::force`] (N); takes the place of amplitude and volts.
+    StatorForce, stator.force: optional, "N", None, &[], &[];
+    /// [`StatorParameters::volts`] (V); takes the place of amplitude and force.
+    StatorVolts, stator.volts: optional, "V", None, &[], &["V", "voltage"];
 }
 
 impl MotorField {
@@ -205,6 +239,9 @@ impl MotorField {
     #[must_use]
     pub const fn excluded(self) -> &'static [Self] {
         match self {
+            Self::Amplitude => &[Self::StatorForce, Self::StatorVolts],
+            Self::StatorForce => &[Self::Amplitude, Self::StatorVolts],
+            Self::StatorVolts => &[Self::Amplitude, Self::StatorForce],
             Self::PeakAngularSpeed => &[Self::TwistAmplitude],
             Self::TwistAmplitude => &[Self::PeakAngularSpeed],
             Self::Mass => &[Self::Density, Self::RotorThickness],
@@ -213,6 +250,12 @@ impl MotorField {
             Self::PreloadAcceleration => &[Self::PreloadForce],
             _ => &[],
         }
+    }
+
+    /// Whether a file has it in a table.
+    #[must_use]
+    pub fn in_table(self) -> bool {
+        self.name().contains('.')
     }
 
     /// Writes a value into a data sheet and clears the fields that it excludes ([`Self::excluded`]).

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::parameters::contact::Contact;
+use crate::parameters::stator::StatorParameters;
 use crate::parameters::system::System;
 
 /// The data sheet of a motor, not yet checked. Alternatives are optional; of each pair exactly one is given:
@@ -15,8 +16,10 @@ use crate::parameters::system::System;
 pub struct MotorParameters {
     /// Drive frequency omega/(2 pi) (Hz), positive. Not the angular frequency in rad/s.
     pub drive_frequency: f64,
-    /// Axial amplitude A of the stator's height (m), not negative.
-    pub amplitude: f64,
+    /// Axial amplitude A of the stator's height (m), not negative: without a rotor, if the stator yields. Needed
+    /// unless force or volts of [`Self::stator`] give it.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub amplitude: Option<f64>,
     /// Largest angular speed omega Phi of the stator (rad/s), not negative.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub peak_angular_speed: Option<f64>,
@@ -67,13 +70,16 @@ pub struct MotorParameters {
     /// a report cannot tell whether rigid impacts are valid.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub contact: Option<Contact>,
+    /// A stator that yields; without it the stator's motion is prescribed.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stator: Option<StatorParameters>,
 }
 
 impl MotorParameters {
     /// A sheet without a number. A needed one that stays NaN is refused before anybody sees it.
     pub(crate) const EMPTY: Self = Self {
         drive_frequency: f64::NAN,
-        amplitude: f64::NAN,
+        amplitude: None,
         peak_angular_speed: None,
         twist_amplitude: None,
         phase_lag: 0.0,
@@ -90,6 +96,7 @@ impl MotorParameters {
         restitution: f64::NAN,
         load_torque: 0.0,
         contact: None,
+        stator: None,
     };
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload
@@ -110,11 +117,13 @@ impl MotorParameters {
     pub fn of_system(system: &System, mass: f64) -> Self {
         let (platform, disk) = (system.platform(), system.disk());
         let gyration_radius = disk.gyration_radius();
+        let stator = system.stator().map(|stator| stator.parameters());
+        let [lifts, twists] = stator.unwrap_or_default().computes().map(|field| field.is_none());
         Self {
             drive_frequency: platform.angular_frequency() / TAU,
-            amplitude: platform.amplitude(),
-            twist_amplitude: Some(platform.twist_amplitude()),
-            phase_lag: platform.phase_lag(),
+            amplitude: lifts.then_some(platform.amplitude()),
+            twist_amplitude: twists.then_some(platform.twist_amplitude()),
+            phase_lag: if twists { platform.phase_lag() } else { 0.0 },
             mass: Some(mass),
             contact_radius: disk.contact_radius(),
             gyration_radius: Some(gyration_radius),
@@ -123,6 +132,7 @@ impl MotorParameters {
             restitution: disk.restitution(),
             load_torque: disk.load_acceleration() * (mass * gyration_radius * gyration_radius),
             contact: system.contact().map(|contact| Contact { mass: None, ..*contact }),
+            stator,
             ..Self::EMPTY
         }
     }

@@ -20,7 +20,7 @@ const STEEL_DENSITY: f64 = 7850.0;
 fn table_iii(drive_frequency: f64) -> Motor {
     MotorParameters {
         drive_frequency,
-        amplitude: STATOR_AMPLITUDE,
+        amplitude: Some(STATOR_AMPLITUDE),
         peak_angular_speed: Some(STATOR_SPEED),
         mass: Some(STEEL_DENSITY * PI * BALL_DIAMETER * BALL_DIAMETER * BALL_DIAMETER / 6.0),
         contact_radius: ROTOR.contact_radius,

@@ -50,8 +50,9 @@ impl Motor {
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// Those of the core, for a flight longer than it can count.
+    /// [`Error::YieldingStator`]; those of the core, for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
+        self.system().prescribed()?;
         let (regime, flight) = regime(self.system().dimensionless(), observer)?;
         let system = self.system();
         let impact_speed = flight.map(|mean| mean.impact_speed * system.scales().velocity);

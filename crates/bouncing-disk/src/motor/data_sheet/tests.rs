@@ -21,7 +21,7 @@ use crate::parameters::dimensionless::{DimensionlessParameters, ForcingParameter
 fn designers() -> MotorParameters {
     MotorParameters {
         drive_frequency: 40e3,
-        amplitude: 0.5e-6,
+        amplitude: Some(0.5e-6),
         peak_angular_speed: Some(12.0),
         phase_lag: PI / 6.0,
         mass: Some(0.02),
@@ -213,8 +213,8 @@ fn the_traps_of_units_are_told() {
         ("contact_radius", |sheet| sheet.contact_radius = 13.5, "in mm"),
         ("gyration_radius", |sheet| sheet.gyration_radius = Some(13.5), "in mm"),
         ("rotor_radius", |sheet| sheet.rotor_radius = Some(13.5), "in mm"),
-        ("amplitude", |sheet| sheet.amplitude = 0.05, "in um"),
-        ("amplitude", |sheet| sheet.amplitude = 5e-4, "in mm"),
+        ("amplitude", |sheet| sheet.amplitude = Some(0.05), "in um"),
+        ("amplitude", |sheet| sheet.amplitude = Some(5e-4), "in mm"),
         ("preload_force", |sheet| sheet.preload_force = Some(5e3), "in mN, or an acceleration"),
         ("preload_force", |sheet| sheet.preload_force = Some(3e5), "in mN"),
         ("mass", |sheet| sheet.mass = Some(20.0), "in g"),
@@ -250,7 +250,7 @@ fn warnings_begin_where_they_are_said_to() {
     assert_eq!([0.1, 500.0, 500.0_f64.next_up()].map(readings), [0, 0, 1]);
     // Nothing moves, nothing rubs: taken as meant.
     let still = MotorParameters {
-        amplitude: 0.0,
+        amplitude: Some(0.0),
         peak_angular_speed: Some(0.0),
         friction: 0.0,
         restitution: 0.0,
@@ -512,7 +512,7 @@ proptest! {
     ) {
         let base = if by_density { disc() } else { MotorParameters { mass: Some(mass), ..designers() } };
         let sheet = MotorParameters {
-            drive_frequency: frequency, amplitude, phase_lag: lag, preload_force: Some(force),
+            drive_frequency: frequency, amplitude: Some(amplitude), phase_lag: lag, preload_force: Some(force),
             spring_constant: spring, friction, restitution, load_torque: torque, ..base
         };
         let Ok(motor) = sheet.build() else { return Ok(()) };
@@ -555,4 +555,137 @@ fn a_measurement_in_another_unit_is_found_by_the_drive() {
         ),
         []
     );
+}
+
+/// One stator of each kind and drive, on the motor of Table III.
+fn yielding() -> Vec<Motor> {
+    use crate::parameters::stator::{StatorKind, StatorParameters};
+    let axial = StatorParameters { mass: Some(0.01), quality: Some(300.0), ..StatorParameters::default() };
+    let force = StatorParameters { force: Some(0.7), resonance: Some(70.1e3), ..axial };
+    let volts = StatorParameters { volts: Some(0.3), force_per_volt: Some(2.4), ..axial };
+    let circuit = StatorParameters {
+        force_per_volt: None,
+        resonance: Some(69.9e3),
+        anti_resonance: Some(71.3e3),
+        capacitance: Some(1.1e-9),
+        ..volts
+    };
+    let twisting =
+        StatorParameters { kind: StatorKind::AxialTwist, twist_per_height: Some(-6.7e3), ..circuit };
+    let torsional = StatorParameters {
+        kind: StatorKind::AxialAndTorsional,
+        inertia: Some(2e-8),
+        torsional_quality: Some(200.0),
+        torsional_resonance: Some(70.2e3),
+        ..circuit
+    };
+    let torque = StatorParameters { torque: Some(1e-3), torque_phase: Some(0.4), ..torsional };
+    let both = StatorParameters { torque_per_volt: Some(-3e-3), ..torsional };
+    let motor = |table: StatorParameters| {
+        let built = Motor::paper_70_khz().with(|sheet| {
+            sheet.stator = Some(table);
+            let [lifts, twists] = table.computes();
+            sheet.amplitude = sheet.amplitude.filter(|_| lifts.is_none());
+            sheet.peak_angular_speed = sheet.peak_angular_speed.filter(|_| twists.is_none());
+        });
+        built.expect("legal")
+    };
+    [axial, force, volts, circuit, twisting, torsional, torque, both].map(motor).to_vec()
+}
+
+/// A sheet, its files and its system have the same stator, to the last bit, and what is computed follows the sheet.
+#[test]
+fn a_stator_is_read_as_it_is_written() {
+    for motor in yielding() {
+        let (stator, platform) = (motor.stator().expect("yields"), motor.system().platform());
+        assert_eq!(stator.motion(), platform.parameters());
+        #[cfg(feature = "json")]
+        {
+            assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor));
+            let text = serde_json::to_string(&motor).expect("writes");
+            assert_eq!(serde_json::from_str::<Motor>(&text).expect("reads"), motor);
+            let text = serde_json::to_string(motor.system()).expect("writes");
+            assert_eq!(serde_json::from_str::<System>(&text).expect("reads"), *motor.system());
+        }
+        #[cfg(feature = "toml")]
+        assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
+        let again = MotorParameters::of_system(motor.system(), motor.mass()).build().expect("legal");
+        assert!(
+            (again.stator().expect("yields").motion().amplitude / platform.amplitude() - 1.0).abs() < 1e-13
+        );
+        // Twice the force, and other changes of the system that cannot hold.
+        let sheet = motor.parameters();
+        for field in [MotorField::StatorVolts, MotorField::StatorForce] {
+            let Some(value) = field.value(&sheet) else { continue };
+            let double = motor.with(|sheet| field.set(sheet, 2.0 * value)).expect("legal");
+            assert!((double.system().platform().amplitude() / platform.amplitude() - 2.0).abs() < 1e-15);
+            let other = motor.system().with_platform(|platform| platform.amplitude *= 2.0);
+            assert_eq!(other, Err(Error::BothGiven { one: "amplitude", other: field.name() }));
+        }
+        if stator.parameters().computes()[1].is_some() {
+            let other = motor.system().with_platform(|platform| platform.twist_amplitude *= 2.0);
+            assert!(matches!(other, Err(Error::BothGiven { one: "twist_amplitude", .. })), "{other:?}");
+        }
+        let still = motor.with(|sheet| MotorField::Amplitude.set(sheet, 3e-9)).expect("legal");
+        assert!((still.stator().expect("yields").motion().amplitude - 3e-9).abs() < 1e-24);
+    }
+}
+
+#[cfg(feature = "toml")]
+#[test]
+fn faults_of_a_table_stator_are_told() {
+    let text = yielding()[3].to_toml();
+    for (from, to, told) in [
+        ("[stator]", "[statr]", "did you mean \"stator\"?"),
+        ("[stator]", "[stator]\nmas = 1", "\"mas\" is unknown; did you mean \"mass\"?"),
+        ("\"axial\"", "\"axail\"", "did you mean \"axial\"?"),
+        ("friction = ", "amplitude = 1e-8\nfriction = ", "both amplitude and stator.volts are given"),
+        ("anti_resonance = 71300.0", "anti_resonance = 69e3", "stator.anti_resonance = 69000 is outside"),
+        ("friction = ", "'stator.mass' = 1\nfriction = ", "did you mean \"stator\"?"),
+        ("quality = 300.0", "quality = 0.3", "stator.quality = 0.3 is outside its legal range [0.5, inf)"),
+    ] {
+        assert!(text.contains(from), "{from}\n{text}");
+        let error = Motor::from_toml(&text.replace(from, to)).expect_err(to).to_string();
+        assert!(error.contains(told), "{to}: {error}");
+    }
+    let prescribed = Motor::paper_70_khz().to_toml().replace("amplitude = 1e-8", "");
+    assert_eq!(Motor::from_toml(&prescribed), Err(Error::NotGiven { field: "amplitude" }.into()));
+}
+
+/// Nothing treats a yielding stator as a prescribed one.
+#[test]
+fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
+    use crate::motor::operation::settings::OperatingSettings;
+    use crate::motor::{
+        DrivenMotor, MotorSweep, SweepAxis, TransientMember, low_period_traps, operations, transient,
+        transients,
+    };
+    use crate::parameters::driven_platform::{DriveParameters, Waveform};
+    use crate::toss::{InitialSpin, single_toss};
+    let motor = yielding()[0];
+    let refused = |error: Option<Error>| assert_eq!(error, Some(Error::YieldingStator));
+    let (settings, run_up) = (OperatingSettings::default(), TransientSettings::default());
+    let soft = motor.with(|sheet| MotorField::ContactTime.set(sheet, 1e-5)).expect("legal");
+    let phase = bouncing_disk_core::Phase::new(0.0).expect("legal");
+    for motor in [motor, soft] {
+        refused(motor.report(&Unobserved).err());
+        refused(motor.trap_verdict().err());
+        refused(low_period_traps(&motor, &[9.8], &Unobserved).err());
+        refused(motor.nearest_trap(0.1, &Unobserved).err());
+        refused(motor.trap_ranges([9.0, 10.0], 0.05, &settings, &Unobserved).err());
+        refused(motor.operating_point(0.0, &settings, &Unobserved).err());
+        refused(motor.torque_speed_curve(&[0.0], &settings, &Unobserved).err());
+        refused(motor.stall_load(&settings, &Unobserved).err());
+        refused(motor.best_phase_lag(&settings, &Unobserved).err());
+        refused(operations(&[motor], &settings, &Unobserved).err());
+        refused(DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).err());
+        refused(transient(motor.system(), phase, &run_up, &Unobserved).err());
+        let member = TransientMember { system: *motor.system(), phase, settings: run_up };
+        refused(transients(&[member], &Unobserved).expect("not stopped").remove(0).err());
+        refused(single_toss(motor.system(), InitialSpin::AbsoluteRest).err());
+        refused(crate::driven::Schedule::of_drive(motor.system(), &DriveParameters::default()).err());
+        let axis = SweepAxis::new(MotorField::StatorQuality, vec![100.0, 200.0]);
+        let sweep = MotorSweep::new(motor, vec![axis], settings).expect("legal");
+        refused(sweep.run(&Unobserved).err());
+    }
 }

@@ -212,6 +212,7 @@ pub fn low_period_traps(
 
 impl TrapVerdict {
     fn of_motor(motor: &Motor, work: &mut WorkCount<'_>) -> Result<Self, Error> {
+        motor.system().prescribed()?;
         Self::of(motor.system().dimensionless().map(), motor.preload_acceleration(), work)
     }
 }

@@ -79,7 +79,7 @@ impl InputTolerance {
         let mut factor = |tolerance: f64| 1.0 + tolerance * (2.0 * random.unit() - 1.0);
         let (preload, amplitude) = (factor(self.preload), factor(self.amplitude));
         let motor = motor.with(|sheet| {
-            sheet.amplitude *= amplitude;
+            sheet.amplitude = sheet.amplitude.map(|value| value * amplitude);
             for given in [&mut sheet.preload_force, &mut sheet.preload_acceleration] {
                 *given = given.map(|value| value * preload);
             }

@@ -174,7 +174,7 @@ impl Motor {
         Ok(Some(NearestTrap {
             relative_distance: 1.0 - 1.0 / exp(offset.abs()),
             preload_acceleration: self.preload_acceleration() / factor,
-            amplitude: self.parameters().amplitude * factor,
+            amplitude: self.system().platform().amplitude() * factor,
             drive_frequency: self.parameters().drive_frequency * factor.sqrt(),
             forcing_from_to: ends.map(|end| forcing * exp(end)),
             verdict: scan.verdict(0.5 * (ends[0] + ends[1]), &mut watch.work())?,

@@ -117,6 +117,7 @@ fn suffix(unit: &str) -> &'static str {
         "N/m" => "n_per_m",
         "N m" => "n_m",
         "W" => "w",
+        "V" => "v",
         _ => "",
     }
 }
@@ -195,7 +196,8 @@ mod tests {
             relative_error: 0.5,
             ..OperatingSettings::default()
         };
-        for field in MotorField::ALL {
+        // Sweeps do not have a stator that yields.
+        for field in MotorField::ALL.into_iter().filter(|field| !field.name().starts_with("stator.")) {
             let mut motor = Motor::paper_70_khz().parameters();
             (motor.rotor_radius, motor.load_torque) = (Some(0.01), 1e-6);
             if matches!(field, MotorField::RotorThickness | MotorField::Density) {

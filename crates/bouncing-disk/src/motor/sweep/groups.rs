@@ -52,7 +52,7 @@ mod tests {
         let motor = Motor::paper_70_khz();
         let motors = amplitudes.iter().enumerate().map(|(index, &amplitude)| {
             motor.with(|sheet| {
-                sheet.amplitude = amplitude;
+                sheet.amplitude = Some(amplitude);
                 // The vertical motion does not depend on these fields.
                 sheet.load_torque = 1e-9 * index as f64;
             })

@@ -51,7 +51,7 @@ fn the_rows_of_a_map_are_curves() {
     let by_columns = result(&[load.clone(), axis(MotorField::Amplitude, &amplitudes)]);
     assert_eq!((by_rows.rows().count(), by_columns.rows().count()), (2, 5));
     for (row, amplitude) in amplitudes.into_iter().enumerate() {
-        let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = amplitude).expect("legal");
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
         let curve = motor.torque_speed_curve(&load.values, &rough(), &Unobserved).expect("no failure");
         assert_eq!(by_rows.rows().nth(row), Some(&curve[..]));
         let column: Vec<Operation> = by_columns.rows().map(|cells| cells[row]).collect();

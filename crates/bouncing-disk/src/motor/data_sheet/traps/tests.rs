@@ -16,7 +16,7 @@ fn at_forcing(motor: &Motor, forcing: f64) -> Motor {
 fn the_verdict_is_that_of_the_report() {
     let (mut traps, mut agree, mut tried) = (0, 0, 0);
     for (amplitude, from, to) in [(1e-9, 2.0, 4.0), (1e-8, 11.8, 13.2), (1e-7, 203.0, 204.0)] {
-        let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = amplitude).expect("legal");
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(amplitude)).expect("legal");
         for step in 0..24 {
             let motor = at_forcing(&motor, from + (to - from) * f64::from(step) / 24.0);
             let verdict = motor.trap_verdict().expect("no failure");
@@ -106,7 +106,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
         };
         let edges = [
             edge(&|sheet| sheet.preload_acceleration = Some(trap.preload_acceleration)),
-            edge(&|sheet| sheet.amplitude = trap.amplitude),
+            edge(&|sheet| sheet.amplitude = Some(trap.amplitude)),
             edge(&|sheet| sheet.drive_frequency = trap.drive_frequency),
         ];
         let near = if forcing < from {
@@ -145,7 +145,7 @@ fn the_nearest_trap_is_that_of_a_dense_scan() {
 fn a_motor_far_from_every_trap_has_none() {
     let motor = at_forcing(&Motor::paper_70_khz(), 12.25);
     assert_eq!(motor.nearest_trap(1e-9, &Unobserved).expect("no failure"), None);
-    let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 0.0).expect("legal");
+    let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(0.0)).expect("legal");
     assert_eq!(still.nearest_trap(1.0, &Unobserved).expect("no failure"), None);
     for bad in [0.0, -0.1, 1.1, f64::NAN, f64::INFINITY] {
         assert_eq!(crate::testing::refused_field(motor.nearest_trap(bad, &Unobserved)), "relative_range");

@@ -64,7 +64,7 @@ fn small_motor(preload: f64) -> Motor {
     Motor::paper_70_khz()
         .with(|sheet| {
             (sheet.drive_frequency, sheet.amplitude, sheet.phase_lag) =
-                (40e3, 0.5e-6, std::f64::consts::FRAC_PI_6);
+                (40e3, Some(0.5e-6), std::f64::consts::FRAC_PI_6);
             (sheet.peak_angular_speed, sheet.twist_amplitude) = (Some(12.0), None);
             (sheet.mass, sheet.density, sheet.rotor_radius) = (Some(0.020), None, None);
             (sheet.contact_radius, sheet.gyration_radius) = (12.5e-3, Some(10e-3));
@@ -118,7 +118,7 @@ fn tolerances_that_are_none_are_refused() {
 fn a_motor_that_is_never_thrown_is_answered_at_once() {
     let began = std::time::Instant::now();
     let settings = OperatingSettings::default();
-    let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = 4e-11).expect("legal");
+    let still = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(4e-11)).expect("legal");
     assert!(matches!(still.stall_load(&settings, &Unobserved), Err(Error::DoesNotTurn { .. })));
     // The rotor slides, and is dragged by where the stator presses harder: S(x) of a normal force 1 - P sin
     // tau, whose half where cos(tau + theta) > x is, with c = acos x, (c + P sin c sin theta)/pi; it balances

@@ -68,7 +68,7 @@ fn contacts_that_take_time_carry_rotors_as_the_engine_does() {
     };
     for (periods, amplitude) in [(0.3, 1e-8), (1.0, 1e-8), (8.0, 1e-8), (1.0, 4e-11)] {
         let one = crate::Motor::paper_70_khz().with(|sheet| {
-            sheet.amplitude = amplitude;
+            sheet.amplitude = Some(amplitude);
             sheet.contact = Some(crate::parameters::contact::Contact::lasting(periods / 70e3));
         });
         let one = one.expect("legal");
