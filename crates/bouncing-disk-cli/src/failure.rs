@@ -79,6 +79,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::DriveNotSine
             | Error::SoftContact
             | Error::YieldingStator
+            | Error::LoadLaw
             | Error::ScheduledDrive
             | Error::Segment { .. }
             | Error::ScheduleJump { .. }

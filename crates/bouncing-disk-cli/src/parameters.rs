@@ -27,9 +27,9 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
 
     /// The tables that a template does not write, but for the drive, and whether the file has them.
-    fn tables(&self) -> [(&'static str, bool); 2];
+    fn tables(&self) -> [(&'static str, bool); 3];
 
-    /// That the motion is prescribed.
+    /// That motion and load are prescribed.
     fn prescribed(&self) -> Result<(), bouncing_disk::Error>;
 
     /// That contacts take no time.

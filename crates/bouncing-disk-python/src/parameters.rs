@@ -292,6 +292,7 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         load_torque: a.real("load_torque")?,
         contact: None,
         stator: None,
+        load: None,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }

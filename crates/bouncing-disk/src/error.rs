@@ -161,6 +161,9 @@ pub enum Error {
         "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the table"
     )]
     YieldingStator,
+    /// A load that varies where only a constant torque can be computed.
+    #[error("this analysis holds for a constant load only: replace the table [load] by load_torque")]
+    LoadLaw,
     /// A schedule in place of a periodic motion.
     #[error(
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"

@@ -32,9 +32,10 @@ impl Described for Motor {
         read.map_err(|error| error.to_string())
     }
 
-    fn tables(&self) -> [(&'static str, bool); 2] {
+    fn tables(&self) -> [(&'static str, bool); 3] {
         let sheet = self.parameters();
-        [("[contact]", sheet.contact.is_some()), ("[stator]", sheet.stator.is_some())]
+        let load = ("[load]", sheet.load.is_some());
+        [("[contact]", sheet.contact.is_some()), ("[stator]", sheet.stator.is_some()), load]
     }
 
     fn prescribed(&self) -> Result<(), bouncing_disk::Error> {

@@ -203,7 +203,17 @@ fn stators() {
             }
         }
     }
-    folder.all_refused(2, &[("motor curve --set stator.mass=0.01", "stator.quality is not given")]);
+    let load = folder.done("motor report --template") + "\n[load]\nspeeds = [0]\ntorques = [1e-6]\n";
+    folder.write("load.toml", &load);
+    let lines = [
+        ("motor curve --set stator.mass=0.01", "stator.quality is not given"),
+        (
+            "motor transient load.toml",
+            "holds for a constant load only: replace the table [load] by load_torque",
+        ),
+        ("motor curve load.toml --template", "--template writes no table [load]"),
+    ];
+    folder.all_refused(2, &lines);
 }
 
 #[test]

@@ -23,6 +23,7 @@ use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::motor::data_sheet::rise_bound::highest_rise;
 use crate::parameters::contact::Contact;
 use crate::parameters::disk::DiskParameters;
+use crate::parameters::load::LoadLaw;
 use crate::parameters::platform::PlatformParameters;
 use crate::parameters::stator::{GivenMotion, Stator};
 use crate::parameters::system::System;
@@ -105,6 +106,12 @@ impl Motor {
     #[must_use]
     pub fn stator(&self) -> Option<Stator> {
         self.system.stator()
+    }
+
+    /// The load that varies, if the sheet has one in place of a load torque.
+    #[must_use]
+    pub const fn load(&self) -> Option<LoadLaw> {
+        self.parameters.load
     }
 
     /// Load torque T_L (N m).
@@ -215,7 +222,11 @@ impl MotorParameters {
             (None, None) => Ok(Contact { mass: Some(mass), ..contact }),
         });
         let system = System::new(platform.build()?, rotor.build()?)?;
-        let system = system.with_contact(contact.transpose()?)?.with_stator(self.stator)?;
+        let mut system = system.with_contact(contact.transpose()?)?.with_stator(self.stator)?;
+        if self.load.is_some() && self.load_torque != 0.0 {
+            return Err(Error::BothGiven { one: "load_torque", other: "load" });
+        }
+        system.has_load_law = self.load.is_some();
         Ok(Motor { parameters: self, system, mass })
     }
 

@@ -27,6 +27,9 @@ pub struct System {
     contact: Option<Contact>,
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     stator: Option<StatorParameters>,
+    /// The load is that of a table `[load]`, which a data sheet has.
+    #[cfg_attr(feature = "serde", serde(skip))]
+    pub(crate) has_load_law: bool,
 }
 
 impl System {
@@ -50,7 +53,7 @@ impl System {
         }
         .build()?;
         Scales::new(&platform, &disk).check()?;
-        Ok(Self { platform, disk, dimensionless, contact: None, stator: None })
+        Ok(Self { platform, disk, dimensionless, contact: None, stator: None, has_load_law: false })
     }
 
     /// The system of a file, whose platform must be that of Eq. (1).
@@ -68,7 +71,8 @@ impl System {
 
     /// The same system with another platform and disk.
     pub(crate) fn with_parts(&self, platform: Platform, disk: Disk) -> Result<Self, Error> {
-        Self::new(platform, disk)?.with_contact(self.contact)?.with_stator(self.stator)
+        let system = Self::new(platform, disk)?.with_contact(self.contact)?.with_stator(self.stator)?;
+        Ok(Self { has_load_law: self.has_load_law, ..system })
     }
 
     /// The platform.
@@ -118,18 +122,22 @@ impl System {
         self.stator.and_then(|stator| stator.of_platform(&self.platform).ok())
     }
 
-    /// That nothing changes the motion of the platform.
+    /// That nothing changes the motion of the platform, and that the load is constant.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`].
+    /// [`Error::YieldingStator`], [`Error::LoadLaw`].
     pub const fn prescribed(&self) -> Result<(), Error> {
-        if self.stator.is_some() { Err(Error::YieldingStator) } else { Ok(()) }
+        match (self.stator, self.has_load_law) {
+            (Some(_), _) => Err(Error::YieldingStator),
+            (None, true) => Err(Error::LoadLaw),
+            (None, false) => Ok(()),
+        }
     }
 
-    /// That impacts are rigid, and the motion of the platform is prescribed.
+    /// That impacts are rigid, and platform and load are [prescribed](Self::prescribed).
     ///
     /// # Errors
-    /// [`Error::SoftContact`], [`Error::YieldingStator`].
+    /// [`Error::SoftContact`]; those of [`Self::prescribed`].
     pub fn rigid(&self) -> Result<(), Error> {
         self.prescribed()?;
         self.soft_contact().map_or(Ok(()), |_| Err(Error::SoftContact))

@@ -11,6 +11,7 @@ use crate::motor::data_sheet::motor_field::{MotorField, UnknownMotorField, dista
 use crate::motor::data_sheet::parameters::MotorParameters;
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
+use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 
 /// Why the text of a data sheet gives no motor.
@@ -192,7 +193,7 @@ impl Motor {
 }
 
 /// The tables of a data sheet.
-const TABLES: [&str; 3] = ["drive", "contact", "stator"];
+const TABLES: [&str; 4] = ["drive", "contact", "stator", "load"];
 
 /// The fields that a text names, and their values; `None` for `null`. And its tables.
 #[derive(Default)]
@@ -201,6 +202,7 @@ struct Given {
     drive: Option<DriveParameters>,
     contact: Option<Contact>,
     stator: Option<StatorParameters>,
+    load: Option<LoadLaw>,
 }
 
 /// A key of a data sheet.
@@ -243,6 +245,7 @@ impl<'de> Visitor<'de> for Entries {
                 Key::Field(field) => (field.name(), given.fields.insert(field, map.next_value()?).is_some()),
                 Key::Table(0) => ("drive", given.drive.replace(map.next_value()?).is_some()),
                 Key::Table(1) => ("contact", given.contact.replace(map.next_value()?).is_some()),
+                Key::Table(3) => ("load", given.load.replace(map.next_value()?).is_some()),
                 Key::Table(_) => ("stator", given.stator.replace(map.next_value()?).is_some()),
             };
             if twice {
@@ -256,10 +259,10 @@ impl<'de> Visitor<'de> for Entries {
 /// The motor of a text and of the `changes`, which take the place of what the text says before anything is
 /// checked.
 fn motor_of(
-    Given { mut fields, drive, contact, stator }: Given,
+    Given { mut fields, drive, contact, stator, load }: Given,
     changes: &[(MotorField, f64)],
 ) -> Result<(Motor, DriveParameters), Error> {
-    let mut sheet = MotorParameters { contact, stator, ..MotorParameters::EMPTY };
+    let mut sheet = MotorParameters { contact, stator, load, ..MotorParameters::EMPTY };
     for (field, value) in &fields {
         (field.field().set)(&mut sheet, *value);
     }
@@ -318,7 +321,9 @@ fn tables(sheet: &MotorParameters) -> impl Iterator<Item = (&'static str, Vec<(S
         }
     }
     let contact = sheet.contact.as_ref().map(|table| ("contact", entries(table)));
-    contact.into_iter().chain(sheet.stator.as_ref().map(|table| ("stator", entries(table))))
+    let stator = sheet.stator.as_ref().map(|table| ("stator", entries(table)));
+    let load = sheet.load.as_ref().map(|table| ("load", entries(table)));
+    contact.into_iter().chain(stator).chain(load)
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::parameters::contact::Contact;
+use crate::parameters::load::LoadLaw;
 use crate::parameters::stator::StatorParameters;
 use crate::parameters::system::System;
 
@@ -73,6 +74,9 @@ pub struct MotorParameters {
     /// A stator that yields; without it the stator's motion is prescribed.
     #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
     pub stator: Option<StatorParameters>,
+    /// A torque over speed and time, and an inertia on the shaft; in place of [`Self::load_torque`].
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub load: Option<LoadLaw>,
 }
 
 impl MotorParameters {
@@ -97,6 +101,7 @@ impl MotorParameters {
         load_torque: 0.0,
         contact: None,
         stator: None,
+        load: None,
     };
 
     /// The data sheet of a system whose disk has this mass (kg): frequency, amplitudes and preload

@@ -633,6 +633,30 @@ fn a_stator_is_read_as_it_is_written() {
 
 #[cfg(feature = "toml")]
 #[test]
+fn a_load_is_read_as_it_is_written() {
+    let law = LoadLaw::fan(20.0, 1e-6, 7).and_then(|law| law.with_factors(&[0.1, 0.3], &[0.7, 0.0]));
+    let law = law.and_then(|law| law.with_inertia(1e-7)?.with_drive(0.05, 0.4)).expect("legal");
+    for load in [law, LoadLaw::constant(1e-7).expect("legal")] {
+        let motor = Motor::paper_70_khz().with(|sheet| sheet.load = Some(load)).expect("legal");
+        assert_eq!(motor.load(), Some(load));
+        assert_eq!(Motor::from_toml(&motor.to_toml()), Ok(motor));
+        assert_eq!(Motor::from_json(&motor.to_json()), Ok(motor));
+    }
+    let sheet = Motor::paper_70_khz().to_toml();
+    for (load, told) in [
+        ("torques = [1.0]", "number of load.speeds = 0 is outside"),
+        ("speeds = [1, 0]\ntorques = [1, 0]", "load.speeds = 0 is outside its legal range finite, and above"),
+        ("speeds = [0]\ntorques = [0]\noff = nan", "load.off = NaN is outside"),
+        ("speds = [0]", "\"speds\" is unknown; did you mean \"speeds\"?"),
+        ("speeds = 1", "a list"),
+    ] {
+        let error = Motor::from_toml(&format!("{sheet}[load]\n{load}\n")).expect_err(load).to_string();
+        assert!(error.contains(told), "{load}: {error}");
+    }
+}
+
+#[cfg(feature = "toml")]
+#[test]
 fn faults_of_a_table_stator_are_told() {
     let text = yielding()[3].to_toml();
     for (from, to, told) in [
@@ -652,7 +676,7 @@ fn faults_of_a_table_stator_are_told() {
     assert_eq!(Motor::from_toml(&prescribed), Err(Error::NotGiven { field: "amplitude" }.into()));
 }
 
-/// Nothing treats a yielding stator as a prescribed one.
+/// Nothing treats a yielding stator as a prescribed one, nor a load that varies as none.
 #[test]
 fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     use crate::motor::operation::settings::OperatingSettings;
@@ -663,11 +687,17 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     use crate::parameters::driven_platform::{DriveParameters, Waveform};
     use crate::toss::{InitialSpin, single_toss};
     let motor = yielding()[0];
-    let refused = |error: Option<Error>| assert_eq!(error, Some(Error::YieldingStator));
     let (settings, run_up) = (OperatingSettings::default(), TransientSettings::default());
     let soft = motor.with(|sheet| MotorField::ContactTime.set(sheet, 1e-5)).expect("legal");
     let phase = bouncing_disk_core::Phase::new(0.0).expect("legal");
-    for motor in [motor, soft] {
+    let fan = LoadLaw::fan(20.0, 1e-6, 5).ok();
+    let loaded = Motor::paper_70_khz().with(|sheet| sheet.load = fan).expect("legal");
+    let both = loaded.with(|sheet| sheet.load_torque = 1e-9);
+    assert_eq!(both, Err(Error::BothGiven { one: "load_torque", other: "load" }));
+    for (motor, told) in
+        [(motor, Error::YieldingStator), (soft, Error::YieldingStator), (loaded, Error::LoadLaw)]
+    {
+        let refused = |error: Option<Error>| assert_eq!(error, Some(told));
         refused(motor.report(&Unobserved).err());
         refused(motor.trap_verdict().err());
         refused(low_period_traps(&motor, &[9.8], &Unobserved).err());
@@ -684,7 +714,7 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
         refused(transients(&[member], &Unobserved).expect("not stopped").remove(0).err());
         refused(single_toss(motor.system(), InitialSpin::AbsoluteRest).err());
         refused(crate::driven::Schedule::of_drive(motor.system(), &DriveParameters::default()).err());
-        let axis = SweepAxis::new(MotorField::StatorQuality, vec![100.0, 200.0]);
+        let axis = SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]);
         let sweep = MotorSweep::new(motor, vec![axis], settings).expect("legal");
         refused(sweep.run(&Unobserved).err());
     }
