@@ -54,8 +54,8 @@ pub struct LoadSegment {
 ///
 /// // A fan that takes 1 mN m at 20 rad/s, and stops after 2 s: its torque is known to 5 uN m.
 /// let fan = LoadLaw::fan(20.0, 1e-3, 7)?.with_factors(&[2.0], &[0.0])?;
-/// assert!((fan.torque_at(10.0, 1.0) - 0.25e-3).abs() <= 1e-3 / (4.0 * 49.0));
-/// assert_eq!((fan.torque_at(10.0, 3.0), fan.next_change_after(0.0)), (0.0, Some(2.0)));
+/// assert!((fan.torque_at(8.0, 1.0) - 0.16e-3).abs() <= 1e-3 / (4.0 * 49.0));
+/// assert_eq!((fan.torque_at(8.0, 3.0), fan.next_change_after(0.0)), (0.0, Some(2.0)));
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
