@@ -37,7 +37,8 @@ pub struct StatorParameters {
     /// Its quality factor Q, at least 1/2; needed.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub quality: Option<f64>,
-    /// Its resonance omega_1/(2 pi) (Hz), positive, with the electrodes short-circuited. Default: the drive frequency.
+    /// Its resonance omega_1/(2 pi) (Hz), positive, with the electrodes short-circuited. Default: the drive frequency,
+    /// whatever it is, so that a sweep over that needs it.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub resonance: Option<f64>,
     /// kappa (rad/m), any finite number: the twist over the height of [`StatorKind::AxialTwist`], in place of twist
