@@ -65,6 +65,7 @@ pub mod parameters;
 #[doc(hidden)]
 pub mod regular_file;
 mod statistics;
+pub mod stator;
 #[cfg(feature = "storage")]
 pub mod store;
 #[cfg(test)]

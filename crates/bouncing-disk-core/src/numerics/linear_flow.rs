@@ -1,0 +1,255 @@
+//! A linear system with constant coefficients, z' = A z, and the first root of a linear functional of its state, with
+//! no root missed.
+//!
+//! On a step of at most 1/rate, where no eigenvalue of A is larger than the rate, the Taylor polynomial of degree
+//! 18 is the solution to rounding, whether A has a basis of eigenvectors or not: critical damping, resonance and
+//! repeated eigenvalues are no special cases (docs/numerics/stators.md).
+
+use crate::numerics::error::Error;
+use crate::numerics::quasi_polynomial::{FirstRoot, Jet, first_root};
+
+/// Degree of the Taylor polynomials: the next term is below 1/19! = 8e-18 of the state.
+const DEGREE: usize = 18;
+
+/// Rounding of a coefficient, in units of its terms: a product, and sums over the state and the degrees.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A number for each component of the state: a state, or a linear functional of it.
+pub type Vector<const N: usize> = [f64; N];
+
+/// z' = A z.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearFlow<const N: usize> {
+    matrix: [Vector<N>; N],
+    step: f64,
+    /// exp(A step).
+    whole_step: [Vector<N>; N],
+}
+
+/// A functional along a flow: its Taylor coefficients as functionals of the state.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Functional<const N: usize> {
+    rows: [Vector<N>; DEGREE + 1],
+    step: f64,
+}
+
+/// The Taylor polynomial of a function on one step, in shares of the step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TaylorStep {
+    coefficients: [f64; DEGREE + 1],
+    /// Sum of the sizes of the coefficients' terms.
+    size: f64,
+    step: f64,
+    /// Error of the value at the start, besides that of the coefficients.
+    error: f64,
+    fourth: f64,
+}
+
+/// The state on one step: its Taylor coefficients.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateStep<const N: usize> {
+    coefficients: [Vector<N>; DEGREE + 1],
+    step: f64,
+}
+
+/// The value of a functional.
+#[must_use]
+pub fn dot<const N: usize>(functional: &Vector<N>, state: &Vector<N>) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..N {
+        sum += functional[i] * state[i];
+    }
+    sum
+}
+
+impl<const N: usize> LinearFlow<N> {
+    /// The flow of a matrix whose eigenvalues are at most `rate` in size. The step is a whole part of `period`.
+    #[must_use]
+    pub fn new(matrix: [Vector<N>; N], rate: f64, period: f64) -> Self {
+        let step = period / (period * rate).ceil().max(1.0);
+        let mut flow = Self { matrix, step, whole_step: [[0.0; N]; N] };
+        for column in 0..N {
+            let mut unit = [0.0; N];
+            unit[column] = 1.0;
+            let after = flow.expand(&unit).at(step);
+            for (row, value) in after.into_iter().enumerate() {
+                flow.whole_step[row][column] = value;
+            }
+        }
+        flow
+    }
+
+    /// The step.
+    #[must_use]
+    pub const fn step(&self) -> f64 {
+        self.step
+    }
+
+    /// The derivative of a functional along the flow.
+    #[must_use]
+    pub fn derivative(&self, functional: &Vector<N>) -> Vector<N> {
+        let mut derivative = [0.0; N];
+        for (row, &weight) in self.matrix.iter().zip(functional) {
+            for (sum, entry) in derivative.iter_mut().zip(row) {
+                *sum += weight * entry;
+            }
+        }
+        derivative
+    }
+
+    /// This functional along the flow.
+    #[must_use]
+    pub fn functional(&self, of: Vector<N>) -> Functional<N> {
+        let mut rows = [of; DEGREE + 1];
+        for k in 1..=DEGREE {
+            rows[k] = self.derivative(&rows[k - 1]).map(|entry| entry * (self.step / k as f64));
+        }
+        Functional { rows, step: self.step }
+    }
+
+    /// The state on the next step.
+    #[must_use]
+    pub fn expand(&self, state: &Vector<N>) -> StateStep<N> {
+        let mut coefficients = [*state; DEGREE + 1];
+        for k in 1..=DEGREE {
+            let factor = self.step / k as f64;
+            coefficients[k] = core::array::from_fn(|i| dot(&self.matrix[i], &coefficients[k - 1]) * factor);
+        }
+        StateStep { coefficients, step: self.step }
+    }
+
+    /// The state a whole step later.
+    #[must_use]
+    pub fn advance(&self, state: &Vector<N>) -> Vector<N> {
+        core::array::from_fn(|i| dot(&self.whole_step[i], state))
+    }
+}
+
+impl<const N: usize> StateStep<N> {
+    /// The state after a time of at most a step.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Vector<N> {
+        let share = time / self.step;
+        let mut state = self.coefficients[DEGREE];
+        for row in self.coefficients[..DEGREE].iter().rev() {
+            for (value, coefficient) in state.iter_mut().zip(row) {
+                *value = *value * share + coefficient;
+            }
+        }
+        state
+    }
+}
+
+impl<const N: usize> Functional<N> {
+    /// The functional itself.
+    #[must_use]
+    pub const fn now(&self) -> &Vector<N> {
+        &self.rows[0]
+    }
+
+    /// The function on the step from this state on, which is known to rounding of its terms, but for an `error` of
+    /// the value.
+    #[must_use]
+    pub fn along(&self, state: &Vector<N>, error: f64) -> TaylorStep {
+        let (mut coefficients, mut size) = ([0.0; DEGREE + 1], 0.0);
+        for (coefficient, row) in coefficients.iter_mut().zip(&self.rows) {
+            let (mut sum, mut terms) = (0.0, 0.0);
+            for i in 0..N {
+                let term = row[i] * state[i];
+                sum += term;
+                terms += term.abs();
+            }
+            *coefficient = sum;
+            size += terms;
+        }
+        TaylorStep { coefficients, size, step: self.step, error, fourth: 0.0 }.bounded()
+    }
+}
+
+impl TaylorStep {
+    fn bounded(mut self) -> Self {
+        self.fourth = 0.0;
+        for (k, coefficient) in self.coefficients.iter().enumerate().skip(4) {
+            let k = k as f64;
+            self.fourth += coefficient.abs() * (k * (k - 1.0)) * ((k - 2.0) * (k - 3.0));
+        }
+        let square = self.step * self.step;
+        self.fourth /= square * square;
+        self
+    }
+
+    /// The function that starts with exactly these values of itself and of its derivatives.
+    #[must_use]
+    pub fn starting_with(mut self, values: &[f64]) -> Self {
+        let mut factor = 1.0;
+        for (k, value) in values.iter().enumerate() {
+            self.coefficients[k] = value * factor;
+            factor *= self.step / (k + 1) as f64;
+        }
+        self.error = 0.0;
+        self
+    }
+
+    /// The function with the opposite sign.
+    #[must_use]
+    pub fn negated(mut self) -> Self {
+        self.coefficients = self.coefficients.map(|coefficient| -coefficient);
+        self
+    }
+
+    /// Value at the start, slope there, and the bounds on their errors.
+    #[must_use]
+    pub fn start(&self) -> ([f64; 2], [f64; 2]) {
+        let error = ROUNDING * self.size;
+        ([self.coefficients[0], self.coefficients[1] / self.step], [self.error + error, error / self.step])
+    }
+
+    /// Value and derivatives after a time of at most a step.
+    #[must_use]
+    pub fn jet(&self, time: f64) -> Jet {
+        let x = time / self.step;
+        let c = &self.coefficients;
+        let (mut value, mut slope, mut bend, mut third) = (c[DEGREE], 0.0, 0.0, 0.0);
+        for coefficient in c[..DEGREE].iter().rev() {
+            third = third * x + bend;
+            bend = bend * x + slope;
+            slope = slope * x + value;
+            value = value * x + coefficient;
+        }
+        let (per, twice) = (1.0 / self.step, 2.0 / (self.step * self.step));
+        let rounding = ROUNDING * self.size;
+        // What starts at exactly zero is as exact near there as its slope.
+        let near = if c[0] == 0.0 && self.error == 0.0 { x.min(1.0) } else { 1.0 };
+        Jet {
+            value,
+            slope: slope * per,
+            bend: bend * twice,
+            third: third * (3.0 * twice * per),
+            fourth: self.fourth,
+            error: self.error + rounding * near,
+            slope_error: rounding * per,
+            bend_error: rounding * twice,
+        }
+    }
+
+    /// The first fall through zero within `to`, at most a step: when, and the slope there. A touch that rounding hides
+    /// counts where the value is below zero.
+    ///
+    /// # Errors
+    /// [`Error::NoConvergence`] after 100,000 evaluations.
+    pub fn first_fall(&self, to: f64) -> Result<Option<[f64; 2]>, Error> {
+        let to = to.min(self.step);
+        let mut from = 0.0;
+        while from < to {
+            match first_root(|t| self.jet(t), from, to)? {
+                FirstRoot::Root(root) => return Ok(Some([root.at, root.slope])),
+                FirstRoot::None { .. } => break,
+                FirstRoot::Undecided { at, value, .. } if value < 0.0 => {
+                    return Ok(Some([at, self.jet(at).slope]));
+                }
+                FirstRoot::Undecided { until, .. } => from = until.max(from + f64::EPSILON * self.step),
+            }
+        }
+        Ok(None)
+    }
+}

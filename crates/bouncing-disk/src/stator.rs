@@ -1,0 +1,274 @@
+//! A disk on a stator that yields: its vibration modes feel the impacts and the friction.
+//!
+//! The tip of the stator has the height s = sum of phi_j q_j and the angle beta = sum of psi_j q_j. Without a disk the
+//! drive holds the steady sine of [`motion`](crate::motion); r_j is what the coordinate of a mode is away from that:
+//!
+//! ```text
+//! r_j'' + d_j r_j' + f_j^2 r_j = -(h_j N + l_j T)
+//! ```
+//!
+//! with the normal force N >= 0 and the torque T of friction on the disk. All that happens between two events is a
+//! [linear flow](regime), so that the first root of gap, force or slip is certain; an impact has the law of
+//! [`impact`](impact), which cannot create energy (docs/numerics/stators.md).
+//!
+//! ```
+//! use bouncing_disk::System;
+//! use bouncing_disk::driven::DrivenStart;
+//! use bouncing_disk::core::Phase;
+//! use bouncing_disk::stator::{StatorEngine, StatorSystem, YieldingMode};
+//!
+//! // The paper's motor, whose stator weighs ten times as much as the rotor and has a quality factor of 300.
+//! let system = StatorSystem::new(System::motor().dimensionless(), &[YieldingMode::axial(10.0, 1.0, 300.0)])?;
+//! let start = DrivenStart::Contact { phase: Phase::new(0.3)?, angular_speed: 0.0 };
+//! for record in StatorEngine::new(system, start)?.take(20) {
+//!     assert!(record?.relative_closure() < 1e-12);
+//! }
+//! # Ok::<(), bouncing_disk::Error>(())
+//! ```
+
+mod engine;
+mod impact;
+mod ledger;
+mod regime;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use bouncing_disk_core::flight::Compliance;
+use bouncing_disk_core::numerics::elementary::sin_cos;
+
+use crate::error::{Error, check, finite};
+use crate::parameters::dimensionless::DimensionlessSystem;
+
+pub use engine::{StatorEngine, StatorRecord, StatorState};
+pub use ledger::StatorLedger;
+use regime::{COS, Contact, DISPLACEMENTS, Grip, Regime, SIN, State, VELOCITIES};
+
+/// Most modes of a stator.
+pub const MODES: usize = 2;
+
+/// Least and largest contact time (rad) on a stator that yields.
+pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
+
+/// Frequencies of modes, in units of that of the drive.
+const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
+
+/// A mode of the stator that yields, without units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingMode {
+    /// Effective mass at the tip in units of that of the disk; of a mode that only twists the inertia, in units of that
+    /// of the disk. In (0, 1e20].
+    pub mass: f64,
+    /// Resonance, in units of the frequency of the drive, in [1e-3, 1e3].
+    pub frequency: f64,
+    /// Quality factor, at least 1/2.
+    pub quality: f64,
+    /// Height of the tip for one unit of the coordinate: 1, or 0 for a mode that only twists.
+    pub height: f64,
+    /// Angle of the tip for one unit of the coordinate, in units of a_e/a_g^2 for a mode that moves in height; 1 for a
+    /// mode that only twists.
+    pub angle: f64,
+}
+
+impl YieldingMode {
+    /// A mode that moves in height only.
+    #[must_use]
+    pub const fn axial(mass: f64, frequency: f64, quality: f64) -> Self {
+        Self { mass, frequency, quality, height: 1.0, angle: 0.0 }
+    }
+
+    /// A mode that twists only.
+    #[must_use]
+    pub const fn torsional(inertia: f64, frequency: f64, quality: f64) -> Self {
+        Self { mass: inertia, frequency, quality, height: 0.0, angle: 1.0 }
+    }
+}
+
+/// A mode, as its equation of motion has it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct ModeLaw {
+    /// f^2 and d.
+    pub(crate) stiffness: f64,
+    pub(crate) damping: f64,
+    /// phi and psi.
+    pub(crate) height: f64,
+    pub(crate) angle: f64,
+    /// h and l.
+    pub(crate) by_force: f64,
+    pub(crate) by_torque: f64,
+    /// Mass in the units of axial energy.
+    pub(crate) weight: f64,
+    /// Sine and cosine of the phase in the steady motion of the coordinate without a disk.
+    pub(crate) steady: [f64; 2],
+}
+
+/// A disk on a stator that yields, without units, as [`DimensionlessSystem`] on one that does not.
+#[derive(Debug, Clone)]
+pub struct StatorSystem {
+    pub(crate) base: DimensionlessSystem,
+    pub(crate) modes: [ModeLaw; MODES],
+    /// Steady height and angle without a disk: coefficients of the sine and the cosine of the phase.
+    pub(crate) height: [f64; 2],
+    pub(crate) angle: [f64; 2],
+    /// (a_e/a_g)^2: rotary energy in units of axial energy.
+    pub(crate) arm: f64,
+    pub(crate) contact: Contact,
+    pub(crate) regimes: Arc<[Regime; 4]>,
+}
+
+impl StatorSystem {
+    /// The system on a stator with these modes, at most two, whose steady motion without a disk is that of `system`.
+    /// What no mode moves is prescribed. Rigid impacts; the radii a_e and a_g are equal, which matters for modes that
+    /// move in height and twist ([`Self::with_arm`]).
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for numbers outside the ranges of [`YieldingMode`], for more than [`MODES`] modes, for a
+    /// mode that moves neither in height nor in angle, for two modes that move in height or two that twist, and for
+    /// friction so strong that a sliding disk could jam.
+    pub fn new(system: &DimensionlessSystem, modes: &[YieldingMode]) -> Result<Self, Error> {
+        Self::build(system, modes, 1.0, None)
+    }
+
+    /// As [`Self::new`], with `arm` = (a_e/a_g)^2 and, if given, contacts that take this time (rad of the drive).
+    ///
+    /// # Errors
+    /// As [`Self::new`]; for a contact time those of [`Compliance::new`], within [`CONTACT_TIMES`].
+    pub fn build(
+        system: &DimensionlessSystem,
+        modes: &[YieldingMode],
+        arm: f64,
+        contact_time: Option<f64>,
+    ) -> Result<Self, Error> {
+        check(modes.len() <= MODES, "number of modes", modes.len() as f64, "[0, 2]")?;
+        check((1.0e-6..=1.0e6).contains(&arm), "arm (a_e/a_g)^2", arm, "[1e-6, 1e6]")?;
+        let [least, most] = FREQUENCIES;
+        for mode in modes {
+            check(mode.mass > 0.0 && mode.mass <= 1.0e20, "mass of a mode", mode.mass, "(0, 1e20]")?;
+            let range = "[1e-3, 1e3]";
+            check((least..=most).contains(&mode.frequency), "frequency of a mode", mode.frequency, range)?;
+            check(
+                mode.quality >= 0.5 && mode.quality <= 1.0e12,
+                "quality of a mode",
+                mode.quality,
+                "[0.5, 1e12]",
+            )?;
+            finite("angle of a mode", mode.angle)?;
+            let pure = mode.height == 0.0 && mode.angle == 1.0;
+            check(mode.height == 1.0 || pure, "height of a mode", mode.height, "1, or 0 with the angle 1")?;
+        }
+        if let [one, other] = modes {
+            let twice =
+                (one.height != 0.0 && other.height != 0.0) || (one.angle != 0.0 && other.angle != 0.0);
+            check(!twice, "number of modes that move the same way", 2.0, "[0, 1]")?;
+        }
+        let (sin, cos) = sin_cos(system.phase_lag());
+        let (peak, twist) = (system.peak_acceleration(), system.twist_speed());
+        let height = [peak, 0.0];
+        // beta' = Q cos(tau + theta).
+        let angle = [twist * cos, twist * sin];
+        let mut laws = [ModeLaw::default(); MODES];
+        for (law, mode) in laws.iter_mut().zip(modes) {
+            let axial = mode.height != 0.0;
+            *law = ModeLaw {
+                stiffness: mode.frequency * mode.frequency,
+                damping: mode.frequency / mode.quality,
+                height: mode.height,
+                angle: mode.angle,
+                by_force: if axial { 1.0 / mode.mass } else { 0.0 },
+                by_torque: if axial { arm * mode.angle / mode.mass } else { 1.0 / mode.mass },
+                weight: if axial { mode.mass } else { arm * mode.mass },
+                steady: if axial { height } else { angle },
+            };
+        }
+        // One mode that moves in height and twists has one coordinate: the steady angle is that of the height.
+        let angle = laws
+            .iter()
+            .find(|law| law.height != 0.0 && law.angle != 0.0)
+            .map_or(angle, |law| [law.angle * height[0], law.angle * height[1]]);
+        let contact = match contact_time {
+            None => Contact::Rigid,
+            Some(time) => {
+                let [least, most] = CONTACT_TIMES;
+                check(
+                    (least..=most).contains(&time),
+                    "contact time",
+                    time,
+                    "[0.01, 1e4] (rad): below, use rigid impacts",
+                )?;
+                let compliance = Compliance::new(time, system.restitution())?;
+                Contact::Soft { stiffness: compliance.stiffness(), damping: compliance.damping() }
+            }
+        };
+        let mut built = Self {
+            base: *system,
+            modes: laws,
+            height,
+            angle,
+            arm,
+            contact,
+            regimes: Arc::new(std::array::from_fn(|_| Regime::empty())),
+        };
+        built.check_jam()?;
+        let grips = [None, Some(Grip::Stick), Some(Grip::Forward), Some(Grip::Backward)];
+        built.regimes = Arc::new(grips.map(|grip| Regime::new(&built, grip)));
+        Ok(built)
+    }
+
+    /// The unit forces: how impulses P and T change the relative speeds, [[w by P, w by T], [u by P, u by T]].
+    pub(crate) fn mobility(&self) -> [[f64; 2]; 2] {
+        let mut b = [[1.0, 0.0], [0.0, 1.0]];
+        for mode in &self.modes {
+            b[0][0] += mode.height * mode.by_force;
+            b[0][1] += mode.height * mode.by_torque;
+            b[1][0] += mode.angle * mode.by_force;
+            b[1][1] += mode.angle * mode.by_torque;
+        }
+        b
+    }
+
+    /// Friction must not stop the disk by the force that it makes itself (Painleve's paradox).
+    fn check_jam(&self) -> Result<(), Error> {
+        let b = self.mobility();
+        let (friction, own) = (self.base.friction() * b[0][1].abs(), b[0][0]);
+        check(
+            friction < own,
+            "friction",
+            self.base.friction(),
+            "below what jams a disk that slides on this stator",
+        )?;
+        Ok(())
+    }
+
+    /// The system on a stator that does not yield.
+    #[must_use]
+    pub const fn base(&self) -> &DimensionlessSystem {
+        &self.base
+    }
+
+    /// Steady coordinate and speed of a mode without a disk, at a phase with this sine and cosine.
+    pub(crate) fn steady(&self, mode: usize, (sin, cos): (f64, f64)) -> [f64; 2] {
+        let [a, b] = self.modes[mode].steady;
+        [a * sin + b * cos, a * cos - b * sin]
+    }
+
+    /// Height and velocity of the tip.
+    pub(crate) fn tip(&self, state: &State) -> [f64; 2] {
+        self.moved(self.height, |mode| mode.height, state)
+    }
+
+    /// Angle and angular speed of the tip.
+    pub(crate) fn twist(&self, state: &State) -> [f64; 2] {
+        self.moved(self.angle, |mode| mode.angle, state)
+    }
+
+    fn moved(&self, [a, b]: [f64; 2], share: impl Fn(&ModeLaw) -> f64, state: &State) -> [f64; 2] {
+        let (sin, cos) = (state[SIN], state[COS]);
+        let (mut place, mut speed) = (a * sin + b * cos, a * cos - b * sin);
+        for (index, mode) in self.modes.iter().enumerate() {
+            place += share(mode) * state[DISPLACEMENTS[index]];
+            speed += share(mode) * state[VELOCITIES[index]];
+        }
+        [place, speed]
+    }
+}

@@ -1,0 +1,986 @@
+//! The event engine of a disk on a stator that yields.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
+use bouncing_disk_core::numerics::elementary::{exp, sin_cos};
+use bouncing_disk_core::numerics::linear_flow::{Functional, Vector, dot};
+
+use super::impact::impact;
+use super::ledger::StatorLedger;
+use super::regime::{
+    ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
+};
+use super::{MODES, StatorSystem};
+use crate::driven::DrivenStart;
+use crate::error::{Error, moderate};
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::Event;
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motion::state::{DiskState, LongSum, Mode, SlipDirection};
+
+/// A rebound after which the chatter would last for less than this (rad) ends at once: what the disk and the stator
+/// do until then differs by the square of it.
+const CHATTER: f64 = 1.0e-7;
+
+/// Rounding of a functional at an event, in units of the sizes of its terms.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// A contact whose modes come back to the same state after a period, within this share of it, repeats for ever.
+const SAME: f64 = 1.0e-13;
+
+/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// Disk and modes at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct StatorState {
+    /// The disk.
+    pub disk: DiskState,
+    /// Coordinate and speed of each mode, the steady motion included; zero for a mode that is not there.
+    pub modes: [[f64; 2]; MODES],
+}
+
+/// An event, with what happened since the one before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StatorRecord {
+    /// When it happened.
+    pub time: PhaseTime,
+    /// The event.
+    pub event: Event,
+    /// Just before.
+    pub before: StatorState,
+    /// Just after.
+    pub after: StatorState,
+    /// Axial impulse per unit mass, and angular impulse per moment of inertia; zero without an impact.
+    pub axial_impulse: f64,
+    /// The same by friction.
+    pub angular_impulse: f64,
+    /// Energy balance of the disk.
+    pub ledger: EnergyLedger,
+    /// Energy balance of the modes.
+    pub stator: StatorLedger,
+    /// Since the event before.
+    pub span: PhaseSpan,
+}
+
+impl StatorRecord {
+    /// The largest of the closures of both ledgers, relative to the sizes of the added terms.
+    #[must_use]
+    pub fn relative_closure(&self) -> f64 {
+        let least = f64::MIN_POSITIVE / f64::EPSILON;
+        (self.stator.closure().abs() / self.stator.magnitude.max(least)).max(self.ledger.relative_closure())
+    }
+}
+
+/// What the disk does until the next event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stage {
+    Flight(Launch),
+    Contact { grip: Grip, forever: bool },
+    Ended,
+}
+
+/// How a flight begins, which says which derivatives of the gap vanish at its start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Launch {
+    /// Above the platform.
+    Air,
+    /// From the platform with a speed.
+    Rebound,
+    /// By a force that falls to zero: in a rigid contact with no acceleration, in a soft one below the platform.
+    Release,
+}
+
+/// The motion of a disk on a stator that yields, as a lazy sequence of [`StatorRecord`]s. It ends where nothing more
+/// can happen, and after an error.
+#[derive(Debug, Clone)]
+pub struct StatorEngine {
+    system: StatorSystem,
+    stage: Stage,
+    now: PhaseTime,
+    state: State,
+    angle: LongSum,
+    /// Without it ledgers stay empty.
+    pub(crate) with_energy: bool,
+}
+
+/// The next event of a stage: after which time, and which.
+type Next = Option<(f64, Crossing)>;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Crossing {
+    /// The gap closes, with this relative velocity.
+    Touch(f64),
+    /// The force of a soft contact sets in before the spring is free.
+    Recontact,
+    /// The normal force falls to zero.
+    Release,
+    /// The slip ends.
+    SlipEnd,
+    /// Friction gives way, and the disk slides so.
+    Slips(Grip),
+}
+
+impl StatorEngine {
+    /// An engine for a disk that starts in contact, by a launch or in the air, on a stator in its steady motion without
+    /// a disk. A disk in contact within a rounding of the stator's angular speed sticks or begins to slide.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for an illegal start.
+    pub fn new(system: StatorSystem, start: DrivenStart) -> Result<Self, Error> {
+        let (phase, gap, velocity, speed) = match start {
+            DrivenStart::Contact { phase, angular_speed } => (phase, None, 0.0, angular_speed),
+            DrivenStart::Launch { phase, relative_speed, angular_speed } => {
+                (phase, Some(0.0), relative_speed, angular_speed)
+            }
+            DrivenStart::Flight { phase, gap, relative_velocity, angular_speed } => {
+                (phase, Some(gap), relative_velocity, angular_speed)
+            }
+        };
+        let mut state = [0.0; N];
+        (state[GAP], state[CLOSING]) =
+            (moderate("gap", gap.unwrap_or(0.0))?, moderate("relative_velocity", velocity)?);
+        state[SPEED] = moderate("angular_speed", speed)?;
+        crate::error::check(state[GAP] >= 0.0, "gap", state[GAP], "[0, 1e100]")?;
+        Self::begin(system, PhaseTime::in_first_period(phase), state, gap.is_none())
+    }
+
+    /// An engine that goes on with a motion, as [`Self::state_after`] gives it: in contact the height and velocity of the
+    /// disk on a rigid stator are those of the stator.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for numbers that are not finite, and a disk below a rigid stator by more than rounding.
+    pub fn of_state(system: StatorSystem, time: PhaseTime, from: StatorState) -> Result<Self, Error> {
+        let mut state = [0.0; N];
+        let (sin, cos) = (time.phase.sin(), time.phase.cos());
+        for (index, [place, speed]) in from.modes.into_iter().enumerate() {
+            let steady = system.steady(index, (sin, cos));
+            state[DISPLACEMENTS[index]] = moderate("coordinate of a mode", place)? - steady[0];
+            state[VELOCITIES[index]] = moderate("speed of a mode", speed)? - steady[1];
+        }
+        (state[SIN], state[COS], state[ONE]) = (sin, cos, 1.0);
+        let [height, velocity] = system.tip(&state);
+        state[GAP] = moderate("height", from.disk.height)? - height;
+        state[CLOSING] = moderate("axial_velocity", from.disk.axial_velocity)? - velocity;
+        state[SPEED] = moderate("angular_speed", from.disk.angular_speed)?;
+        let rounding = 1.0e-12 * (height.abs() + from.disk.height.abs());
+        let lies = from.disk.mode != Mode::Flight;
+        if system.contact == Contact::Rigid {
+            crate::error::check(lies || state[GAP] >= -rounding, "gap", state[GAP], "[0, 1e100]")?;
+            state[GAP] = state[GAP].max(0.0);
+        }
+        let mut engine = Self::begin(system, time, state, lies)?;
+        engine.angle = LongSum::new(moderate("angle", from.disk.angle)?);
+        Ok(engine)
+    }
+
+    fn begin(system: StatorSystem, now: PhaseTime, mut state: State, lies: bool) -> Result<Self, Error> {
+        (state[SIN], state[COS], state[ONE]) = (now.phase.sin(), now.phase.cos(), 1.0);
+        let stage = Stage::Flight(if state[GAP] > 0.0 { Launch::Air } else { Launch::Rebound });
+        let mut engine = Self { system, stage, now, state, angle: LongSum::new(0.0), with_energy: true };
+        match engine.system.contact {
+            Contact::Rigid if lies => engine.lie_down(),
+            Contact::Soft { stiffness, .. } if lies => {
+                if engine.state[GAP] == 0.0 && engine.state[CLOSING] == 0.0 {
+                    // The indentation that carries the disk on the stator that moves as it does without it.
+                    let load = 1.0 - engine.system.height[0] * engine.state[SIN];
+                    engine.state[GAP] = -load.max(0.0) / stiffness;
+                }
+                engine.press();
+            }
+            Contact::Soft { .. } if engine.state[GAP] < 0.0 => engine.stage = Stage::Flight(Launch::Release),
+            Contact::Rigid if engine.state[GAP] == 0.0 => engine.leave(),
+            _ => {}
+        }
+        Ok(engine)
+    }
+
+    /// The system.
+    #[must_use]
+    pub const fn system(&self) -> &StatorSystem {
+        &self.system
+    }
+
+    /// The instant of the last event, or of the start.
+    #[must_use]
+    pub const fn time(&self) -> PhaseTime {
+        self.now
+    }
+
+    /// Disk and modes just after the last event, or at the start.
+    #[must_use]
+    pub fn state(&self) -> StatorState {
+        self.stated(&self.state, self.mode())
+    }
+
+    /// When, and disk and modes, `span` radians after the last event, if no event comes before. A negative span and NaN
+    /// count as zero.
+    #[must_use]
+    pub fn state_after(&self, span: f64) -> (PhaseTime, StatorState) {
+        let span = if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 };
+        let state = self.carried(span);
+        (self.now.after(PhaseSpan::from_radians(span)), self.stated(&state, self.mode()))
+    }
+
+    /// The energy balances of disk and modes from the last event to `span` radians later.
+    #[must_use]
+    pub fn ledgers_after(&self, span: f64) -> (EnergyLedger, StatorLedger) {
+        let span = if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 };
+        self.ledgers(span, &self.carried(span))
+    }
+
+    /// Whether a flight begins now.
+    pub(crate) const fn launches(&self) -> bool {
+        matches!(self.stage, Stage::Flight(_))
+    }
+
+    /// Whether the disk never leaves the stator again, as far as is known, or the motion has ended.
+    #[must_use]
+    pub const fn lies_for_ever(&self) -> bool {
+        matches!(self.stage, Stage::Contact { forever: true, .. } | Stage::Ended)
+    }
+
+    /// Adds a relative speed >= 0 to a flight that starts now from the stator; does nothing at any other time.
+    pub(crate) fn perturb_launch(&mut self, speed: f64) {
+        if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release)) = &mut self.stage {
+            self.state[CLOSING] += speed;
+            if speed > 0.0 && self.system.contact == Contact::Rigid {
+                *launch = Launch::Rebound;
+            }
+        }
+    }
+
+    /// The next event, or `None` after the last one.
+    ///
+    /// # Errors
+    /// An error of the core where a root does not converge. An error ends the motion.
+    pub fn advance(&mut self) -> Result<Option<StatorRecord>, Error> {
+        self.advance_within(f64::INFINITY)
+    }
+
+    /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where it is.
+    pub(crate) fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
+        let next = match self.stage {
+            Stage::Flight(launch) => self.flight_end(launch, limit),
+            Stage::Contact { grip, .. } => self.contact_end(grip, limit),
+            Stage::Ended => Ok(None),
+        };
+        match next {
+            Ok(Some((span, crossing))) => Ok(Some(self.cross(span, crossing))),
+            Ok(None) => Ok(None),
+            Err(error) => {
+                self.stage = Stage::Ended;
+                Err(error)
+            }
+        }
+    }
+
+    const fn regime_index(&self) -> usize {
+        match self.stage {
+            Stage::Flight(_) | Stage::Ended => 0,
+            Stage::Contact { grip: Grip::Stick, .. } => 1,
+            Stage::Contact { grip: Grip::Forward, .. } => 2,
+            Stage::Contact { grip: Grip::Backward, .. } => 3,
+        }
+    }
+
+    fn regime(&self) -> &Regime {
+        &self.system.regimes[self.regime_index()]
+    }
+
+    const fn mode(&self) -> Mode {
+        match self.stage {
+            Stage::Flight(_) | Stage::Ended => Mode::Flight,
+            Stage::Contact { grip: Grip::Stick, .. } => Mode::Sticking,
+            Stage::Contact { grip: Grip::Forward, .. } => Mode::Sliding(SlipDirection::Forward),
+            Stage::Contact { grip: Grip::Backward, .. } => Mode::Sliding(SlipDirection::Backward),
+        }
+    }
+
+    fn stated(&self, state: &State, mode: Mode) -> StatorState {
+        let [height, velocity] = self.system.tip(state);
+        StatorState {
+            disk: DiskState {
+                mode,
+                height: height + state[GAP],
+                axial_velocity: velocity + state[CLOSING],
+                angle: self.angle.value() + state[ANGLE],
+                angular_speed: state[SPEED],
+            },
+            modes: std::array::from_fn(|index| {
+                let [place, speed] = self.system.steady(index, (state[SIN], state[COS]));
+                [place + state[DISPLACEMENTS[index]], speed + state[VELOCITIES[index]]]
+            }),
+        }
+    }
+
+    /// The first impact of a flight, or the return of the force of a soft contact.
+    fn flight_end(&self, launch: Launch, limit: f64) -> Result<Next, Error> {
+        let regime = self.regime();
+        let step = regime.flow.step();
+        let soft = self.system.contact != Contact::Rigid;
+        let [height, velocity] = self.system.tip(&self.state);
+        let (x, v) = (self.state[GAP] + height, self.state[CLOSING] + velocity);
+        if self.state[GAP] <= 0.0 && self.state[CLOSING] < 0.0 && launch != Launch::Release {
+            return Ok(Some((0.0, Crossing::Touch(self.state[CLOSING]))));
+        }
+        let highest = self.highest(&self.state);
+        // From when on the disk may be below the highest point of the stator again.
+        let apex = x + 0.5 * v * v;
+        let below = if apex > highest { v + (2.0 * (apex - highest)).sqrt() } else { 0.0 };
+        let mut passed = 0.0;
+        let mut state = self.state;
+        // A soft contact ends before its spring is free: below the stator the force may set in again.
+        let mut inside = soft && launch == Launch::Release && self.state[GAP] < 0.0;
+        loop {
+            let left = limit - passed;
+            if left <= 0.0 {
+                return Ok(None);
+            }
+            // The parabola is rounded in units of its terms.
+            let error = if passed > 0.0 {
+                0.125 * ROUNDING * (x.abs() + passed * (v.abs() + passed) + highest)
+            } else {
+                0.0
+            };
+            let mut gap = regime.gap.along(&state, error);
+            if passed == 0.0 && !inside {
+                gap = match launch {
+                    Launch::Air => gap,
+                    Launch::Rebound => gap.starting_with(&[0.0, self.state[CLOSING]]),
+                    Launch::Release if soft => gap.starting_with(&[0.0, self.state[CLOSING]]),
+                    Launch::Release => gap.starting_with(&[0.0, 0.0, 0.0]),
+                };
+            }
+            if inside {
+                let rises = regime.gap.along(&state, error).negated();
+                let mut pull = regime.force.along(&state, error).negated();
+                if passed == 0.0 {
+                    pull = pull.starting_with(&[0.0]);
+                }
+                let free = rises.first_fall(left)?.map(|[at, _]| at);
+                if let Some([at, _]) = pull.first_fall(free.unwrap_or(left))? {
+                    return Ok(Some((passed + at, Crossing::Recontact)));
+                }
+                if let Some(at) = free {
+                    inside = false;
+                    // On from where the gap is zero.
+                    state = self.flown(passed + at);
+                    passed += at;
+                    state[GAP] = 0.0;
+                    if state[CLOSING] > 0.0 {
+                        let gap = regime.gap.along(&state, 0.0).starting_with(&[0.0, state[CLOSING]]);
+                        if let Some([at, slope]) = gap.first_fall(limit - passed)? {
+                            return Ok(Some((passed + at, Crossing::Touch(slope))));
+                        }
+                        passed += step;
+                        state = self.flown(passed);
+                    }
+                    continue;
+                }
+            } else if let Some([at, slope]) = gap.first_fall(left)?
+                && (slope < 0.0 || passed + at > 0.0)
+            {
+                return Ok(Some((passed + at, Crossing::Touch(slope.min(0.0)))));
+            }
+            passed += step;
+            if passed + step < below && !inside && x + passed * (v - 0.5 * passed) > highest {
+                passed = below - 0.25 * step;
+            }
+            if passed > MAX_FLIGHT_DURATION {
+                let error = bouncing_disk_core::Error::NoConvergence {
+                    evaluations: 0,
+                    time: passed,
+                    gap: state[GAP],
+                };
+                return Err(error.into());
+            }
+            state = self.flown(passed);
+        }
+    }
+
+    /// No point of the stator comes higher while the modes ring.
+    fn highest(&self, state: &State) -> f64 {
+        let [a, b] = self.system.height;
+        let mut highest = (a * a + b * b).sqrt();
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            if mode.height != 0.0 {
+                let (r, speed) = (state[DISPLACEMENTS[index]], state[VELOCITIES[index]]);
+                highest += mode.height.abs() * (r * r + speed * speed / mode.stiffness).sqrt();
+            }
+        }
+        highest
+    }
+
+    /// Disk and modes in flight, so long after the last event, in closed form.
+    fn flown(&self, time: f64) -> State {
+        let from = &self.state;
+        let mut state = *from;
+        let [height, velocity] = self.system.tip(from);
+        let (sin, cos) = sin_cos(self.now.phase.angle() + time);
+        (state[SIN], state[COS]) = (sin, cos);
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            let ringing = [from[DISPLACEMENTS[index]], from[VELOCITIES[index]]];
+            let ringing = if mode.stiffness > 0.0 {
+                rung(mode.stiffness, mode.damping, ringing, time)
+            } else {
+                ringing
+            };
+            [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]] = ringing;
+        }
+        let [tip, speed] = self.system.tip(&state);
+        let start = from[CLOSING] + velocity;
+        state[GAP] = from[GAP] + (time * (start - 0.5 * time) - (tip - height));
+        state[CLOSING] = (start - time) - speed;
+        let load = self.system.base.load();
+        state[ANGLE] = from[ANGLE] + time * (from[SPEED] - 0.5 * load * time);
+        state[SPEED] = from[SPEED] - load * time;
+        state
+    }
+
+    /// The end of a contact, or of a slide or a stick in it.
+    fn contact_end(&mut self, grip: Grip, limit: f64) -> Result<Next, Error> {
+        let regimes = Arc::clone(&self.system.regimes);
+        let regime = &regimes[self.regime_index()];
+        let step = regime.flow.step();
+        let mut watched: Vec<(&Functional<N>, Crossing)> = vec![(&regime.force, Crossing::Release)];
+        if self.system.base.friction() > 0.0 {
+            match grip {
+                Grip::Stick => {
+                    watched.push((&regime.hold[0], Crossing::Slips(Grip::Backward)));
+                    watched.push((&regime.hold[1], Crossing::Slips(Grip::Forward)));
+                }
+                Grip::Forward | Grip::Backward => watched.push((&regime.slip, Crossing::SlipEnd)),
+            }
+        }
+        let (mut passed, mut state, mut begun) = (0.0, self.state, self.state);
+        let mut steps: u64 = 0;
+        let whole = (TAU / step + 0.5) as u64;
+        loop {
+            let left = limit - passed;
+            if left <= 0.0 {
+                return Ok(None);
+            }
+            let mut first: Next = None;
+            for (functional, crossing) in &watched {
+                let error = ROUNDING * (steps as f64).sqrt() * size(functional.now(), &state);
+                let mut along = functional.along(&state, error);
+                if passed == 0.0 {
+                    match self.at_start(regime, functional, &along) {
+                        AtStart::Fallen => return Ok(Some((0.0, *crossing))),
+                        AtStart::Values(values) => along = along.starting_with(&values),
+                        AtStart::AsItIs => {}
+                    }
+                }
+                let until = first.map_or(left, |(at, _)| at);
+                if let Some([at, _]) = along.first_fall(until)?
+                    && at < until
+                {
+                    first = Some((at, *crossing));
+                }
+            }
+            if let Some((at, crossing)) = first {
+                return Ok(Some((passed + at, crossing)));
+            }
+            steps += 1;
+            passed = steps as f64 * step;
+            state = regime.flow.advance(&state);
+            // A whole number of steps is a period.
+            (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + (steps % whole) as f64 * step);
+            if steps % whole == 0 {
+                if repeats(&begun, &state) {
+                    let lost = begun[SPEED] - state[SPEED];
+                    let gains = match grip {
+                        Grip::Stick => true,
+                        slide => slide.sign() * lost <= SAME * (1.0 + state[SPEED].abs()),
+                    };
+                    if gains || self.system.base.friction() == 0.0 {
+                        self.stage = Stage::Contact { grip, forever: true };
+                        return Ok(None);
+                    }
+                }
+                begun = state;
+            }
+            if passed > MAX_FLIGHT_DURATION {
+                return Err(Error::SlipTooLong { duration: passed, limit: MAX_FLIGHT_DURATION });
+            }
+        }
+    }
+
+    /// What a functional that is zero within rounding at the start of a stage does next.
+    fn at_start(
+        &self,
+        regime: &Regime,
+        functional: &Functional<N>,
+        along: &bouncing_disk_core::numerics::linear_flow::TaylorStep,
+    ) -> AtStart {
+        let ([value, slope], _) = along.start();
+        let doubt = ROUNDING * size(functional.now(), &self.state);
+        if value > doubt {
+            return AtStart::AsItIs;
+        }
+        let first = regime.flow.derivative(functional.now());
+        let slope_doubt = ROUNDING * size(&first, &self.state);
+        if slope > slope_doubt {
+            return AtStart::Values(vec![0.0]);
+        }
+        if slope < -slope_doubt || value < -doubt {
+            return AtStart::Fallen;
+        }
+        let second = regime.flow.derivative(&first);
+        if dot(&second, &self.state) > 0.0 { AtStart::Values(vec![0.0, 0.0]) } else { AtStart::Fallen }
+    }
+
+    /// Disk and modes so long after the last event, if no event comes before.
+    fn carried(&self, time: f64) -> State {
+        if !matches!(self.stage, Stage::Contact { .. }) {
+            return self.flown(time);
+        }
+        let flow = &self.regime().flow;
+        let mut state = self.state;
+        let whole = (time / flow.step()) as u64;
+        for _ in 0..whole {
+            state = flow.advance(&state);
+        }
+        let rest = time - whole as f64 * flow.step();
+        if rest > 0.0 {
+            state = flow.expand(&state).at(rest);
+        }
+        (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + time);
+        state
+    }
+
+    /// The event, after which the engine is there.
+    fn cross(&mut self, span: f64, crossing: Crossing) -> StatorRecord {
+        let mut state = self.carried(span);
+        let rigid = self.system.contact == Contact::Rigid;
+        if let Crossing::Touch(velocity) = crossing {
+            (state[GAP], state[CLOSING]) = (0.0, velocity);
+        }
+        let (mut ledger, mut stator) =
+            if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
+        let before = self.stated(&state, self.mode());
+        self.now = self.now.after(PhaseSpan::from_radians(span));
+        // The phase of the clock decides.
+        (state[SIN], state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
+        self.state = state;
+        let slip = self.slip();
+        let (mut axial, mut angular) = (0.0, 0.0);
+        let event = match crossing {
+            Crossing::Touch(velocity) if rigid => {
+                let (event, impulses) = self.hit(velocity, slip, &mut ledger, &mut stator);
+                (axial, angular) = (impulses[0], impulses[1]);
+                event
+            }
+            Crossing::Touch(velocity) => {
+                self.press();
+                Event::Impact {
+                    axial_impact_velocity: velocity,
+                    tangential_impact_velocity: slip,
+                    capped: false,
+                }
+            }
+            Crossing::Recontact => {
+                self.press();
+                Event::Recontact
+            }
+            Crossing::Release => {
+                self.stage = Stage::Flight(Launch::Release);
+                if rigid {
+                    self.leave();
+                }
+                Event::Separation
+            }
+            Crossing::SlipEnd => {
+                let spent = self.mode();
+                self.state[SPEED] -= slip;
+                ledger.record_friction(
+                    0.0,
+                    0.5 * slip * slip,
+                    slip.abs() * (self.state[SPEED].abs() + slip.abs()),
+                );
+                match self.onset(Some(spent)) {
+                    Grip::Stick => {
+                        self.stage = Stage::Contact { grip: Grip::Stick, forever: false };
+                        Event::SlipToStick
+                    }
+                    slide => {
+                        self.stage = Stage::Contact { grip: slide, forever: false };
+                        Event::SlipReversal(direction(slide))
+                    }
+                }
+            }
+            Crossing::Slips(slide) => {
+                self.stage = Stage::Contact { grip: slide, forever: false };
+                Event::StickToSlip(direction(slide))
+            }
+        };
+        self.angle.add(self.state[ANGLE]);
+        self.state[ANGLE] = 0.0;
+        let after = self.state();
+        StatorRecord {
+            time: self.now,
+            event,
+            before,
+            after,
+            axial_impulse: axial,
+            angular_impulse: angular,
+            ledger,
+            stator,
+            span: PhaseSpan::from_radians(span),
+        }
+    }
+
+    /// Disk minus stator, angular speeds.
+    fn slip(&self) -> f64 {
+        self.state[SPEED] - self.system.twist(&self.state)[1]
+    }
+
+    /// A rigid impact; the event, and its impulses.
+    fn hit(
+        &mut self,
+        velocity: f64,
+        slip: f64,
+        ledger: &mut EnergyLedger,
+        stator: &mut StatorLedger,
+    ) -> (Event, [f64; 2]) {
+        let base = self.system.base;
+        let mobility = self.system.mobility();
+        let mut done = impact(mobility, base.friction(), base.restitution(), [velocity, slip]);
+        // Free of each other, disk and stator approach with this acceleration.
+        let approach = -dot(&self.system.regimes[0].flow.derivative(&closing()), &self.state);
+        let lasts = 2.0 * done.velocity / (approach * (1.0 - base.restitution()));
+        let rests = approach > 0.0 && lasts < CHATTER;
+        if rests {
+            done = impact(mobility, base.friction(), 0.0, [velocity, slip]);
+        }
+        let before = self.stated(&self.state, Mode::Flight);
+        let start = self.state;
+        let joint = done.joint;
+        let place = |[p, t]: [f64; 2]| {
+            let mut state = start;
+            for (index, mode) in self.system.modes.iter().enumerate() {
+                state[VELOCITIES[index]] -= mode.by_force * p + mode.by_torque * t;
+            }
+            state
+        };
+        let (middle, mut end) = (place(joint), place([done.normal, done.friction]));
+        if self.with_energy {
+            let tip = [&start, &middle, &end].map(|state| self.system.tip(state)[1]);
+            let turn = [&start, &middle, &end].map(|state| self.system.twist(state)[1]);
+            let along = |speeds: [f64; 3], first: f64, whole: f64| {
+                0.5 * ((speeds[0] + speeds[1]) * first + (speeds[1] + speeds[2]) * (whole - first))
+            };
+            ledger.record_normal(along(tip, joint[0], done.normal), done.normal_loss);
+            let work = along(turn, joint[1], done.friction);
+            ledger.record_friction(work, done.friction_loss, work.abs() + done.friction_loss);
+            let mut given = 0.0;
+            for (index, mode) in self.system.modes.iter().enumerate() {
+                let speeds = [&start, &middle, &end].map(|state| self.mode_state(index, state)[1]);
+                given += mode.height * along(speeds, joint[0], done.normal)
+                    + self.system.arm * mode.angle * along(speeds, joint[1], done.friction);
+            }
+            stator.record(0.0, 0.0, given);
+            self.record_modes(stator, &start, &end);
+        }
+        end[CLOSING] = done.velocity;
+        end[SPEED] += done.friction;
+        if done.capped {
+            end[SPEED] = self.system.twist(&end)[1];
+        }
+        self.state = end;
+        if self.with_energy {
+            let after = self.stated(&end, Mode::Flight);
+            let changed = [before.disk.axial_velocity, before.disk.axial_velocity + done.normal];
+            ledger.record_axial_change(changed, [before.disk.height; 2]);
+            ledger.record_rotary_change(before.disk.angular_speed, after.disk.angular_speed);
+        }
+        self.stage = Stage::Flight(Launch::Rebound);
+        if rests {
+            self.state[CLOSING] = 0.0;
+            self.lie_down();
+            return (Event::Attachment { impacts: 1, error_bound: lasts }, [done.normal, done.friction]);
+        }
+        let event = Event::Impact {
+            axial_impact_velocity: velocity,
+            tangential_impact_velocity: slip,
+            capped: done.capped,
+        };
+        if done.velocity <= 0.0 {
+            self.state[CLOSING] = 0.0;
+            self.lie_down();
+        }
+        (event, [done.normal, done.friction])
+    }
+
+    /// A disk on a rigid stator without relative velocity: it stays, or flies at once where the stator falls away.
+    fn lie_down(&mut self) {
+        (self.state[GAP], self.state[CLOSING]) = (0.0, 0.0);
+        self.settle_slip();
+        let grip = self.onset(None);
+        self.stage = Stage::Contact { grip, forever: false };
+        let force = self.regime().force.clone();
+        let value = dot(force.now(), &self.state);
+        let doubt = ROUNDING * size(force.now(), &self.state);
+        if value < -doubt {
+            self.stage = Stage::Flight(Launch::Rebound);
+        }
+    }
+
+    /// A disk in flight that touches a rigid stator: with a relative velocity of no more than rounding it flies if the
+    /// stator falls away.
+    fn leave(&mut self) {
+        let [_, tip] = self.system.tip(&self.state);
+        if self.state[CLOSING].abs() > ROUNDING * tip.abs() {
+            return;
+        }
+        self.state[CLOSING] = 0.0;
+        let away = self.system.regimes[0].flow.derivative(&closing());
+        let (value, doubt) = (dot(&away, &self.state), ROUNDING * size(&away, &self.state));
+        if value < -doubt {
+            self.lie_down();
+        } else {
+            self.stage = Stage::Flight(if value > doubt { Launch::Rebound } else { Launch::Release });
+        }
+    }
+
+    /// A disk in a soft contact, with whatever grip.
+    fn press(&mut self) {
+        self.settle_slip();
+        let grip = self.onset(None);
+        self.stage = Stage::Contact { grip, forever: false };
+    }
+
+    /// A slip of no more than rounding is none.
+    fn settle_slip(&mut self) {
+        let [_, turn] = self.system.twist(&self.state);
+        if (self.state[SPEED] - turn).abs() <= 8.0 * f64::EPSILON * (self.state[SPEED].abs() + turn.abs()) {
+            self.state[SPEED] = turn;
+        }
+    }
+
+    /// Whether friction holds, or in which direction the disk slides; `spent`: the slide that has just ended.
+    fn onset(&self, spent: Option<Mode>) -> Grip {
+        let slip = self.slip();
+        if spent.is_none() {
+            match SlipDirection::of(slip) {
+                Some(SlipDirection::Forward) => return Grip::Forward,
+                Some(SlipDirection::Backward) => return Grip::Backward,
+                None => {}
+            }
+        }
+        let stick = &self.system.regimes[1];
+        let gives = |hold: &Functional<N>| {
+            let (value, doubt) = (dot(hold.now(), &self.state), ROUNDING * size(hold.now(), &self.state));
+            let first = stick.flow.derivative(hold.now());
+            value < -doubt || value <= doubt && dot(&first, &self.state) < 0.0
+        };
+        if self.system.base.friction() > 0.0 {
+            let before = spent.map(|mode| mode == Mode::Sliding(SlipDirection::Forward));
+            if gives(&stick.hold[0]) && before != Some(false) {
+                return Grip::Backward;
+            }
+            if gives(&stick.hold[1]) && before != Some(true) {
+                return Grip::Forward;
+            }
+        }
+        Grip::Stick
+    }
+
+    /// Coordinate and speed of a mode.
+    fn mode_state(&self, index: usize, state: &State) -> [f64; 2] {
+        let [place, speed] = self.system.steady(index, (state[SIN], state[COS]));
+        [place + state[DISPLACEMENTS[index]], speed + state[VELOCITIES[index]]]
+    }
+
+    fn record_modes(&self, stator: &mut StatorLedger, from: &State, to: &State) {
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
+            let ([q0, v0], [q1, v1]) = (self.mode_state(index, from), self.mode_state(index, to));
+            let f = mode.stiffness;
+            stator.energy_change += 0.5 * mode.weight * ((v1 - v0) * (v1 + v0) + f * (q1 - q0) * (q1 + q0));
+            stator.magnitude += 0.5 * mode.weight * (v0 * v0 + v1 * v1 + f * (q0 * q0 + q1 * q1));
+        }
+    }
+
+    /// The energy balances from the last event to `state`, `span` later, without an event.
+    fn ledgers(&self, span: f64, state: &State) -> (EnergyLedger, StatorLedger) {
+        let (mut ledger, mut stator) = (EnergyLedger::default(), StatorLedger::default());
+        let mode = self.mode();
+        let (start, end) = (self.stated(&self.state, mode).disk, self.stated(state, mode).disk);
+        ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+        ledger.record_rotary_change(start.angular_speed, end.angular_speed);
+        ledger.record_rounding(self.highest(&self.state) + span, end.axial_velocity);
+        let turned = end.angle - start.angle;
+        let load = self.system.base.load() * (state[ANGLE] - self.state[ANGLE]);
+        ledger.record_load(load, load.abs() + (self.system.base.load() * turned).abs());
+        self.record_modes(&mut stator, &self.state, state);
+        match self.stage {
+            Stage::Contact { .. } => self.record_contact(span, &mut ledger, &mut stator),
+            _ => self.record_flight(span, state, &mut stator),
+        }
+        if let Contact::Soft { stiffness, .. } = self.system.contact {
+            let energy = |gap: f64| 0.5 * stiffness * gap.min(0.0) * gap.min(0.0);
+            let (from, to) = (energy(self.state[GAP]), energy(state[GAP]));
+            ledger.record_spring([from, to]);
+            if !matches!(self.stage, Stage::Contact { .. }) {
+                // Where no force acts the damper takes it.
+                ledger.record_normal(0.0, from - to);
+            }
+        }
+        (ledger, stator)
+    }
+
+    /// Work of the drive and loss in the modes over a flight, in closed form.
+    fn record_flight(&self, span: f64, state: &State, stator: &mut StatorLedger) {
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
+            let (f, d) = (mode.stiffness, mode.damping);
+            let ringing = |state: &State| [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]];
+            let (from, to) = (ringing(&self.state), ringing(state));
+            let energy = |[r, v]: [f64; 2]| 0.5 * (v * v + f * r * r);
+            // In the steady motion (u, u'): integrals of u'^2, u' r' and u r', the last two by
+            // (exp(i tau) x)' = (B + i) exp(i tau) x for the ringing x' = B x.
+            let [a, b] = mode.steady;
+            let (s0, c0, s1, c1) = (self.state[SIN], self.state[COS], state[SIN], state[COS]);
+            let wave = |s: f64, c: f64| a * b * (s * s - c * c) * -0.5 + (a * a - b * b) * 0.5 * s * c;
+            let steady = 0.5 * (a * a + b * b) * span + (wave(s1, c1) - wave(s0, c0));
+            let cross = |s: f64, c: f64, x: [f64; 2]| cross_integral(f, d, x, (c, s));
+            let (late, early) = (cross(s1, c1, to), cross(s0, c0, from));
+            // Integrals of cos(tau) r' and sin(tau) r'.
+            let (with_cos, with_sin) = (late.0 - early.0, late.1 - early.1);
+            let speed = a * with_cos - b * with_sin;
+            let place = a * with_sin + b * with_cos;
+            let loss = d * (steady + 2.0 * speed) + (energy(from) - energy(to));
+            // The force of the drive is that of the steady motion: (f - 1) u + d u'.
+            let [u0, u1] = [[s0, c0], [s1, c1]].map(|[s, c]| a * s + b * c);
+            let drive = (f - 1.0) * (0.5 * (u1 - u0) * (u1 + u0) + place) + d * (steady + speed);
+            stator.record(mode.weight * drive, mode.weight * loss, 0.0);
+            stator.magnitude += mode.weight * (energy(from) + energy(to));
+        }
+    }
+
+    /// Works and losses over a contact, by quadrature of the state on each step.
+    fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
+        let regime = self.regime();
+        let flow = &regime.flow;
+        let (mut state, mut passed) = (self.state, 0.0);
+        let friction = self.system.base.friction();
+        while passed < span {
+            let length = (span - passed).min(flow.step());
+            let expanded = flow.expand(&state);
+            for (node, weight) in
+                GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
+            {
+                let time = 0.5 * length * (1.0 + node);
+                let part = 0.5 * length * weight;
+                let mut at = expanded.at(time);
+                (at[SIN], at[COS]) = sin_cos(self.now.phase.angle() + (passed + time));
+                let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
+                let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
+                let damper = match self.system.contact {
+                    Contact::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
+                    Contact::Rigid => 0.0,
+                };
+                ledger.record_normal(part * force * tip, part * damper);
+                let lost = match self.stage {
+                    Stage::Contact { grip: Grip::Stick, .. } => 0.0,
+                    _ => friction * force * (at[SPEED] - turn).abs(),
+                };
+                ledger.record_friction(
+                    part * torque * turn,
+                    part * lost,
+                    part * (torque * turn).abs() + part * lost,
+                );
+                for (index, mode) in
+                    self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0)
+                {
+                    let [_, speed] = self.mode_state(index, &at);
+                    let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
+                    let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
+                    let taken = mode.height * force + self.system.arm * mode.angle * torque;
+                    stator.record(
+                        part * drive * speed,
+                        part * mode.weight * mode.damping * speed * speed,
+                        part * taken * speed,
+                    );
+                }
+            }
+            state = if length < flow.step() { state } else { flow.advance(&state) };
+            passed += flow.step();
+        }
+    }
+}
+
+/// What a functional that is zero within rounding does next.
+enum AtStart {
+    AsItIs,
+    /// It rises: its value, and perhaps its slope, are exactly zero.
+    Values(Vec<f64>),
+    Fallen,
+}
+
+fn size(functional: &Vector<N>, state: &State) -> f64 {
+    functional.iter().zip(state).map(|(a, b)| (a * b).abs()).sum()
+}
+
+fn closing() -> State {
+    let mut of = [0.0; N];
+    of[CLOSING] = 1.0;
+    of
+}
+
+const fn direction(slide: Grip) -> SlipDirection {
+    match slide {
+        Grip::Backward => SlipDirection::Backward,
+        Grip::Forward | Grip::Stick => SlipDirection::Forward,
+    }
+}
+
+/// Whether a contact is where it was a period before, but for the angle and the speed of the disk.
+fn repeats(before: &State, after: &State) -> bool {
+    let size = after[..ANGLE].iter().fold(1.0, |size: f64, value| size.max(value.abs()));
+    (0..ANGLE).all(|index| (after[index] - before[index]).abs() <= SAME * size)
+}
+
+/// A free oscillation of unit mass with this stiffness and damping, so long after the start.
+fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
+    if r == 0.0 && v == 0.0 {
+        return [0.0; 2];
+    }
+    let decay = 0.5 * damping;
+    let square = (stiffness - decay * decay).max(0.0);
+    let frequency = square.sqrt();
+    let (sin, cos) = sin_cos(frequency * time);
+    // sin(w t)/w, which is t where the damping is critical.
+    let share = if frequency * time < 1.0e-9 { time } else { sin / frequency };
+    let e = exp(-decay * time);
+    [e * (cos * r + share * (v + decay * r)), e * (cos * v - share * (stiffness * r + decay * v))]
+}
+
+/// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of
+/// (B + i)^-1 x exp(i tau).
+fn cross_integral(stiffness: f64, damping: f64, [r, v]: [f64; 2], (cos, sin): (f64, f64)) -> (f64, f64) {
+    // B + i = [[i, 1], [-f, i - d]]; its inverse has the second row [f, i]/(f - 1 - i d).
+    let (re, im) = (stiffness * r, v);
+    let (p, q) = (stiffness - 1.0, -damping);
+    let size = p * p + q * q;
+    let (x, y) = ((re * p + im * q) / size, (im * p - re * q) / size);
+    (x * cos - y * sin, x * sin + y * cos)
+}
+
+impl Iterator for StatorEngine {
+    type Item = Result<StatorRecord, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.advance().transpose()
+    }
+}

@@ -1,0 +1,45 @@
+//! Where the energy of a stator comes from and where it goes.
+
+use std::ops::AddAssign;
+
+/// The energy balance of the modes of a stator in an interval, in units of m (g/omega)^2. Every entry is computed by
+/// itself.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct StatorLedger {
+    /// Work of the drive on the modes.
+    pub drive_work: f64,
+    /// Loss in the damping of the modes.
+    pub damping_loss: f64,
+    /// Work of the modes on the disk, by normal forces and by friction.
+    pub disk_work: f64,
+    /// Change of the energy of the modes.
+    pub energy_change: f64,
+    /// Sum of the sizes of the terms that were added up, energy levels included.
+    pub magnitude: f64,
+}
+
+impl StatorLedger {
+    /// Change of the energy minus the inflow: zero but for rounding.
+    #[must_use]
+    pub fn closure(&self) -> f64 {
+        self.energy_change - (self.drive_work - self.damping_loss - self.disk_work)
+    }
+
+    pub(super) fn record(&mut self, drive: f64, loss: f64, disk: f64) {
+        self.drive_work += drive;
+        self.damping_loss += loss;
+        self.disk_work += disk;
+        self.magnitude += drive.abs() + loss.abs() + disk.abs();
+    }
+}
+
+impl AddAssign for StatorLedger {
+    fn add_assign(&mut self, other: Self) {
+        self.drive_work += other.drive_work;
+        self.damping_loss += other.damping_loss;
+        self.disk_work += other.disk_work;
+        self.energy_change += other.energy_change;
+        self.magnitude += other.magnitude;
+    }
+}

@@ -1,0 +1,230 @@
+//! The ways in which disk and stator move between two events, each as a linear flow.
+//!
+//! The accelerations of the modes, the normal force N and the torque T of friction on the disk follow from one small
+//! system of linear equations, whose right sides are functionals of the state:
+//!
+//! ```text
+//! r_j'' + h_j N + l_j T = -d_j r_j' - f_j^2 r_j
+//! N = 0,   N = -k y - c y',   or   N - sum of phi_j r_j'' = 1 + s''
+//! T = 0,   T = -+mu N,        or   T - sum of psi_j r_j'' = load + beta''
+//! ```
+//!
+//! with the steady height s and angle beta: in flight, in a contact that takes time, in one that is rigid; in flight,
+//! in a slide forwards or backwards, and where friction holds.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector};
+
+use super::{MODES, StatorSystem};
+
+/// Components of a state.
+pub(crate) const N: usize = 11;
+/// Gap and relative velocity.
+pub(crate) const GAP: usize = 0;
+pub(crate) const CLOSING: usize = 1;
+/// r and r' of both modes.
+pub(crate) const DISPLACEMENTS: [usize; MODES] = [2, 4];
+pub(crate) const VELOCITIES: [usize; MODES] = [3, 5];
+/// Angle, since the last event, and angular speed of the disk.
+pub(crate) const ANGLE: usize = 6;
+pub(crate) const SPEED: usize = 7;
+/// Sine and cosine of the phase, and 1.
+pub(crate) const SIN: usize = 8;
+pub(crate) const COS: usize = 9;
+pub(crate) const ONE: usize = 10;
+
+pub(crate) type State = Vector<N>;
+
+/// How disk and stator touch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Contact {
+    Rigid,
+    Soft { stiffness: f64, damping: f64 },
+}
+
+/// How friction acts in a contact; in which direction the disk slides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Grip {
+    Stick,
+    Forward,
+    Backward,
+}
+
+impl Grip {
+    /// The direction of a slide, zero where friction holds.
+    pub(crate) const fn sign(self) -> f64 {
+        match self {
+            Self::Stick => 0.0,
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+}
+
+/// A flow, and the functionals whose first falls end it.
+#[derive(Debug, Clone)]
+pub(crate) struct Regime {
+    pub(crate) flow: LinearFlow<N>,
+    /// The gap.
+    pub(crate) gap: Functional<N>,
+    /// -k y - c y', the force of a soft contact before it is cut off; N in a contact.
+    pub(crate) force: Functional<N>,
+    /// The slip in the direction of a slide.
+    pub(crate) slip: Functional<N>,
+    /// mu N - T and mu N + T where friction holds.
+    pub(crate) hold: [Functional<N>; 2],
+    /// T.
+    pub(crate) torque: Vector<N>,
+}
+
+fn unit(index: usize) -> State {
+    let mut unit = [0.0; N];
+    unit[index] = 1.0;
+    unit
+}
+
+fn sum(a: &State, b: &State, factor: f64) -> State {
+    std::array::from_fn(|i| a[i] + factor * b[i])
+}
+
+/// The acceleration of a steady motion.
+fn steady_acceleration([a, b]: [f64; 2]) -> State {
+    let mut of = [0.0; N];
+    (of[SIN], of[COS]) = (-a, -b);
+    of
+}
+
+impl Regime {
+    pub(crate) fn empty() -> Self {
+        let flow = LinearFlow::new([[0.0; N]; N], 1.0, TAU);
+        let nothing = flow.functional([0.0; N]);
+        Self {
+            gap: nothing.clone(),
+            force: nothing.clone(),
+            slip: nothing.clone(),
+            hold: [nothing.clone(), nothing],
+            torque: [0.0; N],
+            flow,
+        }
+    }
+
+    /// In a contact with this grip, or in flight.
+    pub(crate) fn new(system: &StatorSystem, grip: Option<Grip>) -> Self {
+        let (friction, load) = (system.base.friction(), system.base.load());
+        let pull = match system.contact {
+            Contact::Rigid => [0.0; N],
+            Contact::Soft { stiffness, damping } => {
+                sum(&unit(GAP).map(|one| -stiffness * one), &unit(CLOSING), -damping)
+            }
+        };
+        // Unknowns: the accelerations r'', N and T.
+        const FORCE: usize = MODES;
+        const TORQUE: usize = MODES + 1;
+        let mut left = [[0.0; MODES + 2]; MODES + 2];
+        let mut right = [[0.0; N]; MODES + 2];
+        for (j, mode) in system.modes.iter().enumerate() {
+            (left[j][j], left[j][FORCE], left[j][TORQUE]) = (1.0, mode.by_force, mode.by_torque);
+            (right[j][VELOCITIES[j]], right[j][DISPLACEMENTS[j]]) = (-mode.damping, -mode.stiffness);
+        }
+        (left[FORCE][FORCE], left[TORQUE][TORQUE]) = (1.0, 1.0);
+        match (grip, system.contact) {
+            (None, _) => {}
+            (Some(_), Contact::Soft { .. }) => right[FORCE] = pull,
+            (Some(_), Contact::Rigid) => {
+                for (j, mode) in system.modes.iter().enumerate() {
+                    left[FORCE][j] = -mode.height;
+                }
+                right[FORCE] = sum(&unit(ONE), &steady_acceleration(system.height), 1.0);
+            }
+        }
+        match grip {
+            None => {}
+            Some(Grip::Stick) => {
+                for (j, mode) in system.modes.iter().enumerate() {
+                    left[TORQUE][j] = -mode.angle;
+                }
+                right[TORQUE] =
+                    sum(&unit(ONE).map(|one| load * one), &steady_acceleration(system.angle), 1.0);
+            }
+            Some(slide) => left[TORQUE][FORCE] = slide.sign() * friction,
+        }
+        let solution = solved(left, right);
+        let (force, torque) = (solution[FORCE], solution[TORQUE]);
+
+        let mut matrix = [[0.0; N]; N];
+        for j in 0..MODES {
+            (matrix[DISPLACEMENTS[j]], matrix[VELOCITIES[j]]) = (unit(VELOCITIES[j]), solution[j]);
+        }
+        (matrix[SIN][COS], matrix[COS][SIN]) = (1.0, -1.0);
+        (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &unit(ONE), -load));
+        if grip.is_none() || system.contact != Contact::Rigid {
+            // w' = N - 1 - s''.
+            let fall = sum(&force, &unit(ONE), -1.0);
+            let mut relative = sum(&fall, &steady_acceleration(system.height), -1.0);
+            for (mode, acceleration) in system.modes.iter().zip(&solution) {
+                relative = sum(&relative, acceleration, -mode.height);
+            }
+            (matrix[GAP], matrix[CLOSING]) = (unit(CLOSING), relative);
+        }
+        let flow = LinearFlow::new(matrix, rate(system, grip), TAU);
+
+        let mut slip = unit(SPEED);
+        (slip[SIN], slip[COS]) = (system.angle[1], -system.angle[0]);
+        for (j, mode) in system.modes.iter().enumerate() {
+            slip[VELOCITIES[j]] = -mode.angle;
+        }
+        let direction = grip.map_or(1.0, |grip| if grip == Grip::Backward { -1.0 } else { 1.0 });
+        let grips = force.map(|entry| friction * entry);
+        let force = if grip.is_none() { pull } else { force };
+        Self {
+            gap: flow.functional(unit(GAP)),
+            force: flow.functional(force),
+            slip: flow.functional(slip.map(|entry| direction * entry)),
+            hold: [-1.0, 1.0].map(|sign| flow.functional(sum(&grips, &torque, sign))),
+            torque,
+            flow,
+        }
+    }
+}
+
+/// A bound on the eigenvalues: the modes, the drive, and the spring and damper with all that moves along.
+fn rate(system: &StatorSystem, grip: Option<Grip>) -> f64 {
+    let mobility = system.mobility();
+    let mut rate: f64 = 1.0;
+    for mode in &system.modes {
+        rate = rate.max(mode.stiffness.sqrt() + mode.damping);
+    }
+    if grip.is_some() {
+        // In a slide the disk may take inertia away.
+        rate /= (mobility[0][0] - system.base.friction() * mobility[0][1].abs()).min(1.0);
+    }
+    if let (Some(_), Contact::Soft { stiffness, damping }) = (grip, system.contact) {
+        let share = mobility[0][0] + system.base.friction() * mobility[0][1].abs();
+        rate += (stiffness * share).sqrt() + damping * share;
+    }
+    rate
+}
+
+/// The solution of a small system of equations, by elimination with pivots; one that has none is refused before.
+fn solved<const M: usize>(mut left: [[f64; M]; M], mut right: [State; M]) -> [State; M] {
+    for column in 0..M {
+        let best = (column..M).fold(column, |best, row| {
+            if left[row][column].abs() > left[best][column].abs() { row } else { best }
+        });
+        left.swap(column, best);
+        right.swap(column, best);
+        let (pivot, known) = (left[column], right[column]);
+        for row in 0..M {
+            if row == column || left[row][column] == 0.0 {
+                continue;
+            }
+            let factor = left[row][column] / pivot[column];
+            for (entry, above) in left[row].iter_mut().zip(&pivot) {
+                *entry -= factor * above;
+            }
+            right[row] = sum(&right[row], &known, -factor);
+        }
+    }
+    std::array::from_fn(|row| right[row].map(|entry| entry / left[row][row]))
+}

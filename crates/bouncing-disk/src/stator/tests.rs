@@ -1,0 +1,163 @@
+//! The engine of a stator that yields.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::Phase;
+use bouncing_disk_core::numerics::random::SplitMix64;
+
+use super::*;
+use crate::Engine;
+use crate::driven::DrivenStart;
+use crate::motion::event::Event;
+use crate::parameters::dimensionless::DimensionlessParameters;
+
+fn base(peak: f64, twist: f64, lag: f64, friction: f64, restitution: f64, load: f64) -> DimensionlessSystem {
+    let parameters = DimensionlessParameters {
+        peak_acceleration: peak,
+        twist_speed: twist,
+        phase_lag: lag,
+        friction,
+        restitution,
+        load,
+    };
+    parameters.build().expect("legal")
+}
+
+fn start(phase: f64) -> DrivenStart {
+    DrivenStart::Contact { phase: Phase::new(phase).expect("finite"), angular_speed: 0.0 }
+}
+
+/// The three stators, with masses around that of the disk.
+fn stators(random: &mut SplitMix64) -> Vec<Vec<YieldingMode>> {
+    let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+    let (mass, frequency, quality) = (between(0.2, 20.0), between(0.5, 2.0), between(0.5, 100.0));
+    vec![
+        vec![YieldingMode::axial(mass, frequency, quality)],
+        vec![YieldingMode { angle: between(-2.0, 2.0), ..YieldingMode::axial(mass, 1.0, quality) }],
+        vec![
+            YieldingMode::axial(mass, frequency, quality),
+            YieldingMode::torsional(between(0.2, 20.0), between(0.5, 2.0), between(0.5, 100.0)),
+        ],
+    ]
+}
+
+#[test]
+fn energy_is_balanced_in_every_event() {
+    let mut random = SplitMix64::new(7);
+    for trial in 0..60 {
+        let mut between = |low: f64, high: f64| low + (high - low) * random.unit();
+        let peak = [1.5, 5.0, 40.0][trial % 3] * between(0.7, 1.3);
+        let base = base(
+            peak,
+            peak * between(0.0, 2.0),
+            between(-3.0, 3.0),
+            between(0.05, 0.5),
+            between(0.0, 0.9),
+            between(-0.02, 0.02),
+        );
+        for modes in stators(&mut random) {
+            for contact_time in [None, Some(0.7), Some(5.0)] {
+                let arm = 0.5 + random.unit();
+                let Ok(system) = StatorSystem::build(&base, &modes, arm, contact_time) else { continue };
+                let mut engine = StatorEngine::new(system, start(TAU * random.unit())).expect("legal");
+                let mut events = 0;
+                for _ in 0..300 {
+                    let Some(record) = engine.advance().expect("no failure") else { break };
+                    events += 1;
+                    assert!(
+                        record.relative_closure() < 1e-12,
+                        "{trial} {contact_time:?} {modes:?} {base:?} {record:#?}"
+                    );
+                }
+                assert!(events > 0 || engine.lies_for_ever(), "{trial} {contact_time:?}");
+            }
+        }
+    }
+}
+
+/// Each event of the engine on a stator that does not yield, from the same state.
+#[test]
+fn an_infinite_mass_gives_the_events_of_the_engine() {
+    for (peak, twist, lag) in [(1.2, 3.0, 0.4), (4.0, 2.0, -1.0), (30.0, 50.0, 0.0), (197.0, 4e3, 0.2)] {
+        let base = base(peak, twist, lag, 0.1, 0.5, 0.01);
+        for modes in [
+            vec![],
+            vec![YieldingMode::axial(1e13, 1.0, 300.0)],
+            vec![YieldingMode::axial(1e20, 0.7, 5.0), YieldingMode::torsional(1e20, 1.1, 40.0)],
+        ] {
+            let system = StatorSystem::new(&base, &modes).expect("legal");
+            let mut events = 0;
+            for record in Engine::new(base, start(0.3), bouncing_disk_core::ChatterPolicy::Complete)
+                .expect("legal")
+                .take(400)
+            {
+                let record = record.expect("no failure");
+                let segment = record.segment;
+                if segment.chatter_speed.is_some() {
+                    continue;
+                }
+                let time = segment.start;
+                let (sin, cos) = (time.phase.sin(), time.phase.cos());
+                let modes = std::array::from_fn(|index| system.steady(index, (sin, cos)));
+                let from = StatorState { disk: segment.state, modes };
+                let mut engine = StatorEngine::of_state(system.clone(), time, from).expect("legal");
+                let own = engine.advance().expect("no failure").expect("an event");
+                let size = record.span.radians();
+                assert!(
+                    (own.span.radians() - size).abs() <= 1e-12 * size.max(1.0),
+                    "{peak} {modes:?} {own:#?} {record:#?}"
+                );
+                let same = std::mem::discriminant(&own.event) == std::mem::discriminant(&record.event);
+                let rests = matches!(own.event, Event::Attachment { .. });
+                assert!(same || rests, "{own:#?} {record:#?}");
+                if !rests {
+                    let scale = peak + size;
+                    assert!(
+                        (own.after.disk.axial_velocity - record.after.axial_velocity).abs() <= 1e-12 * scale,
+                        "{own:#?} {record:#?}"
+                    );
+                    assert!(
+                        (own.after.disk.angular_speed - record.after.angular_speed).abs()
+                            <= 1e-12 * (twist + scale),
+                        "{own:#?} {record:#?}"
+                    );
+                }
+                events += 1;
+            }
+            assert!(events > 20, "{events}");
+        }
+    }
+}
+
+/// m g sqrt(1 + (M/(m Q))^2) < F_0 = M omega^2 A_0/Q: of a disk in steady contact with a stator driven at its free
+/// resonance the force falls to zero there.
+#[test]
+fn a_disk_at_rest_lifts_off_at_the_exact_preload() {
+    for (mass, quality) in [(0.3, 50.0), (10.0, 300.0), (300.0, 300.0), (2000.0, 20.0)] {
+        let ratio: f64 = mass / quality;
+        let peak = (1.0 + ratio * ratio).sqrt() / ratio;
+        for (factor, lifts) in [(1.0 - 1e-9, false), (1.0 + 1e-9, true)] {
+            let base = base(peak * factor, 0.0, 0.0, 0.0, 0.5, 0.0);
+            let system = StatorSystem::new(&base, &[YieldingMode::axial(mass, 1.0, quality)]).expect("legal");
+            // The steady motion in contact: (M + m) q'' + d M q' + M q = F - m.
+            let force = (peak * factor) * ratio;
+            let (re, im) = (mass - (mass + 1.0), ratio);
+            let size = re * re + im * im;
+            // F cos tau is the force at resonance, where the steady motion without a disk is sin tau.
+            let (cosine, sine) = (force * re / size, force * im / size);
+            let disk = crate::motion::state::DiskState {
+                mode: crate::motion::state::Mode::Sticking,
+                height: 0.0,
+                axial_velocity: 0.0,
+                angle: 0.0,
+                angular_speed: 0.0,
+            };
+            let from = StatorState { disk, modes: [[cosine - 1.0 / mass, sine], [0.0; 2]] };
+            let time =
+                crate::motion::phase_time::PhaseTime::in_first_period(Phase::new(0.0).expect("finite"));
+            let mut engine = StatorEngine::of_state(system, time, from).expect("legal");
+            let next = engine.advance().expect("no failure");
+            assert_eq!(next.is_some(), lifts, "{mass} {quality} {factor} {next:?}");
+        }
+    }
+}
