@@ -49,7 +49,7 @@ pub use impulse::{ImpulseBalance, ImpulseTrain, MAX_IMPULSES, NormalImpulses, Ph
 pub use operation::best_phase_lag::BestPhaseLag;
 pub use operation::ensemble::MAX_OPERATED_ROTORS;
 pub use operation::of_motor::operations;
-pub use operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
+pub use operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
 pub use operation::settings::OperatingSettings;
 pub use operation::spread::{InputSpread, InputTolerance};
 pub use operation::stall_load::StallLoad;

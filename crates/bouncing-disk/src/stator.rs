@@ -115,6 +115,15 @@ pub struct StatorSystem {
     pub(crate) arm: f64,
     pub(crate) contact: Contact,
     pub(crate) regimes: Arc<[Regime; 4]>,
+    given: Vec<YieldingMode>,
+    contact_time: Option<f64>,
+}
+
+impl PartialEq for StatorSystem {
+    fn eq(&self, other: &Self) -> bool {
+        let key = |system: &Self| (system.base, system.given.clone(), system.arm, system.contact_time);
+        key(self) == key(other)
+    }
 }
 
 impl StatorSystem {
@@ -208,11 +217,30 @@ impl StatorSystem {
             arm,
             contact,
             regimes: Arc::new(std::array::from_fn(|_| Regime::empty())),
+            given: modes.to_vec(),
+            contact_time,
         };
         built.check_jam()?;
         let grips = [None, Some(Grip::Stick), Some(Grip::Forward), Some(Grip::Backward)];
         built.regimes = Arc::new(grips.map(|grip| Regime::new(&built, grip)));
         Ok(built)
+    }
+
+    /// The same stator with another disk, load or steady motion.
+    pub(crate) fn with_base(&self, base: &DimensionlessSystem) -> Result<Self, Error> {
+        Self::build(base, &self.given, self.arm, self.contact_time)
+    }
+
+    /// Whether contacts take time.
+    pub(crate) const fn takes_time(&self) -> bool {
+        self.contact_time.is_some()
+    }
+
+    /// The amplitude of a mode that loses so much in its damping in a time (rad), as if it moved as a sine with the
+    /// frequency of the drive.
+    pub(crate) fn amplitude(&self, mode: usize, loss: f64, time: f64) -> f64 {
+        let ModeLaw { weight, damping, .. } = self.modes[mode];
+        (2.0 * loss / (weight * damping * time)).sqrt()
     }
 
     /// The unit forces: how impulses P and T change the relative speeds, [[w by P, w by T], [u by P, u by T]].

@@ -7,6 +7,7 @@
 //! docs/numerics/motors.md.
 
 pub(crate) mod best_phase_lag;
+pub(crate) mod carrier;
 pub(crate) mod driven_member;
 mod energy_rows;
 pub(crate) mod ensemble;

@@ -239,6 +239,17 @@ impl StatorEngine {
         self.ledgers(span, &self.carried(span))
     }
 
+    /// The energy of the spring of a contact that takes time, so long after the last event.
+    pub(crate) fn spring_energy(&self, span: f64) -> f64 {
+        match self.system.contact {
+            Contact::Soft { stiffness, .. } => {
+                let gap = self.carried(span.max(0.0))[GAP].min(0.0);
+                0.5 * stiffness * gap * gap
+            }
+            Contact::Rigid => 0.0,
+        }
+    }
+
     /// Whether a flight begins now.
     pub(crate) const fn launches(&self) -> bool {
         matches!(self.stage, Stage::Flight(_))
@@ -690,7 +701,7 @@ impl StatorEngine {
                 given += mode.height * along(speeds, joint[0], done.normal)
                     + self.system.arm * mode.angle * along(speeds, joint[1], done.friction);
             }
-            stator.record(0.0, 0.0, given);
+            stator.record(0, 0.0, 0.0, given);
             self.record_modes(stator, &start, &end);
         }
         end[CLOSING] = done.velocity;
@@ -863,7 +874,7 @@ impl StatorEngine {
             // The force of the drive is that of the steady motion: (f - 1) u + d u'.
             let [u0, u1] = [[s0, c0], [s1, c1]].map(|[s, c]| a * s + b * c);
             let drive = (f - 1.0) * (0.5 * (u1 - u0) * (u1 + u0) + place) + d * (steady + speed);
-            stator.record(mode.weight * drive, mode.weight * loss, 0.0);
+            stator.record(index, mode.weight * drive, mode.weight * loss, 0.0);
             stator.magnitude += mode.weight * (energy(from) + energy(to));
         }
     }
@@ -908,6 +919,7 @@ impl StatorEngine {
                     let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
                     let taken = mode.height * force + self.system.arm * mode.angle * torque;
                     stator.record(
+                        index,
                         part * drive * speed,
                         part * mode.weight * mode.damping * speed * speed,
                         part * taken * speed,

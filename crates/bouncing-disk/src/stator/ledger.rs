@@ -1,6 +1,8 @@
 //! Where the energy of a stator comes from and where it goes.
 
-use std::ops::AddAssign;
+use std::ops::{AddAssign, Sub};
+
+use super::MODES;
 
 /// The energy balance of the modes of a stator in an interval, in units of m (g/omega)^2. Every entry is computed by
 /// itself.
@@ -9,8 +11,8 @@ use std::ops::AddAssign;
 pub struct StatorLedger {
     /// Work of the drive on the modes.
     pub drive_work: f64,
-    /// Loss in the damping of the modes.
-    pub damping_loss: f64,
+    /// Loss in the damping of each mode.
+    pub damping_loss: [f64; MODES],
     /// Work of the modes on the disk, by normal forces and by friction.
     pub disk_work: f64,
     /// Change of the energy of the modes.
@@ -23,12 +25,12 @@ impl StatorLedger {
     /// Change of the energy minus the inflow: zero but for rounding.
     #[must_use]
     pub fn closure(&self) -> f64 {
-        self.energy_change - (self.drive_work - self.damping_loss - self.disk_work)
+        self.energy_change - (self.drive_work - self.damping_loss.iter().sum::<f64>() - self.disk_work)
     }
 
-    pub(super) fn record(&mut self, drive: f64, loss: f64, disk: f64) {
+    pub(super) fn record(&mut self, mode: usize, drive: f64, loss: f64, disk: f64) {
         self.drive_work += drive;
-        self.damping_loss += loss;
+        self.damping_loss[mode] += loss;
         self.disk_work += disk;
         self.magnitude += drive.abs() + loss.abs() + disk.abs();
     }
@@ -37,9 +39,25 @@ impl StatorLedger {
 impl AddAssign for StatorLedger {
     fn add_assign(&mut self, other: Self) {
         self.drive_work += other.drive_work;
-        self.damping_loss += other.damping_loss;
+        for (own, other) in self.damping_loss.iter_mut().zip(other.damping_loss) {
+            *own += other;
+        }
         self.disk_work += other.disk_work;
         self.energy_change += other.energy_change;
         self.magnitude += other.magnitude;
+    }
+}
+
+impl Sub for StatorLedger {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self {
+            drive_work: self.drive_work - other.drive_work,
+            damping_loss: std::array::from_fn(|mode| self.damping_loss[mode] - other.damping_loss[mode]),
+            disk_work: self.disk_work - other.disk_work,
+            energy_change: self.energy_change - other.energy_change,
+            magnitude: self.magnitude - other.magnitude,
+        }
     }
 }

@@ -7,16 +7,17 @@ use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
-use bouncing_disk_core::{ChatterPolicy, Phase};
+use bouncing_disk_core::Phase;
 
-use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
-use crate::motion::event::{Event, Motion};
+use crate::motion::event::Event;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::operation::carrier::{CarriedEngine, Carrier};
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::stator::StatorLedger;
 
 /// All rotors of a member.
 #[derive(Debug)]
@@ -30,10 +31,12 @@ pub(crate) struct Driven {
 /// A rotor, and what it has done since its start.
 #[derive(Debug)]
 struct Rotor {
-    engine: DrivenEngine,
+    engine: CarriedEngine,
+    takes_time: bool,
     generator: SplitMix64,
     perturbation: f64,
     ledger: EnergyLedger,
+    stator: StatorLedger,
     /// Energy given by the perturbations.
     given: f64,
     impacts: u64,
@@ -47,6 +50,7 @@ struct Rotor {
 #[derive(Debug, Clone, Copy, Default)]
 struct Totals {
     ledger: EnergyLedger,
+    stator: StatorLedger,
     given: f64,
     impacts: u64,
     axial_energy: f64,
@@ -57,20 +61,22 @@ struct Totals {
 impl Driven {
     /// Rotors that lie on the stator at `phase` with these angular speeds, perturbed by numbers of one `seed`.
     pub(crate) fn new<'a>(
-        starts: impl Iterator<Item = (&'a DrivenSystem, f64)>,
+        starts: impl Iterator<Item = (&'a Carrier, f64)>,
         phase: Phase,
         (perturbation, seed): (f64, u64),
     ) -> Result<Self, Error> {
         let reached = PhaseTime::in_first_period(phase);
         let starts: Vec<_> = starts.collect();
-        let tapped = Tapped::new(starts.iter().map(|&(system, _)| system));
-        let rotors = starts.into_iter().map(|(system, angular_speed)| {
-            let start = DrivenStart::Contact { phase, angular_speed };
+        let driven: Option<Vec<_>> = starts.iter().map(|&(carrier, _)| carrier.driven()).collect();
+        let tapped = driven.and_then(|systems| Tapped::new(systems.into_iter()));
+        let rotors = starts.into_iter().map(|(carrier, angular_speed)| {
             let mut rotor = Rotor {
-                engine: DrivenEngine::new(system.clone(), start, ChatterPolicy::Complete)?,
+                engine: carrier.start(phase, angular_speed)?,
+                takes_time: carrier.takes_time(),
                 generator: SplitMix64::new(seed),
                 perturbation,
                 ledger: EnergyLedger::default(),
+                stator: StatorLedger::default(),
                 given: 0.0,
                 impacts: 0,
                 recurrences: 0,
@@ -108,7 +114,7 @@ impl Driven {
         loop {
             if !tapped.begun {
                 // From where the engines are.
-                let Some(launch) = self.rotors[0].engine.flight() else {
+                let Some(launch) = self.rotors[0].engine.driven().and_then(|engine| engine.flight()) else {
                     let done = window.axial.impacts;
                     let left =
                         impacts.start().saturating_sub(done)..=impacts.end().saturating_sub(done).max(1);
@@ -136,7 +142,9 @@ impl Driven {
             }
             // One tap by the engines.
             for (rotor, speed) in self.rotors.iter_mut().zip(tapped.speeds()) {
-                rotor.engine.fly_from(tapped.time, tapped.launch, speed);
+                if let Some(engine) = rotor.engine.driven() {
+                    engine.fly_from(tapped.time, tapped.launch, speed);
+                }
                 rotor.before = rotor.totals(&self.reached);
             }
             tapped.begun = false;
@@ -162,17 +170,21 @@ impl Driven {
             }
             let (before, now) = (rotor.before, rotor.totals(&self.reached));
             let change = |of: fn(&Totals) -> f64| of(&now) - of(&before);
-            if index == 0 {
+            let axial = || {
                 let duration = self.reached.since(&from).radians();
-                window.axial = AxialWindow {
+                AxialWindow {
                     duration,
                     normal_work: change(|totals| totals.ledger.normal_work),
                     perturbation_work: change(|totals| totals.given),
                     restitution_loss: change(|totals| totals.ledger.restitution_loss),
                     energy_change: change(|totals| totals.axial_energy),
                     impacts: if lies { (duration / TAU + 0.5) as u64 } else { now.impacts - before.impacts },
-                };
+                }
+            };
+            if index == 0 {
+                window.axial = axial();
             }
+            let yields = rotor.engine.driven().is_none();
             window.rotors.push(RotorWindow {
                 angle: change(|totals| totals.angle),
                 friction_work: change(|totals| totals.ledger.friction_work),
@@ -181,6 +193,7 @@ impl Driven {
                 kinetic_change: 0.5
                     * change(|totals| totals.angular_speed)
                     * (now.angular_speed + before.angular_speed),
+                stator: yields.then(|| (now.stator - before.stator, axial())),
             });
             rotor.before = now;
         }
@@ -200,7 +213,7 @@ impl Rotor {
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
         let before = self.recurrences;
-        let anywhere = anywhere && self.engine.system().compliance.is_some();
+        let anywhere = anywhere && self.takes_time;
         loop {
             let (now, done) = (self.engine.time(), self.recurrences - before);
             let lasts = now.order(&end).is_ge() && done >= *impacts.start();
@@ -226,9 +239,10 @@ impl Rotor {
     /// The next event within `limit`, if there is one.
     fn advance(&mut self, limit: f64, work: &mut WorkCount<'_>) -> Result<bool, Error> {
         work.spend(FLIGHTS_OF_EVENT)?;
-        let Some(record) = self.engine.advance_within(limit)? else { return Ok(false) };
-        self.ledger += record.ledger;
-        match record.event {
+        let Some((event, ledger, stator)) = self.engine.advance_within(limit)? else { return Ok(false) };
+        self.ledger += ledger;
+        self.stator += stator;
+        match event {
             Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => {
                 self.impacts += 1;
                 self.recurrences += 1;
@@ -236,9 +250,9 @@ impl Rotor {
             Event::Turn => self.recurrences += 1,
             Event::Separation => {
                 let speed = self.perturbation * self.generator.unit();
-                let before = self.engine.state().axial_velocity;
+                let before = self.engine.disk().axial_velocity;
                 self.engine.perturb_launch(speed);
-                let after = self.engine.state().axial_velocity;
+                let after = self.engine.disk().axial_velocity;
                 self.given += 0.5 * (after - before) * (after + before);
             }
             _ => {}
@@ -249,11 +263,13 @@ impl Rotor {
     /// At a time before the next event.
     fn totals(&self, at: &PhaseTime) -> Totals {
         let span = at.since(&self.engine.time()).radians();
-        let (_, state) = self.engine.state_after(span);
-        let mut ledger = self.ledger;
-        ledger += self.engine.ledger_after(span);
+        let state = self.engine.disk_after(span);
+        let (mut ledger, mut stator) = self.engine.ledgers_after(span);
+        ledger += self.ledger;
+        stator += self.stator;
         Totals {
             ledger,
+            stator,
             given: self.given,
             impacts: self.impacts,
             axial_energy: 0.5 * state.axial_velocity * state.axial_velocity

@@ -5,17 +5,18 @@ use std::f64::consts::TAU;
 use bouncing_disk_core::Observer;
 use bouncing_disk_core::run::Watch;
 
-use crate::driven::DrivenSystem;
 use crate::error::{Error, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
+use crate::motor::operation::carrier::Carrier;
 use crate::motor::operation::member::{Member, far_above};
-use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall};
+use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::settling::{left_out, shortfall};
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
+use crate::stator::StatorLedger;
 
 /// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
@@ -53,7 +54,7 @@ pub(crate) struct LoadedMotor<'a> {
     pub(crate) system: System,
     /// How the stator moves, if not by Eq. (1), and its system without a load: the phase lag is that of
     /// `system`.
-    pub(crate) stator: Option<(&'a DrivenPlatform, &'a DrivenSystem)>,
+    pub(crate) stator: Option<(&'a DrivenPlatform, &'a Carrier)>,
     /// Mass m (kg).
     pub(crate) mass: f64,
     /// Load torque T_L (N m) as given, from which the system's load is computed.
@@ -406,15 +407,9 @@ impl<'a> Run<'a> {
             };
             self.members.iter().map(member).collect::<Vec<Sum>>()
         });
-        // Of each member in the middle of its two rotors, and of that from above.
-        let of = |value: &dyn Fn(&Sum) -> f64| -> [Vec<f64>; 2] {
-            let middles = below.iter().zip(&above).map(|(one, other)| 0.5 * (value(one) + value(other)));
-            [middles.collect(), above.iter().map(value).collect()]
-        };
-        let estimate = |value: &dyn Fn(&Sum) -> f64| {
-            let [middle, above] = of(value);
-            Ok::<_, Error>(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
-        };
+        let pairs = Pairs { below, above };
+        let of = |value: &dyn Fn(&Sum) -> f64| pairs.of(value);
+        let estimate = |value: &dyn Fn(&Sum) -> f64| pairs.estimate(value);
         let speed = |sum: &Sum| sum.rotor.angle / sum.axial.duration * units.speed;
         let mechanical = |sum: &Sum| sum.rotor.load_work / sum.axial.duration * units.rotary;
         let input = |sum: &Sum| {
@@ -425,12 +420,25 @@ impl<'a> Run<'a> {
         let friction = |sum: &Sum| sum.rotor.friction_loss / sum.axial.duration * units.rotary;
         let perturbation = |sum: &Sum| sum.axial.perturbation_work / sum.axial.duration * units.axial;
         let mechanical_power = estimate(&mechanical)?;
-        let (work, put_in) = (of(&mechanical), of(&input));
-        let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
-        let efficiency = ratio(0)
-            .zip(ratio(1))
-            .map(|(middle, above)| middle.bounded_by(above))
-            .filter(|_| mechanical_power.value >= 0.0);
+        let braked = mechanical_power.value >= 0.0;
+        let efficiency = pairs.ratio(&mechanical, &input).filter(|_| braked);
+        let yielding = motor.stator.and_then(|(_, carrier)| carrier.yielding());
+        let stator = yielding.map(|system| {
+            // What no mode gives the disk a prescribed twist does.
+            let drive = |sum: &Sum| {
+                let ledger = sum.stator();
+                input(sum) + (ledger.drive_work - ledger.disk_work) / sum.axial.duration * units.axial
+            };
+            let lost = |sum: &Sum| sum.stator().damping_loss;
+            let amplitude = |sum: &Sum| system.amplitude(0, lost(sum)[0], sum.axial.duration) * units.length;
+            let loss = |sum: &Sum| lost(sum).iter().sum::<f64>() / sum.axial.duration * units.axial;
+            Ok::<_, Error>(StatorPoint {
+                amplitude: estimate(&amplitude)?,
+                drive_power: estimate(&drive)?,
+                damping_loss: estimate(&loss)?,
+                efficiency: pairs.ratio(&mechanical, &drive).filter(|_| braked),
+            })
+        });
         let starts = self
             .members
             .iter()
@@ -446,9 +454,10 @@ impl<'a> Run<'a> {
             efficiency,
             perturbation_power: estimate(&perturbation)?.value,
             energy_residual: whole.energy_residual(&units, motor, self.members.len()),
-            averaged_time: below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
+            averaged_time: pairs.below.iter().map(|sum| sum.axial.duration).sum::<f64>() * units.time,
             start_up: starts.sum::<f64>() / self.members.len() as f64 * units.time,
-            impacts: below.iter().map(|sum| sum.axial.impacts).sum(),
+            impacts: pairs.below.iter().map(|sum| sum.axial.impacts).sum(),
+            stator: stator.transpose()?,
         };
         let operation = match self.shortfalls[index] {
             None => Operation::Steady(point),
@@ -459,9 +468,35 @@ impl<'a> Run<'a> {
     }
 }
 
+/// The sums of each member, of its rotors from far below and from far above.
+struct Pairs {
+    below: Vec<Sum>,
+    above: Vec<Sum>,
+}
+
+impl Pairs {
+    /// Of each member in the middle of its two rotors, and of that from above.
+    fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
+        let middles = self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
+        [middles.collect(), self.above.iter().map(value).collect()]
+    }
+
+    fn estimate(&self, value: &dyn Fn(&Sum) -> f64) -> Result<Estimate, Error> {
+        let [middle, above] = self.of(value);
+        Ok(Estimate::of(&middle)?.bounded_by(Estimate::of(&above)?))
+    }
+
+    fn ratio(&self, dividend: &dyn Fn(&Sum) -> f64, divisor: &dyn Fn(&Sum) -> f64) -> Option<Estimate> {
+        let (work, put_in) = (self.of(dividend), self.of(divisor));
+        let ratio = |start: usize| Estimate::of_ratio(&work[start], &put_in[start]);
+        ratio(0).zip(ratio(1)).map(|(middle, above)| middle.bounded_by(above))
+    }
+}
+
 /// SI units of what the windows hold.
 struct Units {
     time: f64,
+    length: f64,
     speed: f64,
     /// Power (W) for one unit of axial, and of rotary energy in a radian.
     axial: f64,
@@ -470,9 +505,10 @@ struct Units {
 
 impl Units {
     fn of(motor: &LoadedMotor<'_>) -> Self {
-        let Scales { time, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
+        let Scales { time, length, angular_speed, axial_energy, rotary_energy, .. } = motor.system.scales();
         Self {
             time,
+            length,
             speed: angular_speed,
             axial: motor.mass * axial_energy / time,
             rotary: motor.mass * rotary_energy / time,
@@ -489,8 +525,14 @@ struct Sum {
 
 impl Sum {
     fn add(&mut self, window: &Window, rotor: usize) {
-        self.axial.add(&window.axial);
-        self.rotor.add(&window.rotors[rotor]);
+        let rotor = &window.rotors[rotor];
+        self.axial.add(rotor.stator.as_ref().map_or(&window.axial, |(_, own)| own));
+        self.rotor.add(rotor);
+    }
+
+    /// The energies of a stator that yields.
+    fn stator(&self) -> StatorLedger {
+        self.rotor.stator.map(|(ledger, _)| ledger).unwrap_or_default()
     }
 
     /// The energy that came in; where less came in than the disks of all members have at their start, that:
@@ -513,7 +555,8 @@ impl Sum {
         let axial_left = axial - self.axial.restitution_loss - self.axial.energy_change;
         let rotor = &self.rotor;
         let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
-        let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs();
+        let stator_left = self.stator().closure() * units.axial;
+        let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
         let scale = self.energy_scale(units, motor, members);
         if scale > 0.0 { left / scale } else { left }
     }

@@ -8,7 +8,6 @@ use bouncing_disk_core::run::WorkCount;
 use bouncing_disk_core::sweep::{InstructionSet, LaneRunner};
 use bouncing_disk_core::{Attachment, ChatterPolicy, Impact, OrbitEvent};
 
-use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motion::chatter::Chatter;
 use crate::motion::energy::EnergyLedger;
@@ -21,6 +20,7 @@ use crate::motion::state::{DiskState, Mode};
 use crate::motor::batch::members::starting_phase;
 use crate::motor::batch::rotor_rows::{RotorRows, SharedImpact, WIDTH};
 use crate::motor::batch::shared_orbit::vertical::VerticalMotion;
+use crate::motor::operation::carrier::Carrier;
 use crate::motor::operation::driven_member::Driven;
 use crate::motor::operation::energy_rows::{CarryAll, Energies};
 use crate::motor::operation::no_lift_off::Lying;
@@ -50,10 +50,10 @@ pub(crate) enum Member {
 impl Member {
     /// The member of this `index` among so many as `settings` says. The first `bracketed` of the systems have
     /// two rotors, one from far below all steady speeds and one, behind those of all systems, from as far
-    /// above; the others start at rest. On a stator that moves in another way `driven` has its systems.
+    /// above; the others start at rest. On a stator that moves in another way, or yields, `carriers` has its systems.
     pub(crate) fn new(
         systems: &[DimensionlessSystem],
-        driven: &[DrivenSystem],
+        carriers: &[Carrier],
         bracketed: usize,
         index: usize,
         settings: &OperatingSettings,
@@ -67,9 +67,9 @@ impl Member {
         let starts: Vec<(usize, f64)> =
             (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
         let lying =
-            || starts.iter().map(|&(motor, _)| (systems[motor], driven.get(motor).cloned())).collect();
-        if !driven.is_empty() {
-            let starts = starts.iter().map(|&(motor, speed)| (&driven[motor], speed));
+            || starts.iter().map(|&(motor, _)| (systems[motor], carriers.get(motor).and_then(Carrier::driven).cloned())).collect();
+        if !carriers.is_empty() {
+            let starts = starts.iter().map(|&(motor, speed)| (&carriers[motor], speed));
             let member = Driven::new(starts.clone(), phase, perturbation)?;
             return Ok(match member.lies_for_ever() {
                 false => Self::Driven(Box::new(member)),

@@ -74,6 +74,7 @@ impl Lying {
                     friction_loss: times * rotor.friction_loss,
                     load_work: times * rotor.load_work,
                     kinetic_change: times * rotor.kinetic_change,
+                    stator: None,
                 })
                 .collect(),
         };
@@ -159,6 +160,7 @@ fn motion(
         kinetic_change: 0.5
             * (after.angular_speed - before.angular_speed)
             * (after.angular_speed + before.angular_speed),
+        stator: None,
     };
     Ok((ledger, rotor, after.angular_speed))
 }

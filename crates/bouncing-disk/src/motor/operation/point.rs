@@ -86,6 +86,25 @@ pub struct OperatingPoint {
     pub start_up: f64,
     /// Impacts of all members together, without those of summed chattering sequences and of the start-up.
     pub impacts: u64,
+    /// Of a stator that yields.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "Option::is_none"))]
+    pub stator: Option<StatorPoint>,
+}
+
+/// What a stator that yields does under a motor in steady operation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
+pub struct StatorPoint {
+    /// Amplitude of the axial mode under load (m): that of the sine which loses as much in its damping.
+    pub amplitude: Estimate,
+    /// Power that the drive puts into the modes, and into a twist that is prescribed (W): in volts, the real part of
+    /// voltage times current.
+    pub drive_power: Estimate,
+    /// Power lost in the damping of the modes (W).
+    pub damping_loss: Estimate,
+    /// Mechanical power over the power of the drive; `None` where the load drives the motor.
+    pub efficiency: Option<Estimate>,
 }
 
 /// Why a steady operation did not reach the requested accuracy within the allowed impacts.

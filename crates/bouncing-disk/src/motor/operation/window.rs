@@ -1,5 +1,7 @@
 //! The motion of rotors in a window of time, dimensionless.
 
+use crate::stator::StatorLedger;
+
 /// The motion of a rotor in a window of time, without units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct RotorWindow {
@@ -12,6 +14,8 @@ pub(crate) struct RotorWindow {
     pub(crate) load_work: f64,
     /// Change of the kinetic energy.
     pub(crate) kinetic_change: f64,
+    /// On a stator that yields: its energies, and the rotor's own vertical motion.
+    pub(crate) stator: Option<(StatorLedger, AxialWindow)>,
 }
 
 /// The vertical motion that all rotors share in a window of time, without units.
@@ -44,6 +48,11 @@ impl RotorWindow {
         self.friction_loss += next.friction_loss;
         self.load_work += next.load_work;
         self.kinetic_change += next.kinetic_change;
+        if let Some((ledger, axial)) = &next.stator {
+            let (own, known) = self.stator.get_or_insert_default();
+            *own += *ledger;
+            known.add(axial);
+        }
     }
 }
 

@@ -1,0 +1,164 @@
+//! What carries a rotor: a stator that moves in any way whatever lies on it, or one that yields.
+
+use bouncing_disk_core::{ChatterPolicy, Phase};
+
+use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::error::Error;
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::Event;
+use crate::motion::phase_time::PhaseTime;
+use crate::motion::state::DiskState;
+use crate::parameters::driven_platform::DrivenPlatform;
+use crate::parameters::system::System;
+use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
+
+/// The system of a motor.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Carrier {
+    Driven(DrivenSystem),
+    Yielding(StatorSystem),
+}
+
+impl Carrier {
+    /// This carrier with the load, friction and phase lag of another motor.
+    pub(crate) fn for_motor(&self, stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Driven(system) => Self::Driven(system.for_motor(stator, motor)?),
+            Self::Yielding(system) => Self::Yielding(system.with_base(motor.dimensionless())?),
+        })
+    }
+
+    pub(crate) const fn driven(&self) -> Option<&DrivenSystem> {
+        match self {
+            Self::Driven(system) => Some(system),
+            Self::Yielding(_) => None,
+        }
+    }
+
+    pub(crate) const fn yielding(&self) -> Option<&StatorSystem> {
+        match self {
+            Self::Yielding(system) => Some(system),
+            Self::Driven(_) => None,
+        }
+    }
+
+    pub(crate) fn takes_time(&self) -> bool {
+        match self {
+            Self::Driven(system) => system.compliance.is_some(),
+            Self::Yielding(system) => system.takes_time(),
+        }
+    }
+
+    /// A rotor that lies on it.
+    pub(crate) fn start(&self, phase: Phase, angular_speed: f64) -> Result<CarriedEngine, Error> {
+        let start = DrivenStart::Contact { phase, angular_speed };
+        Ok(match self {
+            Self::Driven(system) => CarriedEngine::Driven(Box::new(DrivenEngine::new(
+                system.clone(),
+                start,
+                ChatterPolicy::Complete,
+            )?)),
+            Self::Yielding(system) => {
+                CarriedEngine::Yielding(Box::new(StatorEngine::new(system.clone(), start)?))
+            }
+        })
+    }
+}
+
+/// Its engine.
+#[derive(Debug)]
+pub(crate) enum CarriedEngine {
+    Driven(Box<DrivenEngine>),
+    Yielding(Box<StatorEngine>),
+}
+
+/// Calls the engine that there is.
+macro_rules! either {
+    ($self:expr, $engine:ident => $call:expr) => {
+        match $self {
+            CarriedEngine::Driven($engine) => $call,
+            CarriedEngine::Yielding($engine) => $call,
+        }
+    };
+}
+
+impl CarriedEngine {
+    pub(crate) fn time(&self) -> PhaseTime {
+        either!(self, engine => engine.time())
+    }
+
+    pub(crate) fn launches(&self) -> bool {
+        either!(self, engine => engine.launches())
+    }
+
+    pub(crate) fn lies_for_ever(&self) -> bool {
+        use crate::motion::event::Motion;
+        match self {
+            Self::Driven(engine) => engine.lies_for_ever(),
+            Self::Yielding(engine) => engine.lies_for_ever(),
+        }
+    }
+
+    pub(crate) fn disk(&self) -> DiskState {
+        match self {
+            Self::Driven(engine) => *engine.state(),
+            Self::Yielding(engine) => engine.state().disk,
+        }
+    }
+
+    /// The next event within `limit`, the energy balances up to it, and the angle that the rotor turns.
+    pub(crate) fn advance_within(
+        &mut self,
+        limit: f64,
+    ) -> Result<Option<(Event, EnergyLedger, StatorLedger)>, Error> {
+        Ok(match self {
+            Self::Driven(engine) => engine
+                .advance_within(limit)?
+                .map(|record| (record.event, record.ledger, StatorLedger::default())),
+            Self::Yielding(engine) => {
+                engine.advance_within(limit)?.map(|record| (record.event, record.ledger, record.stator))
+            }
+        })
+    }
+
+    pub(crate) fn perturb_launch(&mut self, speed: f64) {
+        either!(self, engine => engine.perturb_launch(speed));
+    }
+
+    /// The rotor so long after the last event, if no event comes before.
+    pub(crate) fn disk_after(&self, span: f64) -> DiskState {
+        match self {
+            Self::Driven(engine) => engine.state_after(span).1,
+            Self::Yielding(engine) => engine.state_after(span).1.disk,
+        }
+    }
+
+    pub(crate) fn ledgers_after(&self, span: f64) -> (EnergyLedger, StatorLedger) {
+        match self {
+            Self::Driven(engine) => (engine.ledger_after(span), StatorLedger::default()),
+            Self::Yielding(engine) => engine.ledgers_after(span),
+        }
+    }
+
+    /// The energy of the spring of a contact so long after the last event, with the rotor in this state.
+    pub(crate) fn spring_energy(&self, span: f64, state: &DiskState) -> f64 {
+        match self {
+            Self::Driven(engine) => engine.spring_energy(span, state),
+            Self::Yielding(engine) => engine.spring_energy(span),
+        }
+    }
+
+    /// The engine of a stator that does not yield.
+    pub(crate) fn driven(&mut self) -> Option<&mut DrivenEngine> {
+        match self {
+            Self::Driven(engine) => Some(engine),
+            Self::Yielding(_) => None,
+        }
+    }
+
+    /// Without energies, of which a run-up needs none.
+    pub(crate) fn without_energy(mut self) -> Self {
+        either!(&mut self, engine => engine.with_energy = false);
+        self
+    }
+}
