@@ -39,7 +39,9 @@ use bouncing_disk_core::flight::Compliance;
 use bouncing_disk_core::numerics::elementary::sin_cos;
 
 use crate::error::{Error, check, finite};
+use crate::parameters::contact::ContactLaw;
 use crate::parameters::dimensionless::DimensionlessSystem;
+use crate::parameters::system::System;
 
 pub use engine::{StatorEngine, StatorRecord, StatorState};
 pub use ledger::StatorLedger;
@@ -241,6 +243,41 @@ impl StatorSystem {
     pub(crate) fn amplitude(&self, mode: usize, loss: f64, time: f64) -> f64 {
         let ModeLaw { weight, damping, .. } = self.modes[mode];
         (2.0 * loss / (weight * damping * time)).sqrt()
+    }
+
+    /// The system of a disk of this mass (kg) on the stator that the system has.
+    ///
+    /// # Errors
+    /// Those of [`Self::build`]; [`Error::BothGiven`] for a contact that unloads at less stiffness.
+    pub fn of_system(system: &System, mass: f64) -> Result<Self, Error> {
+        let (disk, omega) = (system.disk(), system.platform().angular_frequency());
+        let gyration = disk.gyration_radius();
+        let turn = gyration * gyration / disk.contact_radius();
+        let modes: Vec<_> = system
+            .stator()
+            .iter()
+            .flat_map(|stator| stator.modes().to_vec())
+            .map(|mode| YieldingMode {
+                mass: if mode.height == 0.0 {
+                    mode.mass / (mass * gyration * gyration)
+                } else {
+                    mode.mass / mass
+                },
+                frequency: mode.angular_frequency / omega,
+                quality: mode.quality,
+                height: mode.height,
+                angle: if mode.height == 0.0 { mode.angle } else { mode.angle * turn },
+            })
+            .collect();
+        let contact_time = match system.soft_contact() {
+            None => None,
+            Some((ContactLaw::Damper, time)) => Some(time * omega),
+            Some((ContactLaw::Hysteresis, _)) => {
+                return Err(Error::BothGiven { one: "stator", other: "contact.law" });
+            }
+        };
+        let arm = disk.contact_radius() / gyration;
+        Self::build(system.dimensionless(), &modes, arm * arm, contact_time)
     }
 
     /// The unit forces: how impulses P and T change the relative speeds, [[w by P, w by T], [u by P, u by T]].

@@ -6,12 +6,13 @@ use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::{Watch, in_parallel};
 use bouncing_disk_core::{Observer, Phase, Progress};
 
-use crate::driven::{DrivenEngine, DrivenStart, DrivenSystem};
+use crate::driven::DrivenSystem;
 use crate::error::Error;
 use crate::motion::event::Event;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
+use crate::motor::operation::carrier::{CarriedEngine, Carrier};
 use crate::motor::operation::ensemble::LoadedMotor;
 use crate::motor::operation::of_motor::curve_of;
 use crate::motor::operation::point::Operation;
@@ -22,9 +23,10 @@ use crate::motor::rotor::transient::{Bins, FLIGHTS_OF_EVENT, SpeedCurve, Transie
 use crate::parameters::contact::{Contact, ContactLaw};
 use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform, Waveform};
 use crate::parameters::system::System;
+use crate::stator::StatorSystem;
 
 /// A [`Motor`] whose stator moves by waveforms in place of the sines of Eq. (1), or whose contacts take the time
-/// that its sheet has in the table `[contact]`.
+/// that its sheet has in the table `[contact]`, or whose stator yields by its table `[stator]`.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -44,7 +46,7 @@ use crate::parameters::system::System;
 pub struct DrivenMotor {
     motor: Motor,
     stator: DrivenPlatform,
-    system: DrivenSystem,
+    carrier: Carrier,
     /// The sine with the same largest speeds.
     bound: System,
 }
@@ -59,15 +61,22 @@ impl DrivenMotor {
     }
 
     fn on(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
-        motor.system().prescribed()?;
         let stator = stator.with_contact(motor.system().soft_contact());
+        let rigid = motor.system().with_contact(None)?.with_stator(None)?;
+        if motor.stator().is_some() {
+            let carrier = Carrier::Yielding(StatorSystem::of_system(motor.system(), motor.mass())?);
+            if stator.height() != &Waveform::Sine || stator.angle() != &Waveform::Sine {
+                return Err(Error::DriveNotSine);
+            }
+            return Ok(Self { motor, stator, carrier, bound: rigid });
+        }
         let system = DrivenSystem::new(&stator, motor.system().disk())?;
         let scales = motor.system().scales();
-        let bound = motor.system().with_contact(None)?.with_platform(|platform| {
+        let bound = rigid.with_platform(|platform| {
             platform.amplitude = system.height().bounds().speed * scales.length;
             platform.twist_amplitude = system.angle().bounds().speed * scales.angle;
         })?;
-        Ok(Self { motor, stator, system, bound })
+        Ok(Self { motor, stator, carrier: Carrier::Driven(system), bound })
     }
 
     /// The motor with the motion that the table `[drive]` of a file gives.
@@ -78,13 +87,14 @@ impl DrivenMotor {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }
 
-    /// As [`Self::of_drive`]; `None` for the paper's motor, which moves as a sine and has rigid impacts: a
+    /// As [`Self::of_drive`]; `None` for the paper's motor, which moves as a sine, has rigid impacts and a stator that does not yield: a
     /// [`Motor`] is the faster one.
     ///
     /// # Errors
     /// As [`Self::of_drive`].
     pub fn where_needed(motor: Motor, drive: &DriveParameters) -> Result<Option<Self>, Error> {
-        let needed = !drive.is_sine() || motor.system().soft_contact().is_some();
+        let system = motor.system();
+        let needed = !drive.is_sine() || system.soft_contact().is_some() || system.stator().is_some();
         needed.then(|| Self::of_drive(motor, drive)).transpose()
     }
 
@@ -123,7 +133,7 @@ impl DrivenMotor {
 
     fn loaded(&self) -> LoadedMotor<'_> {
         let (mass, load_torque) = (self.motor.mass(), self.motor.load_torque());
-        LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.system)), mass, load_torque }
+        LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.carrier)), mass, load_torque }
     }
 
     /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together, except on sines with a
@@ -206,15 +216,13 @@ impl DrivenMotor {
         settings.check_for(&unit)?;
         let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
         let mut work = watch.work();
-        let start = DrivenStart::Contact { phase, angular_speed: 0.0 };
-        let mut engine = DrivenEngine::new(self.system.clone(), start, settings.policy)?;
-        engine.with_energy = false;
+        let mut engine = self.carrier.start(phase, 0.0, settings.policy)?.without_energy();
         let mut bins = Bins::new(settings.duration, settings.intervals)?;
         let mut generator = SplitMix64::new(settings.seed);
         let (mut impacts, mut separations, began) = (0, 0, engine.time());
-        let mut tapped = Tapped::new(std::iter::once(&self.system));
+        let mut tapped = self.carrier.driven().and_then(|system| Tapped::new(std::iter::once(system)));
         while bins.present.reached < settings.duration {
-            if let Some(tapped) = &mut tapped
+            if let (Some(tapped), CarriedEngine::Driven(engine)) = (&mut tapped, &mut engine)
                 && let Some(launch) = engine.flight()
             {
                 tapped.begin(engine.time(), launch, std::iter::once(engine.state().angular_speed));
@@ -236,21 +244,21 @@ impl DrivenMotor {
                 }
             }
             work.spend(FLIGHTS_OF_EVENT)?;
-            let (angle, now) = (engine.state().angle, engine.time().since(&began).radians());
+            let (angle, now) = (engine.disk().angle, engine.time().since(&began).radians());
             let left = settings.duration / unit.time - now;
-            let Some(record) = engine.advance_within(left)? else {
+            let Some((event, ..)) = engine.advance_within(left)? else {
                 // No event is left: the motion continues through the rest of the intervals.
                 let mut turned = 0.0;
                 for index in bins.present.index..settings.intervals {
                     let last = index + 1 == settings.intervals;
                     let to = if last { settings.duration } else { (index + 1) as f64 * bins.width };
-                    let (_, then) = engine.state_after(to / unit.time - now);
+                    let then = engine.disk_after(to / unit.time - now);
                     bins.add(to, then.angle - angle - turned);
                     turned = then.angle - angle;
                 }
                 break;
             };
-            match record.event {
+            match event {
                 Event::Impact { .. } | Event::Kick { .. } | Event::Recontact => impacts += 1,
                 Event::Separation => {
                     separations += 1;
@@ -260,8 +268,8 @@ impl DrivenMotor {
                 }
                 _ => {}
             }
-            let passed = record.time.since(&began).radians();
-            bins.add(passed * unit.time, record.after.angle - angle);
+            let passed = engine.time().since(&began).radians();
+            bins.add(passed * unit.time, engine.disk().angle - angle);
             watch.set_done(bins.present.index as u64);
         }
         watch.end();

@@ -50,14 +50,17 @@ impl Carrier {
     }
 
     /// A rotor that lies on it.
-    pub(crate) fn start(&self, phase: Phase, angular_speed: f64) -> Result<CarriedEngine, Error> {
+    pub(crate) fn start(
+        &self,
+        phase: Phase,
+        angular_speed: f64,
+        policy: ChatterPolicy,
+    ) -> Result<CarriedEngine, Error> {
         let start = DrivenStart::Contact { phase, angular_speed };
         Ok(match self {
-            Self::Driven(system) => CarriedEngine::Driven(Box::new(DrivenEngine::new(
-                system.clone(),
-                start,
-                ChatterPolicy::Complete,
-            )?)),
+            Self::Driven(system) => {
+                CarriedEngine::Driven(Box::new(DrivenEngine::new(system.clone(), start, policy)?))
+            }
             Self::Yielding(system) => {
                 CarriedEngine::Yielding(Box::new(StatorEngine::new(system.clone(), start)?))
             }

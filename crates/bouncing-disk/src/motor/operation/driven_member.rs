@@ -7,7 +7,7 @@ use std::ops::RangeInclusive;
 
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::run::WorkCount;
-use bouncing_disk_core::Phase;
+use bouncing_disk_core::{ChatterPolicy, Phase};
 
 use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
@@ -71,7 +71,7 @@ impl Driven {
         let tapped = driven.and_then(|systems| Tapped::new(systems.into_iter()));
         let rotors = starts.into_iter().map(|(carrier, angular_speed)| {
             let mut rotor = Rotor {
-                engine: carrier.start(phase, angular_speed)?,
+                engine: carrier.start(phase, angular_speed, ChatterPolicy::Complete)?,
                 takes_time: carrier.takes_time(),
                 generator: SplitMix64::new(seed),
                 perturbation,
@@ -287,6 +287,7 @@ mod tests {
     use bouncing_disk_core::{Drive, Unobserved};
 
     use super::*;
+    use crate::driven::DrivenSystem;
     use crate::motion::phase_time::phase_at;
 
     /// Rotors that come down through the platform's largest speed, where the engine takes over and hands back: in
@@ -299,7 +300,7 @@ mod tests {
             let (height, angle) = (drive(peak, 0.0), drive(twist, -1.0));
             let rigid =
                 DrivenSystem { height, angle, friction: 1.0, restitution: 0.5, load, compliance: None };
-            rigid.with_contact_time(TAU).expect("legal")
+            Carrier::Driven(rigid.with_contact_time(TAU).expect("legal"))
         });
         let speeds = [twist + 20.0, -twist - 20.0, twist + 5.0, 0.3 * twist];
         let starts = || systems.iter().flat_map(|system| [(system, 0.0); 2]);
@@ -311,7 +312,8 @@ mod tests {
         tapped.begin(tapped.time, tapped.launch, speeds.into_iter());
         slow.reached = fast.reached;
         for (rotor, speed) in slow.rotors.iter_mut().zip(speeds) {
-            rotor.engine.fly_from(tapped.time, tapped.launch, speed);
+            let engine = rotor.engine.driven().expect("no stator that yields");
+            engine.fly_from(tapped.time, tapped.launch, speed);
             (rotor.generator, rotor.before) = (fast.rotors[0].generator, rotor.totals(&slow.reached));
         }
         for _ in 0..3 {

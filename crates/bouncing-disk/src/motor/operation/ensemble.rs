@@ -477,7 +477,8 @@ struct Pairs {
 impl Pairs {
     /// Of each member in the middle of its two rotors, and of that from above.
     fn of(&self, value: &dyn Fn(&Sum) -> f64) -> [Vec<f64>; 2] {
-        let middles = self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
+        let middles =
+            self.below.iter().zip(&self.above).map(|(one, other)| 0.5 * (value(one) + value(other)));
         [middles.collect(), self.above.iter().map(value).collect()]
     }
 

@@ -66,8 +66,12 @@ impl Member {
         let from_above = |own| (own, far_above(&systems[own]));
         let starts: Vec<(usize, f64)> =
             (0..systems.len()).map(from_below).chain((0..bracketed).map(from_above)).collect();
-        let lying =
-            || starts.iter().map(|&(motor, _)| (systems[motor], carriers.get(motor).and_then(Carrier::driven).cloned())).collect();
+        let lying = || {
+            starts
+                .iter()
+                .map(|&(motor, _)| (systems[motor], carriers.get(motor).and_then(Carrier::driven).cloned()))
+                .collect()
+        };
         if !carriers.is_empty() {
             let starts = starts.iter().map(|&(motor, speed)| (&carriers[motor], speed));
             let member = Driven::new(starts.clone(), phase, perturbation)?;
