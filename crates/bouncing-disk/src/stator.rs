@@ -165,8 +165,9 @@ impl StatorSystem {
                 "[0.5, 1e12]",
             )?;
             finite("angle of a mode", mode.angle)?;
-            let pure = mode.height == 0.0 && mode.angle == 1.0;
-            check(mode.height == 1.0 || pure, "height of a mode", mode.height, "1, or 0 with the angle 1")?;
+            let is_one = |value: f64| (value - 1.0).abs() <= 0.0;
+            let pure = mode.height == 0.0 && is_one(mode.angle);
+            check(is_one(mode.height) || pure, "height of a mode", mode.height, "1, or 0 with the angle 1")?;
         }
         if let [one, other] = modes {
             let twice =

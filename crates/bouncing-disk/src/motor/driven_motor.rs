@@ -64,7 +64,7 @@ impl DrivenMotor {
         let stator = stator.with_contact(motor.system().soft_contact());
         let rigid = motor.system().with_contact(None)?.with_stator(None)?;
         if motor.stator().is_some() {
-            let carrier = Carrier::Yielding(StatorSystem::of_system(motor.system(), motor.mass())?);
+            let carrier = Carrier::Yielding(Box::new(StatorSystem::of_system(motor.system(), motor.mass())?));
             if stator.height() != &Waveform::Sine || stator.angle() != &Waveform::Sine {
                 return Err(Error::DriveNotSine);
             }

@@ -508,7 +508,7 @@ impl StatorEngine {
             state = regime.flow.advance(&state);
             // A whole number of steps is a period.
             (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + (steps % whole) as f64 * step);
-            if steps % whole == 0 {
+            if steps.is_multiple_of(whole) {
                 if repeats(&begun, &state) {
                     let lost = begun[SPEED] - state[SPEED];
                     let gains = match grip {

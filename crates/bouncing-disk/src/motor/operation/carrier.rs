@@ -16,7 +16,7 @@ use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Carrier {
     Driven(DrivenSystem),
-    Yielding(StatorSystem),
+    Yielding(Box<StatorSystem>),
 }
 
 impl Carrier {
@@ -24,7 +24,7 @@ impl Carrier {
     pub(crate) fn for_motor(&self, stator: &DrivenPlatform, motor: &System) -> Result<Self, Error> {
         Ok(match self {
             Self::Driven(system) => Self::Driven(system.for_motor(stator, motor)?),
-            Self::Yielding(system) => Self::Yielding(system.with_base(motor.dimensionless())?),
+            Self::Yielding(system) => Self::Yielding(Box::new(system.with_base(motor.dimensionless())?)),
         })
     }
 
@@ -62,7 +62,7 @@ impl Carrier {
                 CarriedEngine::Driven(Box::new(DrivenEngine::new(system.clone(), start, policy)?))
             }
             Self::Yielding(system) => {
-                CarriedEngine::Yielding(Box::new(StatorEngine::new(system.clone(), start)?))
+                CarriedEngine::Yielding(Box::new(StatorEngine::new((**system).clone(), start)?))
             }
         })
     }
