@@ -680,11 +680,8 @@ fn faults_of_a_table_stator_are_told() {
 #[test]
 fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
     use crate::motor::operation::settings::OperatingSettings;
-    use crate::motor::{
-        DrivenMotor, MotorSweep, SweepAxis, TransientMember, low_period_traps, operations, transient,
-        transients,
-    };
-    use crate::parameters::driven_platform::{DriveParameters, Waveform};
+    use crate::motor::{TransientMember, low_period_traps, transient, transients};
+    use crate::parameters::driven_platform::DriveParameters;
     use crate::toss::{InitialSpin, single_toss};
     let motor = yielding()[0];
     let (settings, run_up) = (OperatingSettings::default(), TransientSettings::default());
@@ -707,15 +704,10 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
         refused(motor.torque_speed_curve(&[0.0], &settings, &Unobserved).err());
         refused(motor.stall_load(&settings, &Unobserved).err());
         refused(motor.best_phase_lag(&settings, &Unobserved).err());
-        refused(operations(&[motor], &settings, &Unobserved).err());
-        refused(DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).err());
         refused(transient(motor.system(), phase, &run_up, &Unobserved).err());
         let member = TransientMember { system: *motor.system(), phase, settings: run_up };
         refused(transients(&[member], &Unobserved).expect("not stopped").remove(0).err());
         refused(single_toss(motor.system(), InitialSpin::AbsoluteRest).err());
         refused(crate::driven::Schedule::of_drive(motor.system(), &DriveParameters::default()).err());
-        let axis = SweepAxis::new(MotorField::Friction, vec![0.1, 0.2]);
-        let sweep = MotorSweep::new(motor, vec![axis], settings).expect("legal");
-        refused(sweep.run(&Unobserved).err());
     }
 }

@@ -12,7 +12,7 @@ use crate::motor::operation::ensemble::{LoadedMotor, MAX_OPERATED_ROTORS, operat
 use crate::motor::operation::point::{Estimate, Operation};
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::operation::stall_load::{StallLoad, stall_load};
-use crate::parameters::driven_platform::Waveform;
+use crate::parameters::driven_platform::DriveParameters;
 
 impl LoadedMotor<'static> {
     /// A motor with rigid impacts.
@@ -144,7 +144,7 @@ impl Motor {
 /// The steady operation of many motors, each under the load of its data sheet, in their order: maps of
 /// efficiency over lag and load, preload and amplitude, or anything else. Consecutive motors with the same
 /// vertical motion (they differ only in load, friction, lag, twist, radii or mass) share one orbit: list them
-/// together. Contacts take the time that a sheet has in its table `[contact]`; such motors are computed one by one.
+/// together. Contacts take the time that a sheet has in its table `[contact]`, and stators yield by `[stator]`; such motors are computed one by one.
 ///
 /// The items of `observer` are the motors.
 ///
@@ -162,10 +162,10 @@ pub fn operations(
     for group in groups.flat_map(|group| group.chunks(most)) {
         let done = all.len() as u64;
         let observer = |_: Progress| observer.observe(Progress { done, total });
-        if group[0].system().soft_contact().is_some() {
+        if DrivenMotor::where_needed(group[0], &DriveParameters::default())?.is_some() {
             for motor in group {
-                let soft = DrivenMotor::new(*motor, Waveform::Sine, Waveform::Sine)?;
-                all.extend(soft.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
+                let own = DrivenMotor::of_drive(*motor, &DriveParameters::default())?;
+                all.extend(own.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
             }
             continue;
         }
