@@ -26,6 +26,7 @@
 //! # Ok::<(), bouncing_disk::Error>(())
 //! ```
 
+mod energy;
 mod engine;
 mod impact;
 mod ledger;
@@ -87,6 +88,19 @@ impl YieldingMode {
     }
 }
 
+/// A line of a load: torque + slope times the speed, between two speeds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadLine {
+    /// Lower end; minus infinity for the first line.
+    pub from: f64,
+    /// Upper end; infinity for the last line.
+    pub to: f64,
+    /// Torque at speed 0, which may be outside of the line.
+    pub torque: f64,
+    /// Change of the torque with the speed.
+    pub slope: f64,
+}
+
 /// A mode, as its equation of motion has it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ModeLaw {
@@ -116,15 +130,17 @@ pub struct StatorSystem {
     /// (a_e/a_g)^2: rotary energy in units of axial energy.
     pub(crate) arm: f64,
     pub(crate) contact: Contact,
-    pub(crate) regimes: Arc<[Regime; 4]>,
+    /// The load over the speed, by rising speeds, and how everything moves on each of its lines.
+    pub(crate) lines: Vec<LoadLine>,
+    pub(crate) regimes: Arc<Vec<[Regime; 4]>>,
     given: Vec<YieldingMode>,
     contact_time: Option<f64>,
 }
 
 impl PartialEq for StatorSystem {
     fn eq(&self, other: &Self) -> bool {
-        let key = |system: &Self| (system.base, system.given.clone(), system.arm, system.contact_time);
-        key(self) == key(other)
+        (self.base, self.arm, self.contact_time) == (other.base, other.arm, other.contact_time)
+            && (&self.given, &self.lines) == (&other.given, &other.lines)
     }
 }
 
@@ -141,7 +157,9 @@ impl StatorSystem {
         Self::build(system, modes, 1.0, None)
     }
 
-    /// As [`Self::new`], with `arm` = (a_e/a_g)^2 and, if given, contacts that take this time (rad of the drive).
+    /// As [`Self::new`], with `arm` = (a_e/a_g)^2 and, if given, contacts that take time: an isolated impact
+    /// on this stator, on which nothing else acts, lasts for `contact_time` (rad of the drive) and has the system's
+    /// restitution.
     ///
     /// # Errors
     /// As [`Self::new`]; for a contact time those of [`Compliance::new`], within [`CONTACT_TIMES`].
@@ -209,7 +227,12 @@ impl StatorSystem {
                     "[0.01, 1e4] (rad): below, use rigid impacts",
                 )?;
                 let compliance = Compliance::new(time, system.restitution())?;
-                Contact::Soft { stiffness: compliance.stiffness(), damping: compliance.damping() }
+                // The mass that an isolated impact on the free modes feels.
+                let share = 1.0 / laws.iter().fold(1.0, |sum, law| sum + law.height * law.by_force);
+                Contact::Soft {
+                    stiffness: share * compliance.stiffness(),
+                    damping: share * compliance.damping(),
+                }
             }
         };
         let mut built = Self {
@@ -219,19 +242,53 @@ impl StatorSystem {
             angle,
             arm,
             contact,
-            regimes: Arc::new(std::array::from_fn(|_| Regime::empty())),
+            lines: vec![LoadLine {
+                from: f64::NEG_INFINITY,
+                to: f64::INFINITY,
+                torque: system.load(),
+                slope: 0.0,
+            }],
+            regimes: Arc::default(),
             given: modes.to_vec(),
             contact_time,
         };
         built.check_jam()?;
-        let grips = [None, Some(Grip::Stick), Some(Grip::Forward), Some(Grip::Backward)];
-        built.regimes = Arc::new(grips.map(|grip| Regime::new(&built, grip)));
+        built.regimes = built.moving();
         Ok(built)
+    }
+
+    fn moving(&self) -> Arc<Vec<[Regime; 4]>> {
+        let grips = [None, Some(Grip::Stick), Some(Grip::Forward), Some(Grip::Backward)];
+        Arc::new(self.lines.iter().map(|line| grips.map(|grip| Regime::new(self, line, grip))).collect())
+    }
+
+    /// This system with a load whose torque is a continuous line between speeds, besides the constant one. Torques and
+    /// speeds are in the units of the system.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for lines that do not follow each other, and slopes beyond 1e3.
+    pub fn with_load(mut self, lines: &[LoadLine]) -> Result<Self, Error> {
+        let mut reached = f64::NEG_INFINITY;
+        for line in lines {
+            let follows = line.from.total_cmp(&reached).is_eq() && line.to > line.from;
+            check(follows, "start of a line of the load", line.from, "the end of the one before")?;
+            check(line.slope.abs() <= 1.0e3, "slope of the load", line.slope, "[-1e3, 1e3] (dimensionless)")?;
+            finite("torque of the load", line.torque)?;
+            reached = line.to;
+        }
+        check(reached == f64::INFINITY, "end of the load", reached, "infinity")?;
+        let constant = self.base.load();
+        self.lines = lines.iter().map(|line| LoadLine { torque: line.torque + constant, ..*line }).collect();
+        self.regimes = self.moving();
+        Ok(self)
     }
 
     /// The same stator with another disk, load or steady motion.
     pub(crate) fn with_base(&self, base: &DimensionlessSystem) -> Result<Self, Error> {
-        Self::build(base, &self.given, self.arm, self.contact_time)
+        let constant = self.base.load();
+        let line = |line: &LoadLine| LoadLine { torque: line.torque - constant, ..*line };
+        let lines: Vec<_> = self.lines.iter().map(line).collect();
+        Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&lines)
     }
 
     /// Whether contacts take time.

@@ -7,7 +7,7 @@ use bouncing_disk_core::run::{Watch, in_parallel};
 use bouncing_disk_core::{Observer, Phase, Progress};
 
 use crate::driven::DrivenSystem;
-use crate::error::Error;
+use crate::error::{Error, check};
 use crate::motion::event::Event;
 use crate::motor::batch::members::TransientMember;
 use crate::motor::data_sheet::Motor;
@@ -21,12 +21,15 @@ use crate::motor::operation::stall_load::{StallLoad, stall_load};
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::rotor::transient::{Bins, FLIGHTS_OF_EVENT, SpeedCurve, TransientSettings, curve};
 use crate::parameters::contact::{Contact, ContactLaw};
+use crate::parameters::dimensionless::DimensionlessParameters;
 use crate::parameters::driven_platform::{DriveParameters, DrivenPlatform, Waveform};
+use crate::parameters::load::LoadLaw;
 use crate::parameters::system::System;
-use crate::stator::StatorSystem;
+use crate::stator::{LoadLine, StatorSystem};
 
 /// A [`Motor`] whose stator moves by waveforms in place of the sines of Eq. (1), or whose contacts take the time
-/// that its sheet has in the table `[contact]`, or whose stator yields by its table `[stator]`.
+/// that its sheet has in the table `[contact]`, whose stator yields by its table `[stator]`, or whose load varies
+/// by its table `[load]`.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -62,14 +65,10 @@ impl DrivenMotor {
 
     fn on(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
         let stator = stator.with_contact(motor.system().soft_contact());
-        let rigid = motor.system().with_contact(None)?.with_stator(None)?;
-        if motor.stator().is_some() {
-            let carrier = Carrier::Yielding(Box::new(StatorSystem::of_system(motor.system(), motor.mass())?));
-            if stator.height() != &Waveform::Sine || stator.angle() != &Waveform::Sine {
-                return Err(Error::DriveNotSine);
-            }
-            return Ok(Self { motor, stator, carrier, bound: rigid });
+        if motor.stator().is_some() || motor.load().is_some() {
+            return Self::yielding(motor, stator);
         }
+        let rigid = motor.system().with_contact(None)?;
         let system = DrivenSystem::new(&stator, motor.system().disk())?;
         let scales = motor.system().scales();
         let bound = rigid.with_platform(|platform| {
@@ -77,6 +76,49 @@ impl DrivenMotor {
             platform.twist_amplitude = system.angle().bounds().speed * scales.angle;
         })?;
         Ok(Self { motor, stator, carrier: Carrier::Driven(system), bound })
+    }
+
+    /// On a stator that yields, or under a load that varies.
+    fn yielding(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
+        if stator.height() != &Waveform::Sine || stator.angle() != &Waveform::Sine {
+            return Err(Error::DriveNotSine);
+        }
+        let shaft = motor.load().map_or(0.0, |load| load.inertia()) / motor.mass();
+        let system = motor.system().with_disk(|disk| {
+            disk.gyration_radius = (disk.gyration_radius * disk.gyration_radius + shaft).sqrt();
+        })?;
+        let mut bound = system.with_contact(None)?.with_stator(None)?;
+        bound.has_load_law = false;
+        let mut own = StatorSystem::of_system(&system, motor.mass())?;
+        if let Some(load) = motor.load() {
+            let stops = !load.drives_at(f64::NEG_INFINITY) || !load.drives_at(f64::MAX);
+            let yields = motor.stator().is_some();
+            check(
+                yields || !stops,
+                "load.off",
+                f64::NAN,
+                "only with a table [stator]: a prescribed motion stops with a jump",
+            )?;
+            own = own.with_load(&lines(&load, 0.0, &bound, motor.mass()))?;
+        }
+        Ok(Self { motor, stator, carrier: Carrier::Yielding(Box::new(own)), bound })
+    }
+
+    /// The stator and the load at a time (s) after the start.
+    fn carrier_at(&self, time: f64) -> Result<StatorSystem, Error> {
+        let Some(own) = self.carrier.yielding() else { return Err(Error::YieldingStator) };
+        let Some(load) = self.motor.load() else { return Ok(own.clone()) };
+        let base = if load.drives_at(time) {
+            *own.base()
+        } else {
+            let still = DimensionlessParameters {
+                peak_acceleration: 0.0,
+                twist_speed: 0.0,
+                ..own.base().parameters()
+            };
+            still.build()?
+        };
+        own.with_base(&base)?.with_load(&lines(&load, time, &self.bound, self.motor.mass()))
     }
 
     /// The motor with the motion that the table `[drive]` of a file gives.
@@ -94,7 +136,7 @@ impl DrivenMotor {
     /// As [`Self::of_drive`].
     pub fn where_needed(motor: Motor, drive: &DriveParameters) -> Result<Option<Self>, Error> {
         let system = motor.system();
-        let needed = !drive.is_sine() || system.soft_contact().is_some() || system.stator().is_some();
+        let needed = !drive.is_sine() || system.soft_contact().is_some() || system.prescribed().is_err();
         needed.then(|| Self::of_drive(motor, drive)).transpose()
     }
 
@@ -211,12 +253,37 @@ impl DrivenMotor {
         settings: &TransientSettings,
         observer: &dyn Observer,
     ) -> Result<SpeedCurve, Error> {
-        let rotor = self.motor.system().disk();
-        let unit = self.stator.scales(rotor);
+        Ok(self.run_up(phase, settings, observer)?.0)
+    }
+
+    /// As [`Self::transient`], with the amplitude (m) of the axial mode at the end of each interval: how far its free
+    /// vibration would go without a drive and losses. Empty for a stator that does not yield.
+    ///
+    /// # Errors
+    /// As [`Self::transient`].
+    pub fn run_up(
+        &self,
+        phase: Phase,
+        settings: &TransientSettings,
+        observer: &dyn Observer,
+    ) -> Result<(SpeedCurve, Vec<f64>), Error> {
+        let unit = self.bound.scales();
         settings.check_for(&unit)?;
         let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
         let mut work = watch.work();
-        let mut engine = self.carrier.start(phase, 0.0, settings.policy)?.without_energy();
+        let (load, mut amplitudes) = (self.motor.load(), Vec::new());
+        let mut engine = match load {
+            Some(_) => {
+                Carrier::Yielding(Box::new(self.carrier_at(0.0)?)).start(phase, 0.0, settings.policy)?
+            }
+            None => self.carrier.start(phase, 0.0, settings.policy)?,
+        };
+        if let Some(load) = load
+            && !load.drives_at(0.0)
+        {
+            engine.calm();
+        }
+        let mut engine = engine.without_energy();
         let mut bins = Bins::new(settings.duration, settings.intervals)?;
         let mut generator = SplitMix64::new(settings.seed);
         let (mut impacts, mut separations, began) = (0, 0, engine.time());
@@ -246,7 +313,19 @@ impl DrivenMotor {
             work.spend(FLIGHTS_OF_EVENT)?;
             let (angle, now) = (engine.disk().angle, engine.time().since(&began).radians());
             let left = settings.duration / unit.time - now;
-            let Some((event, ..)) = engine.advance_within(left)? else {
+            if let Some(amplitude) = engine.amplitude() {
+                amplitudes.resize(bins.present.index.min(settings.intervals), amplitude * unit.length);
+            }
+            let change =
+                load.and_then(|load| load.next_change_after(now * unit.time * (1.0 + 4.0 * f64::EPSILON)));
+            let change = change.filter(|change| change / unit.time < left + now);
+            let until = change.map_or(left, |change| (change / unit.time - now).max(0.0));
+            let Some((event, ..)) = engine.advance_within(until)? else {
+                if let Some(change) = change {
+                    engine.switch(until, self.carrier_at(change)?);
+                    bins.add(change, engine.disk().angle - angle);
+                    continue;
+                }
                 // No event is left: the motion continues through the rest of the intervals.
                 let mut turned = 0.0;
                 for index in bins.present.index..settings.intervals {
@@ -273,8 +352,31 @@ impl DrivenMotor {
             watch.set_done(bins.present.index as u64);
         }
         watch.end();
-        curve(bins, &unit, (impacts, separations))
+        if let Some(amplitude) = engine.amplitude() {
+            amplitudes.resize(settings.intervals, amplitude * unit.length);
+        }
+        Ok((curve(bins, &unit, (impacts, separations))?, amplitudes))
     }
+}
+
+/// The lines of a load at a time (s), on a disk of this mass.
+fn lines(load: &LoadLaw, time: f64, system: &System, mass: f64) -> Vec<LoadLine> {
+    let disk = system.disk();
+    let torque = load.factor_at(time) / (mass * disk.preload_acceleration() * disk.contact_radius());
+    let speed = system.scales().angular_speed;
+    let mut lines = Vec::new();
+    let mut reached = f64::NEG_INFINITY;
+    while reached < f64::INFINITY {
+        let segment = load.segment_at(reached);
+        reached = segment.to;
+        lines.push(LoadLine {
+            from: segment.from / speed,
+            to: segment.to / speed,
+            torque: segment.torque * torque,
+            slope: segment.slope * torque * speed,
+        });
+    }
+    lines
 }
 
 #[cfg(test)]

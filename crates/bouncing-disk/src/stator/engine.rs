@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
-use bouncing_disk_core::numerics::elementary::{exp, sin_cos};
+use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
 use bouncing_disk_core::numerics::linear_flow::{Functional, Vector, dot};
 
 use super::impact::impact;
@@ -12,7 +12,7 @@ use super::ledger::StatorLedger;
 use super::regime::{
     ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, N, ONE, Regime, SIN, SPEED, State, VELOCITIES,
 };
-use super::{MODES, StatorSystem};
+use super::{LoadLine, MODES, StatorSystem};
 use crate::driven::DrivenStart;
 use crate::error::{Error, moderate};
 use crate::motion::energy::EnergyLedger;
@@ -29,14 +29,6 @@ const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// A contact whose modes come back to the same state after a period, within this share of it, repeats for ever.
 const SAME: f64 = 1.0e-13;
-
-/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
-const GAUSS: [(f64, f64); 4] = [
-    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-];
 
 /// Disk and modes at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +76,7 @@ impl StatorRecord {
 
 /// What the disk does until the next event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Stage {
+pub(super) enum Stage {
     Flight(Launch),
     Contact { grip: Grip, forever: bool },
     Ended,
@@ -92,7 +84,7 @@ enum Stage {
 
 /// How a flight begins, which says which derivatives of the gap vanish at its start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Launch {
+pub(super) enum Launch {
     /// Above the platform.
     Air,
     /// From the platform with a speed.
@@ -105,11 +97,13 @@ enum Launch {
 /// can happen, and after an error.
 #[derive(Debug, Clone)]
 pub struct StatorEngine {
-    system: StatorSystem,
-    stage: Stage,
-    now: PhaseTime,
-    state: State,
+    pub(super) system: StatorSystem,
+    pub(super) stage: Stage,
+    pub(super) now: PhaseTime,
+    pub(super) state: State,
     angle: LongSum,
+    /// The line of the load.
+    pub(super) line: usize,
     /// Without it ledgers stay empty.
     pub(crate) with_energy: bool,
 }
@@ -129,6 +123,8 @@ enum Crossing {
     SlipEnd,
     /// Friction gives way, and the disk slides so.
     Slips(Grip),
+    /// The speed reaches another line of the load.
+    Line(usize),
 }
 
 impl StatorEngine {
@@ -187,7 +183,9 @@ impl StatorEngine {
     fn begin(system: StatorSystem, now: PhaseTime, mut state: State, lies: bool) -> Result<Self, Error> {
         (state[SIN], state[COS], state[ONE]) = (now.phase.sin(), now.phase.cos(), 1.0);
         let stage = Stage::Flight(if state[GAP] > 0.0 { Launch::Air } else { Launch::Rebound });
-        let mut engine = Self { system, stage, now, state, angle: LongSum::new(0.0), with_energy: true };
+        let mut engine =
+            Self { system, stage, now, state, angle: LongSum::new(0.0), line: 0, with_energy: true };
+        engine.line = engine.line_at(engine.state[SPEED]);
         match engine.system.contact {
             Contact::Rigid if lies => engine.lie_down(),
             Contact::Soft { stiffness, .. } if lies => {
@@ -271,6 +269,73 @@ impl StatorEngine {
         }
     }
 
+    /// The amplitude of the first mode, if it moves in height: how far it would go without a drive, losses and a disk.
+    pub(crate) fn amplitude(&self) -> Option<f64> {
+        let mode = self.system.modes[0];
+        let [place, speed] = self.mode_state(0, &self.state);
+        (mode.height != 0.0).then(|| (place * place + speed * speed / mode.stiffness).sqrt())
+    }
+
+    /// Stills the modes: the stator is at rest, and the disk as it is relative to it.
+    pub(crate) fn calm(&mut self) {
+        for index in 0..MODES {
+            let [place, speed] = self.system.steady(index, (self.state[SIN], self.state[COS]));
+            (self.state[DISPLACEMENTS[index]], self.state[VELOCITIES[index]]) = (-place, -speed);
+        }
+        self.go_on();
+    }
+
+    /// Ends the present motion `span` radians after the last event, if no event comes before, and goes on with another
+    /// system of the same units: the drive is switched, or the load changes. Modes, height and speed of the disk are
+    /// continuous; a prescribed twist jumps.
+    pub fn switch(&mut self, span: f64, to: StatorSystem) -> StatorRecord {
+        let span = if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 };
+        let state = self.carried(span);
+        let (ledger, stator) = if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
+        let before = self.stated(&state, self.mode());
+        self.now = self.now.after(PhaseSpan::from_radians(span));
+        self.state = state;
+        (self.state[SIN], self.state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
+        self.angle.add(self.state[ANGLE]);
+        self.state[ANGLE] = 0.0;
+        if span > 0.0
+            && let Stage::Flight(launch) = &mut self.stage
+        {
+            *launch = if self.state[GAP] < 0.0 { Launch::Release } else { Launch::Air };
+        }
+        let phase = (self.state[SIN], self.state[COS]);
+        for index in 0..MODES {
+            let (old, new) = (self.system.steady(index, phase), to.steady(index, phase));
+            self.state[DISPLACEMENTS[index]] += old[0] - new[0];
+            self.state[VELOCITIES[index]] += old[1] - new[1];
+        }
+        self.system = to;
+        self.go_on();
+        let (after, span) = (self.state(), PhaseSpan::from_radians(span));
+        StatorRecord {
+            time: self.now,
+            event: Event::Joint,
+            before,
+            after,
+            axial_impulse: 0.0,
+            angular_impulse: 0.0,
+            ledger,
+            stator,
+            span,
+        }
+    }
+
+    /// With another system or other modes.
+    fn go_on(&mut self) {
+        self.line = self.line_at(self.state[SPEED]);
+        if matches!(self.stage, Stage::Contact { .. }) {
+            match self.system.contact {
+                Contact::Rigid => self.lie_down(),
+                Contact::Soft { .. } => self.press(),
+            }
+        }
+    }
+
     /// The next event, or `None` after the last one.
     ///
     /// # Errors
@@ -282,7 +347,11 @@ impl StatorEngine {
     /// The next event if it comes within `limit` radians of the last one. Without one the engine stays where it is.
     pub(crate) fn advance_within(&mut self, limit: f64) -> Result<Option<StatorRecord>, Error> {
         let next = match self.stage {
-            Stage::Flight(launch) => self.flight_end(launch, limit),
+            Stage::Flight(launch) => {
+                let line = self.next_line().filter(|(after, _)| *after < limit);
+                let next = self.flight_end(launch, line.map_or(limit, |(after, _)| after));
+                next.map(|next| next.or_else(|| line.map(|(after, line)| (after, Crossing::Line(line)))))
+            }
             Stage::Contact { grip, .. } => self.contact_end(grip, limit),
             Stage::Ended => Ok(None),
         };
@@ -305,11 +374,11 @@ impl StatorEngine {
         }
     }
 
-    fn regime(&self) -> &Regime {
-        &self.system.regimes[self.regime_index()]
+    pub(super) fn regime(&self) -> &Regime {
+        &self.system.regimes[self.line][self.regime_index()]
     }
 
-    const fn mode(&self) -> Mode {
+    pub(super) const fn mode(&self) -> Mode {
         match self.stage {
             Stage::Flight(_) | Stage::Ended => Mode::Flight,
             Stage::Contact { grip: Grip::Stick, .. } => Mode::Sticking,
@@ -318,7 +387,7 @@ impl StatorEngine {
         }
     }
 
-    fn stated(&self, state: &State, mode: Mode) -> StatorState {
+    pub(super) fn stated(&self, state: &State, mode: Mode) -> StatorState {
         let [height, velocity] = self.system.tip(state);
         StatorState {
             disk: DiskState {
@@ -421,7 +490,7 @@ impl StatorEngine {
     }
 
     /// No point of the stator comes higher while the modes ring.
-    fn highest(&self, state: &State) -> f64 {
+    pub(super) fn highest(&self, state: &State) -> f64 {
         let [a, b] = self.system.height;
         let mut highest = (a * a + b * b).sqrt();
         for (index, mode) in self.system.modes.iter().enumerate() {
@@ -453,18 +522,53 @@ impl StatorEngine {
         let start = from[CLOSING] + velocity;
         state[GAP] = from[GAP] + (time * (start - 0.5 * time) - (tip - height));
         state[CLOSING] = (start - time) - speed;
-        let load = self.system.base.load();
-        state[ANGLE] = from[ANGLE] + time * (from[SPEED] - 0.5 * load * time);
-        state[SPEED] = from[SPEED] - load * time;
+        let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        let load = torque + slope * from[SPEED];
+        let (once, twice) = exponential_integrals(slope, time);
+        state[ANGLE] = from[ANGLE] + (time * from[SPEED] - load * twice);
+        state[SPEED] = from[SPEED] - load * once;
         state
+    }
+
+    /// The line of the load at a speed; at a node that to which the load drives the disk.
+    fn line_at(&self, speed: f64) -> usize {
+        let lines = &self.system.lines;
+        let index = lines.iter().rposition(|line| speed >= line.from).unwrap_or(0);
+        let line = &lines[index];
+        let falls = line.torque + line.slope * speed > 0.0;
+        if speed <= line.from && falls { index.saturating_sub(1) } else { index }
+    }
+
+    /// When a disk in flight reaches another line of the load.
+    fn next_line(&self) -> Option<(f64, usize)> {
+        let LoadLine { from, to, torque, slope } = self.system.lines[self.line];
+        let speed = self.state[SPEED];
+        let load = torque + slope * speed;
+        let (node, next) = if load > 0.0 { (from, self.line.checked_sub(1)?) } else { (to, self.line + 1) };
+        if load == 0.0 || !node.is_finite() {
+            return None;
+        }
+        // (speed - node)/load is the integral of exp(-slope t).
+        let share = ((speed - node) / load).max(0.0);
+        let after = if slope == 0.0 {
+            share
+        } else if slope * share < 1.0 {
+            -ln_1p(-slope * share) / slope
+        } else {
+            return None;
+        };
+        Some((after, next))
     }
 
     /// The end of a contact, or of a slide or a stick in it.
     fn contact_end(&mut self, grip: Grip, limit: f64) -> Result<Next, Error> {
         let regimes = Arc::clone(&self.system.regimes);
-        let regime = &regimes[self.regime_index()];
+        let regime = &regimes[self.line][self.regime_index()];
         let step = regime.flow.step();
         let mut watched: Vec<(&Functional<N>, Crossing)> = vec![(&regime.force, Crossing::Release)];
+        for (node, line) in regime.nodes.iter().zip([self.line.wrapping_sub(1), self.line + 1]) {
+            watched.extend(node.iter().map(|node| (node, Crossing::Line(line))));
+        }
         if self.system.base.friction() > 0.0 {
             match grip {
                 Grip::Stick => {
@@ -631,6 +735,15 @@ impl StatorEngine {
                     }
                 }
             }
+            Crossing::Line(line) => {
+                self.line = line;
+                if let Stage::Flight(launch) = &mut self.stage
+                    && span > 0.0
+                {
+                    *launch = if self.state[GAP] < 0.0 { Launch::Release } else { Launch::Air };
+                }
+                Event::Joint
+            }
             Crossing::Slips(slide) => {
                 self.stage = Stage::Contact { grip: slide, forever: false };
                 Event::StickToSlip(direction(slide))
@@ -669,7 +782,7 @@ impl StatorEngine {
         let mobility = self.system.mobility();
         let mut done = impact(mobility, base.friction(), base.restitution(), [velocity, slip]);
         // Free of each other, disk and stator approach with this acceleration.
-        let approach = -dot(&self.system.regimes[0].flow.derivative(&closing()), &self.state);
+        let approach = -dot(&self.system.regimes[self.line][0].flow.derivative(&closing()), &self.state);
         let lasts = 2.0 * done.velocity / (approach * (1.0 - base.restitution()));
         let rests = approach > 0.0 && lasts < CHATTER;
         if rests {
@@ -756,7 +869,7 @@ impl StatorEngine {
             return;
         }
         self.state[CLOSING] = 0.0;
-        let away = self.system.regimes[0].flow.derivative(&closing());
+        let away = self.system.regimes[self.line][0].flow.derivative(&closing());
         let (value, doubt) = (dot(&away, &self.state), ROUNDING * size(&away, &self.state));
         if value < -doubt {
             self.lie_down();
@@ -790,7 +903,7 @@ impl StatorEngine {
                 None => {}
             }
         }
-        let stick = &self.system.regimes[1];
+        let stick = &self.system.regimes[self.line][1];
         let gives = |hold: &Functional<N>| {
             let (value, doubt) = (dot(hold.now(), &self.state), ROUNDING * size(hold.now(), &self.state));
             let first = stick.flow.derivative(hold.now());
@@ -809,126 +922,9 @@ impl StatorEngine {
     }
 
     /// Coordinate and speed of a mode.
-    fn mode_state(&self, index: usize, state: &State) -> [f64; 2] {
+    pub(super) fn mode_state(&self, index: usize, state: &State) -> [f64; 2] {
         let [place, speed] = self.system.steady(index, (state[SIN], state[COS]));
         [place + state[DISPLACEMENTS[index]], speed + state[VELOCITIES[index]]]
-    }
-
-    fn record_modes(&self, stator: &mut StatorLedger, from: &State, to: &State) {
-        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
-            let ([q0, v0], [q1, v1]) = (self.mode_state(index, from), self.mode_state(index, to));
-            let f = mode.stiffness;
-            stator.energy_change += 0.5 * mode.weight * ((v1 - v0) * (v1 + v0) + f * (q1 - q0) * (q1 + q0));
-            stator.magnitude += 0.5 * mode.weight * (v0 * v0 + v1 * v1 + f * (q0 * q0 + q1 * q1));
-        }
-    }
-
-    /// The energy balances from the last event to `state`, `span` later, without an event.
-    fn ledgers(&self, span: f64, state: &State) -> (EnergyLedger, StatorLedger) {
-        let (mut ledger, mut stator) = (EnergyLedger::default(), StatorLedger::default());
-        let mode = self.mode();
-        let (start, end) = (self.stated(&self.state, mode).disk, self.stated(state, mode).disk);
-        ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
-        ledger.record_rotary_change(start.angular_speed, end.angular_speed);
-        ledger.record_rounding(self.highest(&self.state) + span, end.axial_velocity);
-        let turned = end.angle - start.angle;
-        let load = self.system.base.load() * (state[ANGLE] - self.state[ANGLE]);
-        ledger.record_load(load, load.abs() + (self.system.base.load() * turned).abs());
-        self.record_modes(&mut stator, &self.state, state);
-        match self.stage {
-            Stage::Contact { .. } => self.record_contact(span, &mut ledger, &mut stator),
-            _ => self.record_flight(span, state, &mut stator),
-        }
-        if let Contact::Soft { stiffness, .. } = self.system.contact {
-            let energy = |gap: f64| 0.5 * stiffness * gap.min(0.0) * gap.min(0.0);
-            let (from, to) = (energy(self.state[GAP]), energy(state[GAP]));
-            ledger.record_spring([from, to]);
-            if !matches!(self.stage, Stage::Contact { .. }) {
-                // Where no force acts the damper takes it.
-                ledger.record_normal(0.0, from - to);
-            }
-        }
-        (ledger, stator)
-    }
-
-    /// Work of the drive and loss in the modes over a flight, in closed form.
-    fn record_flight(&self, span: f64, state: &State, stator: &mut StatorLedger) {
-        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
-            let (f, d) = (mode.stiffness, mode.damping);
-            let ringing = |state: &State| [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]];
-            let (from, to) = (ringing(&self.state), ringing(state));
-            let energy = |[r, v]: [f64; 2]| 0.5 * (v * v + f * r * r);
-            // In the steady motion (u, u'): integrals of u'^2, u' r' and u r', the last two by
-            // (exp(i tau) x)' = (B + i) exp(i tau) x for the ringing x' = B x.
-            let [a, b] = mode.steady;
-            let (s0, c0, s1, c1) = (self.state[SIN], self.state[COS], state[SIN], state[COS]);
-            let wave = |s: f64, c: f64| a * b * (s * s - c * c) * -0.5 + (a * a - b * b) * 0.5 * s * c;
-            let steady = 0.5 * (a * a + b * b) * span + (wave(s1, c1) - wave(s0, c0));
-            let cross = |s: f64, c: f64, x: [f64; 2]| cross_integral(f, d, x, (c, s));
-            let (late, early) = (cross(s1, c1, to), cross(s0, c0, from));
-            // Integrals of cos(tau) r' and sin(tau) r'.
-            let (with_cos, with_sin) = (late.0 - early.0, late.1 - early.1);
-            let speed = a * with_cos - b * with_sin;
-            let place = a * with_sin + b * with_cos;
-            let loss = d * (steady + 2.0 * speed) + (energy(from) - energy(to));
-            // The force of the drive is that of the steady motion: (f - 1) u + d u'.
-            let [u0, u1] = [[s0, c0], [s1, c1]].map(|[s, c]| a * s + b * c);
-            let drive = (f - 1.0) * (0.5 * (u1 - u0) * (u1 + u0) + place) + d * (steady + speed);
-            stator.record(index, mode.weight * drive, mode.weight * loss, 0.0);
-            stator.magnitude += mode.weight * (energy(from) + energy(to));
-        }
-    }
-
-    /// Works and losses over a contact, by quadrature of the state on each step.
-    fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
-        let regime = self.regime();
-        let flow = &regime.flow;
-        let (mut state, mut passed) = (self.state, 0.0);
-        let friction = self.system.base.friction();
-        while passed < span {
-            let length = (span - passed).min(flow.step());
-            let expanded = flow.expand(&state);
-            for (node, weight) in
-                GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
-            {
-                let time = 0.5 * length * (1.0 + node);
-                let part = 0.5 * length * weight;
-                let mut at = expanded.at(time);
-                (at[SIN], at[COS]) = sin_cos(self.now.phase.angle() + (passed + time));
-                let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
-                let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
-                let damper = match self.system.contact {
-                    Contact::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
-                    Contact::Rigid => 0.0,
-                };
-                ledger.record_normal(part * force * tip, part * damper);
-                let lost = match self.stage {
-                    Stage::Contact { grip: Grip::Stick, .. } => 0.0,
-                    _ => friction * force * (at[SPEED] - turn).abs(),
-                };
-                ledger.record_friction(
-                    part * torque * turn,
-                    part * lost,
-                    part * (torque * turn).abs() + part * lost,
-                );
-                for (index, mode) in
-                    self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0)
-                {
-                    let [_, speed] = self.mode_state(index, &at);
-                    let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
-                    let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
-                    let taken = mode.height * force + self.system.arm * mode.angle * torque;
-                    stator.record(
-                        index,
-                        part * drive * speed,
-                        part * mode.weight * mode.damping * speed * speed,
-                        part * taken * speed,
-                    );
-                }
-            }
-            state = if length < flow.step() { state } else { flow.advance(&state) };
-            passed += flow.step();
-        }
     }
 }
 
@@ -940,7 +936,7 @@ enum AtStart {
     Fallen,
 }
 
-fn size(functional: &Vector<N>, state: &State) -> f64 {
+pub(super) fn size(functional: &Vector<N>, state: &State) -> f64 {
     functional.iter().zip(state).map(|(a, b)| (a * b).abs()).sum()
 }
 
@@ -978,15 +974,18 @@ fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
     [e * (cos * r + share * (v + decay * r)), e * (cos * v - share * (stiffness * r + decay * v))]
 }
 
-/// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of
-/// (B + i)^-1 x exp(i tau).
-fn cross_integral(stiffness: f64, damping: f64, [r, v]: [f64; 2], (cos, sin): (f64, f64)) -> (f64, f64) {
-    // B + i = [[i, 1], [-f, i - d]]; its inverse has the second row [f, i]/(f - 1 - i d).
-    let (re, im) = (stiffness * r, v);
-    let (p, q) = (stiffness - 1.0, -damping);
-    let size = p * p + q * q;
-    let (x, y) = ((re * p + im * q) / size, (im * p - re * q) / size);
-    (x * cos - y * sin, x * sin + y * cos)
+/// The integral of exp(-rate s) from 0 to `time`, and the integral of that.
+fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
+    let x = rate * time;
+    if x.abs() < 1.0e-2 {
+        let series = |first: f64| {
+            // 1/first! - x/(first + 1)! + ...
+            (1..=6).rev().fold(1.0, |sum, k| 1.0 - x / (first + f64::from(k)) * sum)
+        };
+        return (time * series(1.0), 0.5 * time * time * series(2.0));
+    }
+    let once = -exp_m1(-x) / rate;
+    (once, (time - once) / rate)
 }
 
 impl Iterator for StatorEngine {

@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 
 use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector};
 
-use super::{MODES, StatorSystem};
+use super::{LoadLine, MODES, StatorSystem};
 
 /// Components of a state.
 pub(crate) const N: usize = 11;
@@ -74,6 +74,8 @@ pub(crate) struct Regime {
     pub(crate) slip: Functional<N>,
     /// mu N - T and mu N + T where friction holds.
     pub(crate) hold: [Functional<N>; 2],
+    /// How far the speed is above the lower end of the line of the load, and below its upper end.
+    pub(crate) nodes: [Option<Functional<N>>; 2],
     /// T.
     pub(crate) torque: Vector<N>,
 }
@@ -96,22 +98,10 @@ fn steady_acceleration([a, b]: [f64; 2]) -> State {
 }
 
 impl Regime {
-    pub(crate) fn empty() -> Self {
-        let flow = LinearFlow::new([[0.0; N]; N], 1.0, TAU);
-        let nothing = flow.functional([0.0; N]);
-        Self {
-            gap: nothing.clone(),
-            force: nothing.clone(),
-            slip: nothing.clone(),
-            hold: [nothing.clone(), nothing],
-            torque: [0.0; N],
-            flow,
-        }
-    }
-
-    /// In a contact with this grip, or in flight.
-    pub(crate) fn new(system: &StatorSystem, grip: Option<Grip>) -> Self {
-        let (friction, load) = (system.base.friction(), system.base.load());
+    /// On a line of the load, in a contact with this grip, or in flight.
+    pub(crate) fn new(system: &StatorSystem, line: &LoadLine, grip: Option<Grip>) -> Self {
+        let friction = system.base.friction();
+        let load = sum(&unit(ONE).map(|one| line.torque * one), &unit(SPEED), line.slope);
         let pull = match system.contact {
             Contact::Rigid => [0.0; N],
             Contact::Soft { stiffness, damping } => {
@@ -144,8 +134,7 @@ impl Regime {
                 for (j, mode) in system.modes.iter().enumerate() {
                     left[TORQUE][j] = -mode.angle;
                 }
-                right[TORQUE] =
-                    sum(&unit(ONE).map(|one| load * one), &steady_acceleration(system.angle), 1.0);
+                right[TORQUE] = sum(&load, &steady_acceleration(system.angle), 1.0);
             }
             Some(slide) => left[TORQUE][FORCE] = slide.sign() * friction,
         }
@@ -157,7 +146,7 @@ impl Regime {
             (matrix[DISPLACEMENTS[j]], matrix[VELOCITIES[j]]) = (unit(VELOCITIES[j]), solution[j]);
         }
         (matrix[SIN][COS], matrix[COS][SIN]) = (1.0, -1.0);
-        (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &unit(ONE), -load));
+        (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &load, -1.0));
         if grip.is_none() || system.contact != Contact::Rigid {
             // w' = N - 1 - s''.
             let fall = sum(&force, &unit(ONE), -1.0);
@@ -167,7 +156,7 @@ impl Regime {
             }
             (matrix[GAP], matrix[CLOSING]) = (unit(CLOSING), relative);
         }
-        let flow = LinearFlow::new(matrix, rate(system, grip), TAU);
+        let flow = LinearFlow::new(matrix, rate(system, line, grip), TAU);
 
         let mut slip = unit(SPEED);
         (slip[SIN], slip[COS]) = (system.angle[1], -system.angle[0]);
@@ -182,6 +171,10 @@ impl Regime {
             force: flow.functional(force),
             slip: flow.functional(slip.map(|entry| direction * entry)),
             hold: [-1.0, 1.0].map(|sign| flow.functional(sum(&grips, &torque, sign))),
+            nodes: [(1.0, line.from), (-1.0, line.to)].map(|(sign, node)| {
+                let distance = sum(&unit(SPEED).map(|one| sign * one), &unit(ONE), -sign * node);
+                node.is_finite().then(|| flow.functional(distance))
+            }),
             torque,
             flow,
         }
@@ -189,9 +182,9 @@ impl Regime {
 }
 
 /// A bound on the eigenvalues: the modes, the drive, and the spring and damper with all that moves along.
-fn rate(system: &StatorSystem, grip: Option<Grip>) -> f64 {
+fn rate(system: &StatorSystem, line: &LoadLine, grip: Option<Grip>) -> f64 {
     let mobility = system.mobility();
-    let mut rate: f64 = 1.0;
+    let mut rate = line.slope.abs().max(1.0);
     for mode in &system.modes {
         rate = rate.max(mode.stiffness.sqrt() + mode.damping);
     }

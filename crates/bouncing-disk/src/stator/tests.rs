@@ -161,3 +161,85 @@ fn a_disk_at_rest_lifts_off_at_the_exact_preload() {
         }
     }
 }
+
+/// A load that is a fan: the speed of a free disk has a closed form on each line, and energy is balanced across nodes and
+/// switches of the drive.
+#[test]
+fn a_load_of_lines_brakes_as_exponentials_and_balances_its_energy() {
+    let base = base(5.0, 20.0, 0.2, 0.2, 0.5, 0.0);
+    let lines = [
+        LoadLine { from: f64::NEG_INFINITY, to: 1.0, torque: 0.0, slope: 0.01 },
+        LoadLine { from: 1.0, to: 4.0, torque: -0.03, slope: 0.04 },
+        LoadLine { from: 4.0, to: f64::INFINITY, torque: 0.13, slope: 0.0 },
+    ];
+    let mode = YieldingMode::axial(3.0, 1.0, 30.0);
+    for (modes, contact_time) in [(vec![], None), (vec![mode], None), (vec![mode], Some(1.0))] {
+        let own = StatorSystem::build(&base, &modes, 0.7, contact_time).expect("legal");
+        let loaded = own.clone().with_load(&lines).expect("legal");
+        let start = DrivenStart::Flight {
+            phase: Phase::new(1.0).expect("finite"),
+            gap: 1e4,
+            relative_velocity: 0.0,
+            angular_speed: 5.0,
+        };
+        let mut engine = StatorEngine::new(loaded.clone(), start).expect("legal");
+        let (mut lines, mut events) = (Vec::new(), 0);
+        while events < 400 {
+            let Some(record) = engine.advance().expect("no failure") else { break };
+            assert!(record.relative_closure() < 1e-12, "{record:#?}");
+            events += 1;
+            if record.event == Event::Joint {
+                lines.push((record.span.radians(), record.after.disk.angular_speed));
+            }
+            if events % 50 == 0 {
+                // The drive is switched, or switched off.
+                let still =
+                    DimensionlessParameters { peak_acceleration: 0.0, twist_speed: 0.0, ..base.parameters() };
+                let next = if events % 100 == 0 {
+                    loaded.clone()
+                } else {
+                    own.with_base(&still.build().expect("legal")).expect("legal")
+                };
+                if !modes.is_empty() {
+                    let record = engine.switch(0.0, next);
+                    assert!(record.relative_closure() < 1e-12, "{record:#?}");
+                }
+            }
+        }
+        // From 5 to 4 at 0.13, and from 4 to 1 as exp(-0.04 t) from 3.25 above 0.75.
+        let [first, second, ..] = lines[..] else { panic!("{lines:?}") };
+        assert!((first.0 - 1.0 / 0.13).abs() < 1e-13 * first.0 && (first.1 - 4.0).abs() < 1e-13);
+        let time = -25.0 * bouncing_disk_core::numerics::elementary::ln(0.25 / 3.25);
+        assert!(
+            (second.0 - time).abs() < 1e-12 * time && (second.1 - 1.0).abs() < 1e-13,
+            "{second:?} {time}"
+        );
+    }
+}
+
+/// Free ringing after the drive is switched off, and from rest after it is switched on: the closed form of a circuit.
+#[test]
+fn a_stator_rings_down_and_up_as_its_circuit() {
+    use bouncing_disk_core::numerics::elementary::exp;
+    let (base, quality) = (base(5.0, 0.0, 0.0, 0.0, 0.5, 0.0), 40.0);
+    let system = StatorSystem::new(&base, &[YieldingMode::axial(2.0, 1.0, quality)]).expect("legal");
+    let start = DrivenStart::Flight {
+        phase: Phase::new(0.0).expect("finite"),
+        gap: 1e7,
+        relative_velocity: 0.0,
+        angular_speed: 0.0,
+    };
+    let mut engine = StatorEngine::new(system.clone(), start).expect("legal");
+    let still =
+        DimensionlessParameters { peak_acceleration: 0.0, ..base.parameters() }.build().expect("legal");
+    engine.switch(TAU, system.with_base(&still).expect("legal"));
+    let (decay, time) = (0.5 / quality, 20.0 * TAU);
+    let frequency = (1.0 - decay * decay).sqrt();
+    let (sin, cos) = sin_cos(frequency * time);
+    // From q = 0, q' = 5.
+    let speed = 5.0 * exp(-decay * time) * (cos - decay / frequency * sin);
+    assert!((engine.state_after(time).1.modes[0][1] - speed).abs() < 1e-12);
+    engine.switch(time, system);
+    let [place, speed] = engine.state_after(400.0 * TAU).1.modes[0];
+    assert!(place.abs() < 1e-9 && (speed - 5.0).abs() < 1e-9, "{place} {speed}");
+}

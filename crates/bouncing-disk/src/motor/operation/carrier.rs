@@ -159,6 +159,28 @@ impl CarriedEngine {
         }
     }
 
+    /// The amplitude to which the axial mode would ring freely.
+    pub(crate) fn amplitude(&self) -> Option<f64> {
+        match self {
+            Self::Driven(_) => None,
+            Self::Yielding(engine) => engine.amplitude(),
+        }
+    }
+
+    /// Stills the modes of a stator at its start.
+    pub(crate) fn calm(&mut self) {
+        if let Self::Yielding(engine) = self {
+            engine.calm();
+        }
+    }
+
+    /// Goes on with another stator or load.
+    pub(crate) fn switch(&mut self, span: f64, to: StatorSystem) {
+        if let Self::Yielding(engine) = self {
+            engine.switch(span, to);
+        }
+    }
+
     /// Without energies, of which a run-up needs none.
     pub(crate) fn without_energy(mut self) -> Self {
         either!(&mut self, engine => engine.with_energy = false);

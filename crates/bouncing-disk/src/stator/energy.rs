@@ -1,0 +1,159 @@
+//! The energy balances of a motion between two events.
+
+use bouncing_disk_core::numerics::elementary::sin_cos;
+use bouncing_disk_core::numerics::linear_flow::dot;
+
+use super::LoadLine;
+use super::engine::{Stage, StatorEngine, size};
+use super::ledger::StatorLedger;
+use super::regime::{ANGLE, CLOSING, COS, Contact, DISPLACEMENTS, GAP, Grip, SIN, SPEED, State, VELOCITIES};
+use crate::motion::energy::EnergyLedger;
+
+/// Nodes and weights of the Gauss-Legendre rule of eight points on [-1, 1].
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+impl StatorEngine {
+    pub(super) fn record_modes(&self, stator: &mut StatorLedger, from: &State, to: &State) {
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
+            let ([q0, v0], [q1, v1]) = (self.mode_state(index, from), self.mode_state(index, to));
+            let f = mode.stiffness;
+            stator.energy_change += 0.5 * mode.weight * ((v1 - v0) * (v1 + v0) + f * (q1 - q0) * (q1 + q0));
+            stator.magnitude += 0.5 * mode.weight * (v0 * v0 + v1 * v1 + f * (q0 * q0 + q1 * q1));
+        }
+    }
+
+    /// The energy balances from the last event to `state`, `span` later, without an event.
+    pub(super) fn ledgers(&self, span: f64, state: &State) -> (EnergyLedger, StatorLedger) {
+        let (mut ledger, mut stator) = (EnergyLedger::default(), StatorLedger::default());
+        let mode = self.mode();
+        let (start, end) = (self.stated(&self.state, mode).disk, self.stated(state, mode).disk);
+        ledger.record_axial_change([start.axial_velocity, end.axial_velocity], [start.height, end.height]);
+        ledger.record_rotary_change(start.angular_speed, end.angular_speed);
+        ledger.record_rounding(self.highest(&self.state) + span, end.axial_velocity);
+        let turned = end.angle - start.angle;
+        let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        if slope == 0.0 {
+            let load = torque * (state[ANGLE] - self.state[ANGLE]);
+            ledger.record_load(load, load.abs() + (torque * turned).abs());
+        } else if matches!(self.stage, Stage::Flight(_)) {
+            // Nothing else turns the disk.
+            let [from, to] = [start.angular_speed, end.angular_speed];
+            let load = 0.5 * (from - to) * (from + to);
+            ledger.record_load(load, load.abs());
+        }
+        self.record_modes(&mut stator, &self.state, state);
+        match self.stage {
+            Stage::Contact { .. } => self.record_contact(span, &mut ledger, &mut stator),
+            _ => self.record_flight(span, state, &mut stator),
+        }
+        if let Contact::Soft { stiffness, .. } = self.system.contact {
+            let energy = |gap: f64| 0.5 * stiffness * gap.min(0.0) * gap.min(0.0);
+            let (from, to) = (energy(self.state[GAP]), energy(state[GAP]));
+            ledger.record_spring([from, to]);
+            if !matches!(self.stage, Stage::Contact { .. }) {
+                // Where no force acts the damper takes it.
+                ledger.record_normal(0.0, from - to);
+            }
+        }
+        (ledger, stator)
+    }
+
+    /// Work of the drive and loss in the modes over a flight, in closed form.
+    fn record_flight(&self, span: f64, state: &State, stator: &mut StatorLedger) {
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
+            let (f, d) = (mode.stiffness, mode.damping);
+            let ringing = |state: &State| [state[DISPLACEMENTS[index]], state[VELOCITIES[index]]];
+            let (from, to) = (ringing(&self.state), ringing(state));
+            let energy = |[r, v]: [f64; 2]| 0.5 * (v * v + f * r * r);
+            // In the steady motion (u, u'): integrals of u'^2, u' r' and u r', the last two by
+            // (exp(i tau) x)' = (B + i) exp(i tau) x for the ringing x' = B x.
+            let [a, b] = mode.steady;
+            let (s0, c0, s1, c1) = (self.state[SIN], self.state[COS], state[SIN], state[COS]);
+            let wave = |s: f64, c: f64| a * b * (s * s - c * c) * -0.5 + (a * a - b * b) * 0.5 * s * c;
+            let steady = 0.5 * (a * a + b * b) * span + (wave(s1, c1) - wave(s0, c0));
+            let cross = |s: f64, c: f64, x: [f64; 2]| cross_integral(f, d, x, (c, s));
+            let (late, early) = (cross(s1, c1, to), cross(s0, c0, from));
+            // Integrals of cos(tau) r' and sin(tau) r'.
+            let (with_cos, with_sin) = (late.0 - early.0, late.1 - early.1);
+            let speed = a * with_cos - b * with_sin;
+            let place = a * with_sin + b * with_cos;
+            let loss = d * (steady + 2.0 * speed) + (energy(from) - energy(to));
+            // The force of the drive is that of the steady motion: (f - 1) u + d u'.
+            let [u0, u1] = [[s0, c0], [s1, c1]].map(|[s, c]| a * s + b * c);
+            let drive = (f - 1.0) * (0.5 * (u1 - u0) * (u1 + u0) + place) + d * (steady + speed);
+            stator.record(index, mode.weight * drive, mode.weight * loss, 0.0);
+            stator.magnitude += mode.weight * (energy(from) + energy(to));
+        }
+    }
+
+    /// Works and losses over a contact, by quadrature of the state on each step.
+    fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
+        let regime = self.regime();
+        let flow = &regime.flow;
+        let (mut state, mut passed) = (self.state, 0.0);
+        let friction = self.system.base.friction();
+        let line = self.system.lines[self.line];
+        while passed < span {
+            let length = (span - passed).min(flow.step());
+            let expanded = flow.expand(&state);
+            for (node, weight) in
+                GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
+            {
+                let time = 0.5 * length * (1.0 + node);
+                let part = 0.5 * length * weight;
+                let mut at = expanded.at(time);
+                (at[SIN], at[COS]) = sin_cos(self.now.phase.angle() + (passed + time));
+                let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
+                let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
+                let damper = match self.system.contact {
+                    Contact::Soft { damping, .. } => damping * at[CLOSING] * at[CLOSING],
+                    Contact::Rigid => 0.0,
+                };
+                ledger.record_normal(part * force * tip, part * damper);
+                if line.slope != 0.0 {
+                    let load = part * (line.torque + line.slope * at[SPEED]) * at[SPEED];
+                    ledger.record_load(load, load.abs());
+                }
+                let lost = match self.stage {
+                    Stage::Contact { grip: Grip::Stick, .. } => 0.0,
+                    _ => friction * force * (at[SPEED] - turn).abs(),
+                };
+                // The speed of the tip is a small sum of its steady motion and the ringing where the disk is heavy.
+                let terms = torque.abs() * size(regime.slip.now(), &at);
+                ledger.record_friction(part * torque * turn, part * lost, part * (terms + lost));
+                for (index, mode) in
+                    self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0)
+                {
+                    let [_, speed] = self.mode_state(index, &at);
+                    let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
+                    let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
+                    let taken = mode.height * force + self.system.arm * mode.angle * torque;
+                    stator.record(
+                        index,
+                        part * drive * speed,
+                        part * mode.weight * mode.damping * speed * speed,
+                        part * taken * speed,
+                    );
+                }
+            }
+            state = if length < flow.step() { state } else { flow.advance(&state) };
+            passed += flow.step();
+        }
+    }
+}
+
+/// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of
+/// (B + i)^-1 x exp(i tau).
+fn cross_integral(stiffness: f64, damping: f64, [r, v]: [f64; 2], (cos, sin): (f64, f64)) -> (f64, f64) {
+    // B + i = [[i, 1], [-f, i - d]]; its inverse has the second row [f, i]/(f - 1 - i d).
+    let (re, im) = (stiffness * r, v);
+    let (p, q) = (stiffness - 1.0, -damping);
+    let size = p * p + q * q;
+    let (x, y) = ((re * p + im * q) / size, (im * p - re * q) / size);
+    (x * cos - y * sin, x * sin + y * cos)
+}
