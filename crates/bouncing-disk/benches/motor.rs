@@ -7,7 +7,7 @@ use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::motor::{
     DrivenMotor, OperatingSettings, TransientMember, TransientSettings, transient, transients,
 };
-use bouncing_disk::parameters::Waveform;
+use bouncing_disk::parameters::{StatorParameters, Waveform};
 use bouncing_disk::{Motor, System};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
@@ -111,5 +111,39 @@ fn contact(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, w2, torque_speed_curve, contact);
+/// The run-up of a motor with 0.1 um without a rotor on a stator of 50 g with a quality factor of 300, against one whose
+/// motion is prescribed; three motor seconds.
+fn stator(c: &mut Criterion) {
+    let prescribed = Motor::paper_70_khz().with(|sheet| sheet.amplitude = Some(1e-7)).expect("legal");
+    let (mass, quality) = (Some(0.05), Some(300.0));
+    let modes = StatorParameters { mass, quality, ..StatorParameters::default() };
+    let yielding = prescribed.with(|sheet| sheet.stator = Some(modes)).expect("legal");
+    let yielding = DrivenMotor::new(yielding, Waveform::Sine, Waveform::Sine).expect("legal");
+    let mut group = c.benchmark_group("stator");
+    group.sample_size(20);
+    group.throughput(Throughput::Elements(3_000_000));
+    let mut seed = 0;
+    let mut settings = || {
+        seed += 1;
+        TransientSettings { seed, ..TransientSettings::default() }
+    };
+    let phase = |settings: &TransientSettings| Phase::new(settings.seed as f64).expect("finite");
+    group.bench_function("prescribed", |bencher| {
+        bencher.iter(|| {
+            let settings = settings();
+            black_box(
+                transient(prescribed.system(), phase(&settings), &settings, &Unobserved).expect("no failure"),
+            )
+        });
+    });
+    group.bench_function("yielding", |bencher| {
+        bencher.iter(|| {
+            let settings = settings();
+            black_box(yielding.transient(phase(&settings), &settings, &Unobserved).expect("no failure"))
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, w2, torque_speed_curve, contact, stator);
 criterion_main!(benches);
