@@ -27,10 +27,13 @@ pub(crate) trait Described: Clone + Debug + Send + Sync + 'static {
     fn read(text: &str, format: Format, settings: &[Setting]) -> Result<(Self, DriveParameters), String>;
 
     /// The tables that a template does not write, but for the drive, and whether the file has them.
-    fn tables(&self) -> [(&'static str, bool); 3];
+    fn tables(&self) -> [(&'static str, bool); 2];
 
     /// That motion and load are prescribed.
     fn prescribed(&self) -> Result<(), bouncing_disk::Error>;
+
+    /// That there is a command that computes it.
+    fn computed(&self) -> Result<(), bouncing_disk::Error>;
 
     /// That contacts take no time.
     fn rigid(&self) -> Result<(), bouncing_disk::Error>;
@@ -100,8 +103,8 @@ impl<D: Described> SourceArgs<D> {
         self.soft_unless_template(output, context)?.map(rigid).transpose()
     }
 
-    /// The parameters, also with contacts that take time; `None` if the template was asked for, which is then
-    /// written.
+    /// The parameters, also with contacts that take time, and of a motor whose stator yields; `None` if the template
+    /// was asked for, which is then written.
     pub(crate) fn soft_unless_template(
         &self,
         output: &OutputArgs,
@@ -118,7 +121,7 @@ impl<D: Described> SourceArgs<D> {
             output.write_template(&format!("{}\n{DRIVE}", parameters.template()), context.quiet)?;
             return Ok(None);
         }
-        parameters.prescribed()?;
+        parameters.computed()?;
         drive.warnings().for_each(|warning| context.note(&format!("warning: {warning}")));
         Ok(Some((parameters, drive)))
     }

@@ -158,7 +158,9 @@ pub enum Error {
     SoftContact,
     /// A stator whose motion the rotor changes where only a prescribed motion can be computed.
     #[error(
-        "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the table"
+        "this analysis holds for a stator whose motion is prescribed only, and the table [stator] makes it yield: remove the \
+         table, or use one of the analyses that accept it: motor transients, torque-speed curves, stall, best phase lag \
+         and sweeps"
     )]
     YieldingStator,
     /// A load that varies where only a constant torque can be computed.

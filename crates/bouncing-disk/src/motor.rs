@@ -41,7 +41,7 @@ pub use data_sheet::file::MotorFileError;
 pub use data_sheet::motor_field::{MotorField, UnknownMotorField};
 pub use data_sheet::parameters::MotorParameters;
 pub use data_sheet::regime::MotorRegime;
-pub use data_sheet::report::MotorReport;
+pub use data_sheet::report::{MotorReport, StatorReport};
 pub use data_sheet::traps::{TrapVerdict, low_period_traps};
 pub use data_sheet::warning::MotorWarning;
 pub use driven_motor::DrivenMotor;

@@ -6,7 +6,9 @@ mod settings;
 pub(super) mod sweep;
 pub(super) mod transient;
 
-use bouncing_disk::parameters::ContactStatement;
+use bouncing_disk::Motor;
+use bouncing_disk::motor::{DrivenMotor, StatorReport};
+use bouncing_disk::parameters::{ContactStatement, DriveParameters};
 use clap::Subcommand;
 
 use super::prelude::*;
@@ -39,7 +41,7 @@ pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Forcing parameters, the regime of the vertical motion, the largest torque, and what in the data sheet is unlikely to be \
-meant. See docs/designing-a-motor.md.
+meant; of a [stator] that yields its circuit, and the preload that it no longer lifts. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor report --template > motor.toml
@@ -55,6 +57,11 @@ pub(crate) struct ReportArgs {
 fn report(args: &ReportArgs, context: Context) -> Result<()> {
     let given = args.motor.begin_soft(&args.output, false, context)?.map(sine).transpose()?;
     let Some(motor) = given else { return Ok(()) };
+    if let Some(report) = motor.stator_report() {
+        // What a run would refuse, the report does, too.
+        DrivenMotor::where_needed(motor, &DriveParameters::default())?;
+        return of_stator(&motor, &report)?.deliver(&args.output, context);
+    }
     let report = motor.report(&context.watch("motor report"))?;
     let mut list = Quantities::default();
     list.push("axial_forcing", report.axial_forcing, "1");
@@ -73,12 +80,26 @@ fn report(args: &ReportArgs, context: Context) -> Result<()> {
     for warning in &report.warnings {
         list.push("warning", warning.to_string(), "1");
     }
-    let report = Report {
+    written(&motor, report.to_string(), list)?.deliver(&args.output, context)
+}
+
+/// The report of a motor whose stator yields.
+fn of_stator<'a>(motor: &Motor, report: &StatorReport) -> Result<Report<'a>> {
+    let mut list = Quantities::default();
+    report.rows().for_each(|(name, value, unit)| list.push(name, value, unit));
+    list.push("largest_torque", motor.largest_torque(), "N m");
+    for warning in motor.warnings() {
+        list.push("warning", warning.to_string(), "1");
+    }
+    written(motor, report.to_string(), list)
+}
+
+fn written<'a>(motor: &Motor, text: String, list: Quantities) -> Result<Report<'a>> {
+    Ok(Report {
         provenance: provenance("bouncing-disk motor report", &json!({ "motor": motor }))?,
-        text: report.to_string(),
+        text,
         data: vec![("quantities", json::whole(list.to_json()))],
         table: list.into_csv(),
         figure: None,
-    };
-    report.deliver(&args.output, context)
+    })
 }

@@ -32,14 +32,17 @@ impl Described for Motor {
         read.map_err(|error| error.to_string())
     }
 
-    fn tables(&self) -> [(&'static str, bool); 3] {
+    fn tables(&self) -> [(&'static str, bool); 2] {
         let sheet = self.parameters();
-        let load = ("[load]", sheet.load.is_some());
-        [("[contact]", sheet.contact.is_some()), ("[stator]", sheet.stator.is_some()), load]
+        [("[contact]", sheet.contact.is_some()), ("[load]", sheet.load.is_some())]
     }
 
     fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
         self.system().prescribed()
+    }
+
+    fn computed(&self) -> Result<(), bouncing_disk::Error> {
+        Ok(())
     }
 
     fn rigid(&self) -> Result<(), bouncing_disk::Error> {
@@ -65,9 +68,28 @@ impl Described for Motor {
             };
             text += &format!("# {field} = ... # {}{instead}\n", described(field));
         }
+        text += "\n# A stator that yields; what drives it is the amplitude above, or, without that, volts or a force.\n";
+        // Numbers and words are the same text in JSON and in TOML.
+        match serde_json::to_value(sheet.stator) {
+            Ok(serde_json::Value::Object(table)) => {
+                text += "[stator]\n";
+                table.iter().for_each(|(field, value)| text += &format!("{field} = {value}\n"));
+            }
+            _ => text += STATOR,
+        }
         text
     }
 }
+
+const STATOR: &str = "\
+# [stator]
+# mass = 0.05 # kg
+# quality = 300
+# volts = 20 # V
+# resonance = 70e3 # Hz; anti_resonance too
+# anti_resonance = 71e3
+# capacitance = 1.2e-9 # F
+";
 
 /// The unit of a field and what it is.
 fn described(field: MotorField) -> String {

@@ -110,11 +110,15 @@ impl Described for System {
         Ok((system, file.drive))
     }
 
-    fn tables(&self) -> [(&'static str, bool); 3] {
-        [("[contact]", self.contact().is_some()), ("[stator]", self.stator().is_some()), ("[load]", false)]
+    fn tables(&self) -> [(&'static str, bool); 2] {
+        [("[contact]", self.contact().is_some()), ("[stator]", self.stator().is_some())]
     }
 
     fn prescribed(&self) -> Result<(), bouncing_disk::Error> {
+        Self::prescribed(self)
+    }
+
+    fn computed(&self) -> Result<(), bouncing_disk::Error> {
         Self::prescribed(self)
     }
 

@@ -165,19 +165,20 @@ fn contacts() {
     folder.all_refused(2, &lines);
 }
 
-/// A stator that yields is legal or refused by name, and never ignored.
+/// A stator that yields is computed or refused by name, and never ignored.
 #[test]
 fn stators() {
     let folder = Folder::new();
-    for (lines, mass) in [
+    for (lines, computed, mass) in [
         (
             &["toss", "toss --many", "verdicts", "doublings", "design", "diagram", "orbits", "basins"][..],
+            &[][..],
             "0.5",
         ),
         (
+            &["motor traps", "fit a.csv --parameter friction=0.05:0.4 --motor"],
             &[
                 "motor report",
-                "motor traps",
                 "motor curve",
                 "motor stall",
                 "motor transient",
@@ -187,30 +188,64 @@ fn stators() {
         ),
     ] {
         let template = folder.done(&format!("{} --template", lines[0]));
+        folder.write("a.csv", "time_s,speed_rad_s\n0,0\n1,1\n2,2\n3,2\n");
         let file = |name: &str, table: &str| {
             folder.write(&format!("{name}.toml"), &format!("{template}\n[stator]\n{table}\n"));
         };
         file("yielding", &format!("mass = {mass}\nquality = 300"));
         file("driven", &format!("mass = {mass}\nquality = 300\nforce = 1"));
         file("light", "mass = -1\nquality = 300");
-        for line in lines {
+        for line in lines.iter().chain(computed) {
             for (name, told) in [
                 ("yielding", "the table [stator] makes it yield"),
                 ("driven", "both amplitude and stator.force are given"),
                 ("light", "stator.mass = -1 is outside"),
             ] {
-                folder.all_refused(2, &[(&format!("{line} {name}.toml"), told)]);
+                if name != "yielding" || lines.contains(line) {
+                    folder.all_refused(2, &[(&format!("{line} {name}.toml"), told)]);
+                }
             }
         }
     }
     let load = folder.done("motor report --template") + "\n[load]\nspeeds = [0]\ntorques = [1e-6]\n";
     folder.write("load.toml", &load);
+    folder.done("motor transient load.toml --members 1 --duration 0.01 --intervals 3");
+    let stator = "motor report --set stator.mass=0.01 --set stator.quality=300";
+    let loose = |command: &str| stator.replace("report", command) + " --relative-error 0.5 --most-impacts 1";
+    assert!(folder.done(&loose("curve")).contains("stator amplitude (m)"));
+    let warned = |line: &str, told: &str| {
+        let text = crate::common::errors(&folder.command(line).output().unwrap());
+        assert!(text.contains(told), "{line}: {text}");
+    };
+    warned(&loose("curve"), "nobody knows how long they last");
+    warned(&loose("curve"), "the stator does not lift a rotor at rest: the preload is 0.322");
+    let report = folder.done(&stator.replace("report", "report --set amplitude=1e-7"));
+    assert!(report.contains("lift off preload = 0.6448") && !report.contains("does not lift"), "{report}");
+    let file = folder.done(&format!("{stator} --template"));
+    folder.write("again.toml", &file);
+    assert_eq!(folder.done("motor report again.toml --template"), file);
+    let twist = format!("{file}\n").replace("kind = \"axial\"", "kind = \"axial_twist\"");
+    folder.write("twist.toml", &twist);
+    folder.write("drive.toml", &(file + "[drive]\nheight = \"triangle\"\n"));
     let lines = [
+        (
+            "motor report twist.toml --set friction=30",
+            "friction = 30 is outside its legal range below what jams",
+        ),
+        (
+            "motor curve twist.toml --set friction=30",
+            "friction = 30 is outside its legal range below what jams",
+        ),
+        ("motor phase-lag twist.toml", "both a stator of the kind axial_twist and a phase lag"),
+        ("motor transient drive.toml", "both drive and stator are given"),
+        ("motor report --set stator.mass=0.01 --set stator.quality=0.4", "stator.quality = 0.4 is outside"),
         ("motor curve --set stator.mass=0.01", "stator.quality is not given"),
         (
-            "motor transient load.toml",
+            "motor phase-lag load.toml",
             "holds for a constant load only: replace the table [load] by load_torque",
         ),
+        ("motor sweep load.toml --over friction=0.1:0.2:2", "holds for a constant load only"),
+        ("motor report load.toml", "holds for a constant load only"),
         ("motor curve load.toml --template", "--template writes no table [load]"),
     ];
     folder.all_refused(2, &lines);

@@ -14,13 +14,71 @@ use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motor::{
     DrivenMotor, MotorField, MotorSweep, OperatingSettings, SweepAxis, TransientMember, TransientSettings,
 };
-use bouncing_disk::parameters::{Contact, DrivenPlatform, Waveform};
+use bouncing_disk::parameters::{Contact, DriveParameters, DrivenPlatform, Waveform};
 use bouncing_disk::toss::{
     InitialSpin, MultiTossSettings, TOSS_START, TossConstraints, best_toss, single_toss,
 };
 use bouncing_disk::{Motor, System};
 use serde::Serialize;
 use serde_json::{Value, json};
+
+/// The paper's motor with an amplitude of 1e-7 m on a stator of 50 g that yields, as a file.
+const YIELDING: &str = "[stator]\nmass = 0.05\nquality = 300\n";
+
+#[test]
+fn stators_that_yield() {
+    let folder = Folder::new();
+    let written = |line: &str| -> Value {
+        folder.done(&format!("{line} --out a.json --force"));
+        serde_json::from_slice(&folder.read("a.json")).unwrap()
+    };
+    let sheet = folder.done("motor report --set amplitude=1e-7 --template");
+    folder.write("motor.toml", &(sheet.clone() + YIELDING));
+    let motor = Motor::from_toml(&(sheet + YIELDING)).unwrap();
+    let driven = DrivenMotor::where_needed(motor, &DriveParameters::default()).unwrap().unwrap();
+    // Far from settled, for the sake of time.
+    let settings = OperatingSettings {
+        relative_error: 0.3,
+        members: 4,
+        most_impacts: 5_000,
+        ..OperatingSettings::default()
+    };
+    let accuracy = "--relative-error 0.3 --members 4 --most-impacts 5000";
+    let curve = driven.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved).unwrap();
+    let line = format!("motor curve motor.toml --loads 0:1e-5:2 {accuracy}");
+    assert_eq!(written(&line)["operations"], stored(&curve));
+    let axis = SweepAxis::new(MotorField::LoadTorque, vec![0.0, 1e-5]);
+    let swept = MotorSweep::new(motor, vec![axis], settings).unwrap().run(&Unobserved).unwrap();
+    let sweep = format!("motor sweep motor.toml --over load_torque=0:1e-5:2 {accuracy}");
+    assert_eq!(written(&sweep)["cells"], stored(swept.cells()));
+    // Both files have the quantities of the stator in columns of the same names.
+    for (line, operation) in [(line, curve[1]), (sweep, swept.cells()[1])] {
+        let point = operation.point().unwrap().stator.unwrap();
+        folder.done(&format!("{line} --out a.csv --force"));
+        let text = folder.text("a.csv");
+        let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+        for (name, estimate) in [
+            ("stator_amplitude_m", point.amplitude),
+            ("drive_power_w", point.drive_power),
+            ("damping_loss_w", point.damping_loss),
+            ("electrical_efficiency", point.efficiency.unwrap()),
+        ] {
+            let place = rows[0].iter().position(|own| *own == name).expect(name);
+            assert_eq!(rows[2][place].parse(), Ok(estimate.value), "{name}");
+            assert_eq!(rows[2][place + 1].parse(), Ok(estimate.standard_error), "{name}");
+        }
+    }
+    let settings = TransientSettings { duration: 0.02, intervals: 4, ..TransientSettings::default() };
+    let members = TransientMember::of_ensemble(motor.system(), &settings, 5).unwrap();
+    let curves = driven.transients(&members, &Unobserved).unwrap();
+    let line = "motor transient motor.toml --members 5 --duration 0.02 --intervals 4";
+    assert_eq!(written(line)["curves"], stored(&curves));
+    let report = written("motor report motor.toml");
+    let limit = motor.stator_report().unwrap().lift_off_preload.unwrap();
+    let quantities = report["quantities"].as_array().unwrap();
+    let row = quantities.iter().find(|row| row["quantity"] == "lift_off_preload").unwrap();
+    assert_eq!((&row["value"], &row["unit"]), (&json!(limit), &json!("N")));
+}
 
 /// The JSON that a command writes.
 fn written(line: &str) -> Value {

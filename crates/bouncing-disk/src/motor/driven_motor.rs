@@ -81,7 +81,8 @@ impl DrivenMotor {
     /// On a stator that yields, or under a load that varies.
     fn yielding(motor: Motor, stator: DrivenPlatform) -> Result<Self, Error> {
         if stator.height() != &Waveform::Sine || stator.angle() != &Waveform::Sine {
-            return Err(Error::DriveNotSine);
+            let other = if motor.stator().is_some() { "stator" } else { "load" };
+            return Err(Error::BothGiven { one: "drive", other });
         }
         let shaft = motor.load().map_or(0.0, |load| load.inertia()) / motor.mass();
         let system = motor.system().with_disk(|disk| {
@@ -124,7 +125,8 @@ impl DrivenMotor {
     /// The motor with the motion that the table `[drive]` of a file gives.
     ///
     /// # Errors
-    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule.
+    /// Those of [`Self::new`]; [`Error::ScheduledDrive`] if the motion is a schedule; [`Error::BothGiven`] for a stator
+    /// that yields, or a load that varies.
     pub fn of_drive(motor: Motor, drive: &DriveParameters) -> Result<Self, Error> {
         Self::on(motor, DrivenPlatform::of_drive(*motor.system().platform(), drive)?)
     }
@@ -207,12 +209,20 @@ impl DrivenMotor {
     /// As [`Motor::best_phase_lag`]; the phase lag shifts the whole waveform of the angle.
     ///
     /// # Errors
-    /// As [`Motor::best_phase_lag`].
+    /// As [`Motor::best_phase_lag`]; [`Error::BothGiven`] where the one mode of a stator moves both height and angle,
+    /// [`Error::LoadLaw`] for a load that varies.
     pub fn best_phase_lag(
         &self,
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<BestPhaseLag, Error> {
+        if self.motor.load().is_some() {
+            return Err(Error::LoadLaw);
+        }
+        if self.motor.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0) {
+            let one = "a stator of the kind axial_twist";
+            return Err(Error::BothGiven { one, other: "a phase lag to be found" });
+        }
         best_phase_lag(&self.loaded(), settings, observer)
     }
 

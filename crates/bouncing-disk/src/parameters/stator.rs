@@ -196,6 +196,16 @@ impl Stator {
         self.modes[0].force / self.modes[0].stiffness_size_and_angle(angular_frequency).0
     }
 
+    /// The preload (N) from which on the stator no longer lifts a rotor of this mass (kg) that lies on it, with rigid
+    /// impacts: the pair moves by F/|K - m omega^2| with the mode's K, and throws the rotor where that times omega^2
+    /// exceeds g. At the free resonance it is F/(1 + (M/(m Q))^2)^(1/2). `None` where friction acts on that mode, too.
+    #[must_use]
+    pub fn lift_off_preload(&self, mass: f64) -> Option<f64> {
+        let (axial, omega) = (&self.modes[0], self.motion.angular_frequency);
+        let ([re, im], inertia) = (axial.stiffness(omega), mass * omega * omega);
+        (axial.angle == 0.0).then(|| inertia * (axial.force / hypot(re - inertia, im)))
+    }
+
     /// Current and power without a rotor, under the same voltage at an angular frequency (rad/s); `None` without
     /// a circuit. The power of a torque that is not the voltage's is not in it.
     #[must_use]

@@ -4,7 +4,7 @@ use bouncing_disk::motor::{DrivenMotor, InputSpread, MotorField, Operation, Swee
 
 use bouncing_disk_plot::Figure;
 
-use super::settings::{SettingsArgs, SpreadArgs, interval, lock_note, state, warn};
+use super::settings::{SettingsArgs, SpreadArgs, interval, lock_note, state, warn, with_stator};
 use crate::commands::prelude::*;
 
 /// The torque-speed curve, with power and efficiency
@@ -15,7 +15,7 @@ inputs; the spread is over motors whose preload and amplitude lie within the tol
 a decade: 95 of 100 further ones lie between its ends. A load beyond \
 the largest torque mu m g a_e overpowers the motor, which then has no mean speed. A picture marks the stall where the \
 speed changes its sign, on a straight line between two loads; `motor stall` computes it. With a [drive] that is not a sine each \
-load has its own vertical motion; with one, or with a contact.time, there is no spread. See docs/designing-a-motor.md.
+load has its own vertical motion, as on a [stator] that yields; with one of these, or with a contact.time, there is no spread. See docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk motor curve
@@ -68,8 +68,8 @@ pub(super) fn run(args: &CurveArgs, context: Context) -> Result<()> {
     let note = if driven.is_none() { lock_note(&motor)? } else { String::new() };
     let report = Report {
         provenance: provenance("bouncing-disk motor curve", &job)?,
-        text: shown().to_text(&rows) + &note,
-        table: columns().csv_of(rows.clone()),
+        text: with_stator(shown(), &found, |row| &row.0).to_text(&rows) + &note,
+        table: columns(SweepQuantity::of_table(&found)).csv_of(rows.clone()),
         data: vec![("operations", stored(&found)?), ("spreads", stored(&spreads)?)],
         figure: Some(Box::new(|| draw(motor.largest_torque(), &rows))),
     };
@@ -119,13 +119,13 @@ fn shown() -> Columns<Row> {
         .column("efficiency", "%", |row| value(row, SweepQuantity::Efficiency).map(|share| 100.0 * share))
 }
 
-/// The columns of a file: all quantities with their standard errors, and the spread of the speed.
-fn columns() -> Columns<Row> {
+/// The columns of a file: the quantities with their standard errors, and the spread of the speed.
+fn columns(quantities: &[SweepQuantity]) -> Columns<Row> {
     let load = MotorField::LoadTorque;
     let mut columns = Columns::<Row>::new()
         .column(load.name(), load.unit(), |row| row.0.load_torque())
         .column("state", "1", |row| state(&row.0));
-    for quantity in SweepQuantity::ALL {
+    for &quantity in quantities {
         columns = columns.column(quantity.name(), quantity.unit(), move |row| value(row, quantity)).column(
             format!("{}_error", quantity.name()),
             quantity.unit(),

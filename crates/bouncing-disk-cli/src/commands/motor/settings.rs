@@ -4,7 +4,9 @@ use crate::commands::prelude::*;
 use bouncing_disk::Motor;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::numerics::statistics::NORMAL_975;
-use bouncing_disk::motor::{DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation};
+use bouncing_disk::motor::{
+    DrivenMotor, Estimate, InputTolerance, OperatingSettings, Operation, SweepQuantity,
+};
 
 /// The settings of the library, with its defaults.
 #[derive(Debug, Clone, Args)]
@@ -59,8 +61,9 @@ impl SpreadArgs {
     pub(super) fn of(&self, driven: Option<&DrivenMotor>, context: Context) -> Option<InputTolerance> {
         let tolerance = self.tolerance();
         if driven.is_some() && tolerance.is_some() {
-            context
-                .note("no spread over the tolerances: it is computed for the sine with rigid impacts only");
+            context.note(
+                "no spread over the tolerances: it is computed for a prescribed sine with rigid impacts only",
+            );
         }
         tolerance.filter(|_| driven.is_none())
     }
@@ -92,6 +95,29 @@ pub(super) const fn state(operation: &Operation) -> &'static str {
         Operation::Unsettled(..) => "unsettled",
         Operation::Runaway { .. } => "runaway",
         _ => "unknown",
+    }
+}
+
+/// Columns with what a stator that yields does, if one of the operations has that.
+pub(super) fn with_stator<R: 'static>(
+    columns: Columns<R>,
+    operations: &[Operation],
+    of: fn(&R) -> &Operation,
+) -> Columns<R> {
+    let quantities = &SweepQuantity::of_table(operations)[SweepQuantity::ALL.len()..];
+    quantities.iter().fold(columns, |columns, quantity| {
+        let (unit, scale) = shown_unit(*quantity);
+        columns.column(quantity.name(), unit, move |row| {
+            quantity.of(of(row)).map(|estimate| scale * estimate.value)
+        })
+    })
+}
+
+/// The unit in which people read a quantity, and its factor: efficiencies in percent.
+pub(super) fn shown_unit(quantity: SweepQuantity) -> (&'static str, f64) {
+    match quantity.unit() {
+        "1" => ("%", 100.0),
+        unit => (unit, 1.0),
     }
 }
 

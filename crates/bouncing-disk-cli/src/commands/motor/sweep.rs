@@ -10,7 +10,7 @@ use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::settings::{SettingsArgs, interval, state, warn};
+use super::settings::{SettingsArgs, interval, shown_unit, state, warn, with_stator};
 use crate::commands::prelude::*;
 use crate::parameters::sine;
 
@@ -62,6 +62,9 @@ const PICTURES: Words<SweepQuantity> = &[
     ("mechanical-power", "Load torque times mean speed", SweepQuantity::MechanicalPower),
     ("input-power", "Power that the stator puts in", SweepQuantity::InputPower),
     ("efficiency", "Mechanical power over the power put in", SweepQuantity::Efficiency),
+    ("stator-amplitude", "Amplitude under load of a stator that yields", SweepQuantity::StatorAmplitude),
+    ("drive-power", "Power that the drive puts into such a stator", SweepQuantity::DrivePower),
+    ("electrical-efficiency", "Mechanical power over that of the drive", SweepQuantity::ElectricalEfficiency),
 ];
 
 pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
@@ -148,12 +151,13 @@ impl GridJob for SweepJob {
         };
         let rows: Vec<Row> = result.iter().map(row).collect();
         let csv = result.to_csv();
-        let Some(quantity) = SweepQuantity::ALL.into_iter().find(|own| own.name() == self.picture) else {
+        let Some(quantity) = SweepQuantity::WITH_STATOR.into_iter().find(|own| own.name() == self.picture)
+        else {
             return Err(Failure::Usage(format!("there is no quantity {}", self.picture)));
         };
         Ok(Report {
             provenance: provenance("bouncing-disk motor sweep", self)?,
-            text: columns.to_text(&rows),
+            text: with_stator(columns, result.cells(), |row| &row.1).to_text(&rows),
             table: Box::new(move |to| to.write_all(csv.as_bytes())),
             data: vec![("axes", stored(result.axes())?), ("cells", stored(result.cells())?)],
             figure: Some(Box::new(move || draw(&result, quantity))),
@@ -163,10 +167,7 @@ impl GridJob for SweepJob {
 
 /// The quantity over the axes. A missing value is a gap in a curve, and grey in a map.
 fn draw<'a>(result: &'a MotorSweepResult, quantity: SweepQuantity) -> Figure {
-    let (name, unit, scale) = match quantity {
-        SweepQuantity::Efficiency => (quantity.name(), "%", 100.0),
-        other => (other.name(), other.unit(), 1.0),
-    };
+    let (name, (unit, scale)) = (quantity.name(), shown_unit(quantity));
     let estimates =
         result.cells().iter().map(|cell| quantity.of(cell).map_or((f64::NAN, f64::NAN), interval));
     let (values, halves): (Vec<f64>, Vec<f64>) =

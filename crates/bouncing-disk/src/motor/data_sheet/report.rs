@@ -50,7 +50,7 @@ impl Motor {
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`]; those of the core, for a flight longer than it can count.
+    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; those of the core, for a flight longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         self.system().prescribed()?;
         let (regime, flight) = regime(self.system().dimensionless(), observer)?;
@@ -77,6 +77,75 @@ impl Motor {
             preload_change_bound: self.preload_change_bound(),
             warnings,
         })
+    }
+}
+
+/// What follows from the table `[stator]` of a data sheet without computing a motion ([`Motor::stator_report`]). It
+/// prints as several lines, the last ones being those of the motor.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct StatorReport {
+    motor: Motor,
+    /// Effective mass M of the axial mode over the mass m of the rotor.
+    pub mass_ratio: f64,
+    /// Amplitude of the height without a rotor (m).
+    pub amplitude: f64,
+    /// Amplitude F_0 of the force that drives the axial mode (N).
+    pub force: f64,
+    /// Amplitude of the voltage (V); `None` without a circuit, as the next two.
+    pub volts: Option<f64>,
+    /// Amplitude of the current without a rotor (A); `None` also without a capacitance.
+    pub current: Option<f64>,
+    /// Power that the circuit takes without a rotor (W).
+    pub power: Option<f64>,
+    /// The preload (N) from which on a rotor at rest is no longer lifted
+    /// ([`Stator::lift_off_preload`](crate::parameters::Stator::lift_off_preload)); `None` also where contacts take time.
+    pub lift_off_preload: Option<f64>,
+}
+
+impl StatorReport {
+    /// Name, value and unit of all that is known.
+    pub fn rows(&self) -> impl Iterator<Item = (&'static str, f64, &'static str)> {
+        let rows = [
+            ("mass_ratio", Some(self.mass_ratio), "1"),
+            ("amplitude_without_rotor", Some(self.amplitude), "m"),
+            ("force", Some(self.force), "N"),
+            ("volts", self.volts, "V"),
+            ("current_without_rotor", self.current, "A"),
+            ("power_without_rotor", self.power, "W"),
+            ("lift_off_preload", self.lift_off_preload, "N"),
+        ];
+        rows.into_iter().filter_map(|(name, value, unit)| Some((name, value?, unit)))
+    }
+}
+
+impl Motor {
+    /// What follows from the table `[stator]`; `None` without one.
+    #[must_use]
+    pub fn stator_report(&self) -> Option<StatorReport> {
+        let stator = self.stator()?;
+        let electrical = stator.electrical_input_at(stator.motion().angular_frequency);
+        let rigid = self.system().soft_contact().is_none();
+        Some(StatorReport {
+            motor: *self,
+            mass_ratio: stator.modes()[0].mass / self.mass(),
+            amplitude: stator.motion().amplitude,
+            force: stator.modes()[0].force,
+            volts: stator.circuit().map(|circuit| circuit.volts),
+            current: electrical.and_then(|input| input.current).map(|(amplitude, _)| amplitude),
+            power: electrical.map(|input| input.power),
+            lift_off_preload: stator.lift_off_preload(self.mass()).filter(|_| rigid),
+        })
+    }
+}
+
+impl Display for StatorReport {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for (name, value, unit) in self.rows() {
+            let unit = if unit == "1" { "" } else { unit };
+            writeln!(f, "{}", format!("{} = {} {unit}", name.replace('_', " "), number(value)).trim_end())?;
+        }
+        self.motor.fmt(f)
     }
 }
 

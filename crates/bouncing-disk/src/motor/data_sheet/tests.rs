@@ -711,3 +711,73 @@ fn what_needs_a_prescribed_motion_refuses_a_stator_that_yields() {
         refused(crate::driven::Schedule::of_drive(motor.system(), &DriveParameters::default()).err());
     }
 }
+
+/// The engine decides above which preload a rotor in steady contact is no longer lifted, also off resonance.
+#[test]
+fn the_preload_that_is_not_lifted_is_that_of_the_engine() {
+    use crate::motion::phase_time::PhaseTime;
+    use crate::motion::state::{DiskState, Mode};
+    use crate::parameters::stator::StatorParameters;
+    use crate::stator::{StatorEngine, StatorState, StatorSystem};
+    for (mass, quality, f) in
+        [(10.0, 300.0, 1.0), (0.3, 50.0, 1.02), (10.0, 300.0, 1.001), (100.0, 20.0, 0.97)]
+    {
+        let motor = |preload: Option<f64>| {
+            let built = Motor::paper_70_khz().with(|sheet| {
+                (sheet.amplitude, sheet.mass, sheet.peak_angular_speed) = (Some(1e-7), Some(0.03), Some(0.0));
+                (sheet.density, sheet.rotor_radius, sheet.rotor_thickness) = (None, None, None);
+                sheet.preload_force = preload;
+                sheet.preload_acceleration = sheet.preload_acceleration.filter(|_| preload.is_none());
+                sheet.stator = Some(StatorParameters {
+                    mass: Some(0.03 * mass),
+                    quality: Some(quality),
+                    resonance: Some(f * sheet.drive_frequency),
+                    ..StatorParameters::default()
+                });
+            });
+            built.expect("legal")
+        };
+        let limit = motor(None).stator_report().expect("yields").lift_off_preload.expect("axial");
+        for (factor, lifts) in [(1.0 + 1e-9, false), (1.0 - 1e-9, true)] {
+            let motor = motor(Some(limit * factor));
+            let warns = motor.warnings().iter().any(|own| matches!(own, MotorWarning::NotLifted { .. }));
+            assert_ne!(warns, lifts);
+            let system = StatorSystem::of_system(motor.system(), motor.mass()).expect("legal");
+            // The steady motion of the pair is the imaginary part of P K/(K - 1) exp(i tau), less the sag.
+            let (re, im) = (mass * (f * f - 1.0), mass * f / quality);
+            let (pair, peak) = (re - 1.0, motor.system().peak_acceleration());
+            let share = peak / (pair * pair + im * im);
+            let at_zero =
+                [share * (im * pair - re * im) - 1.0 / (mass * f * f), share * (re * pair + im * im)];
+            let disk = DiskState {
+                mode: Mode::Sticking,
+                height: 0.0,
+                axial_velocity: 0.0,
+                angle: 0.0,
+                angular_speed: 0.0,
+            };
+            let from = StatorState { disk, modes: [at_zero, [0.0; 2]] };
+            let phase = bouncing_disk_core::Phase::new(0.0).expect("finite");
+            let engine = StatorEngine::of_state(system, PhaseTime::in_first_period(phase), from);
+            let next = engine.and_then(|mut engine| engine.advance()).expect("no failure");
+            assert_eq!(next.is_some(), lifts, "{mass} {quality} {f} {factor} {next:?}");
+        }
+    }
+}
+
+/// Rigid impacts on modes are no model of contacts that last longer than a period.
+#[test]
+fn rigid_impacts_on_a_stator_that_yields_are_warned_of() {
+    let warned = |contact: Option<Contact>| {
+        let motor = yielding()[0].with(|sheet| sheet.contact = contact).expect("legal");
+        let mut warnings = motor.warnings().into_iter();
+        warnings.find_map(
+            |own| if let MotorWarning::RigidOnModes { periods } = own { Some(periods) } else { None },
+        )
+    };
+    assert_eq!(warned(None), Some(None));
+    assert_eq!(warned(Some(Contact::lasting(1e-5))), None);
+    let ball = |speed: f64| Contact { speed: Some(speed), mass: None, ..Contact::PAPER };
+    assert!(warned(Some(ball(5.8e-3))).is_some_and(|periods| periods.is_some_and(|periods| periods > 1.0)));
+    assert_eq!(warned(Some(Contact { mass: None, speed: None, ..Contact::PAPER })), Some(None));
+}

@@ -74,6 +74,18 @@ pub enum MotorWarning {
     },
     /// Impacts take time; [`Motor::report`], which knows their speed, may have more of these.
     Contact(ContactWarning),
+    /// Impacts on a stator that yields are rigid, and last longer than a period, or nobody knows how long.
+    RigidOnModes {
+        /// The contact time over the period, if it is known.
+        periods: Option<f64>,
+    },
+    /// The stator does not lift a rotor that lies on it.
+    NotLifted {
+        /// The preload (N).
+        preload_force: f64,
+        /// The preload below which it does ([`crate::parameters::Stator::lift_off_preload`]).
+        lift_off_preload: f64,
+    },
     /// The contacts of the motor take time, and the regime of a report is that of rigid impacts.
     RigidRegime,
 }
@@ -111,6 +123,23 @@ impl Display for MotorWarning {
                 rough(100.0 * bound)
             ),
             Self::Contact(warning) => warning.fmt(f),
+            Self::RigidOnModes { periods } => {
+                let long = periods.map_or_else(
+                    || "nobody knows how long they last".to_owned(),
+                    |periods| format!("they may last {} periods", rough(periods)),
+                );
+                write!(
+                    f,
+                    "impacts on the stator's modes are rigid, and {long}: above a period that is no model of them; give \
+                     contact.time"
+                )
+            }
+            Self::NotLifted { preload_force, lift_off_preload } => write!(
+                f,
+                "the stator does not lift a rotor at rest: the preload is {} N, and would have to be below {} N",
+                n(preload_force),
+                n(lift_off_preload)
+            ),
             Self::RigidRegime => f.write_str(
                 "regime, flights and impact speed are those of rigid impacts: transients and curves have contacts that \
                  take contact.time",
@@ -161,6 +190,17 @@ impl Motor {
         warnings.extend(changes.map(|bound| MotorWarning::PreloadChanges { bound }));
         let contact = self.system().contact_statement(None);
         warnings.extend(contact.iter().flat_map(ContactStatement::warnings).map(MotorWarning::Contact));
+        if let Some(stator) = self.stator().filter(|_| self.system().soft_contact().is_none()) {
+            let periods = contact.and_then(|contact| contact.time_over_period).map(|range| range[1]);
+            if periods.is_none_or(|periods| periods > 1.0) {
+                warnings.push(MotorWarning::RigidOnModes { periods });
+            }
+            let (preload_force, most) = (self.preload_force(), stator.lift_off_preload(self.mass()));
+            warnings.extend(
+                most.filter(|most| preload_force >= *most)
+                    .map(|lift_off_preload| MotorWarning::NotLifted { preload_force, lift_off_preload }),
+            );
+        }
         warnings
     }
 }

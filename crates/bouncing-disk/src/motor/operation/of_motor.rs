@@ -149,7 +149,7 @@ impl Motor {
 /// The items of `observer` are the motors.
 ///
 /// # Errors
-/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor.
+/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadLaw`] for a load that varies.
 pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,
@@ -164,6 +164,7 @@ pub fn operations(
         let observer = |_: Progress| observer.observe(Progress { done, total });
         if DrivenMotor::where_needed(group[0], &DriveParameters::default())?.is_some() {
             for motor in group {
+                motor.load().map_or(Ok(()), |_| Err(Error::LoadLaw))?;
                 let own = DrivenMotor::of_drive(*motor, &DriveParameters::default())?;
                 all.extend(own.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
             }

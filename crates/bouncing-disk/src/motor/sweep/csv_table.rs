@@ -11,20 +11,21 @@ impl MotorSweepResult {
     ///
     /// The columns: the axes; `load_torque_n_m`, unless an axis is that; `state`, which is `steady`,
     /// `unsettled` or `runaway`; `shortfall` of an unsettled cell: `error`, `drift` or `power-balance`; each
-    /// [`SweepQuantity`] followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other
+    /// [`SweepQuantity`] of the table ([`SweepQuantity::of_table`]) followed by its standard error (`speed_rad_s`, `speed_error_rad_s`); the other
     /// numbers of an [`OperatingPoint`]; `largest_torque_n_m` and `acceleration_rad_s2` of a runaway. Missing
     /// values are empty.
     #[must_use]
     pub fn to_csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());
+        let quantities = SweepQuantity::of_table(self.cells());
         // Writing to memory does not fail, and all lines have as many fields.
-        let _ = writer.write_record(self.header());
+        let _ = writer.write_record(self.header(quantities));
         for (values, operation) in self.iter() {
             let mut fields: Vec<String> = values.into_iter().map(|(_, value)| written(value)).collect();
             if !self.varies_load() {
                 fields.push(written(operation.load_torque()));
             }
-            fields.extend(of_operation(operation));
+            fields.extend(of_operation(operation, quantities));
             let _ = writer.write_record(fields);
         }
         let bytes = writer.into_inner().unwrap_or_default();
@@ -35,14 +36,14 @@ impl MotorSweepResult {
         self.axes().iter().any(|axis| axis.parameter == MotorField::LoadTorque)
     }
 
-    fn header(&self) -> Vec<String> {
+    fn header(&self, quantities: &[SweepQuantity]) -> Vec<String> {
         let of_field = |field: MotorField| column(field.name(), field.unit());
         let mut names: Vec<String> = self.axes().iter().map(|axis| of_field(axis.parameter)).collect();
         if !self.varies_load() {
             names.push(of_field(MotorField::LoadTorque));
         }
         names.extend(["state", "shortfall"].map(str::to_owned));
-        for quantity in SweepQuantity::ALL {
+        for quantity in quantities {
             names.push(column(quantity.name(), quantity.unit()));
             names.push(column(&format!("{}_error", quantity.name()), quantity.unit()));
         }
@@ -64,7 +65,7 @@ const OF_POINT: [(&str, OfPoint); 5] = [
     ("impacts", |point| point.impacts.to_string()),
 ];
 
-fn of_operation(operation: &Operation) -> Vec<String> {
+fn of_operation(operation: &Operation, quantities: &[SweepQuantity]) -> Vec<String> {
     let (state, shortfall, runaway) = match operation {
         Operation::Steady(_) => ("steady", "", None),
         Operation::Unsettled(_, Shortfall::Error { .. }) => ("unsettled", "error", None),
@@ -75,7 +76,7 @@ fn of_operation(operation: &Operation) -> Vec<String> {
         }
     };
     let mut fields = vec![state.to_owned(), shortfall.to_owned()];
-    for quantity in SweepQuantity::ALL {
+    for quantity in quantities {
         let estimate = quantity.of(operation);
         fields.push(estimate.map(|estimate| written(estimate.value)).unwrap_or_default());
         fields.push(estimate.map(|estimate| written(estimate.standard_error)).unwrap_or_default());
@@ -127,6 +128,7 @@ mod tests {
     use super::*;
     use crate::Motor;
     use crate::motor::{MotorSweep, OperatingSettings, SweepAxis};
+    use crate::parameters::StatorParameters;
     use bouncing_disk_core::Unobserved;
 
     fn result() -> MotorSweepResult {
@@ -187,7 +189,7 @@ mod tests {
         for field in MotorField::ALL {
             assert_eq!(suffix(field.unit()).is_empty(), field.unit() == "1", "{field}");
         }
-        for quantity in SweepQuantity::ALL {
+        for quantity in SweepQuantity::WITH_STATOR {
             assert_eq!(suffix(quantity.unit()).is_empty(), quantity.unit() == "1", "{quantity:?}");
         }
         let settings = OperatingSettings {
@@ -196,19 +198,35 @@ mod tests {
             relative_error: 0.5,
             ..OperatingSettings::default()
         };
-        // Sweeps do not have a stator that yields.
-        for field in MotorField::ALL.into_iter().filter(|field| !field.name().starts_with("stator.")) {
+        for field in MotorField::ALL {
             let mut motor = Motor::paper_70_khz().parameters();
             (motor.rotor_radius, motor.load_torque) = (Some(0.01), 1e-6);
             if matches!(field, MotorField::RotorThickness | MotorField::Density) {
                 (motor.mass, motor.density, motor.rotor_thickness) = (None, Some(7850.0), Some(0.01));
             }
+            let yields = field.name().starts_with("stator.");
+            if yields {
+                let mut table =
+                    StatorParameters { mass: Some(0.05), quality: Some(50.0), ..StatorParameters::default() };
+                motor.amplitude = Some(1e-7);
+                match field {
+                    MotorField::StatorForce => (motor.amplitude, table.force) = (None, Some(20.0)),
+                    MotorField::StatorVolts => {
+                        (motor.amplitude, table.volts, table.force_per_volt) = (None, Some(20.0), Some(1.0));
+                    }
+                    MotorField::StatorResonance => table.resonance = Some(motor.drive_frequency),
+                    _ => {}
+                }
+                motor.stator = Some(table);
+            }
             let motor = motor.build().expect("legal");
             let value = field.value(&motor.parameters()).unwrap_or(1e-3);
             let sweep = MotorSweep::new(motor, vec![SweepAxis::new(field, vec![value])], settings);
             let result = sweep.and_then(|sweep| sweep.run(&Unobserved)).expect("legal");
-            let mut names = result.header();
-            assert_eq!(names.len(), result.to_csv().lines().nth(1).expect("a cell").split(',').count());
+            let table = result.to_csv();
+            let mut names: Vec<_> = table.lines().next().expect("a header").split(',').collect();
+            assert_eq!(names.contains(&"stator_amplitude_m"), yields, "{field}");
+            assert_eq!(names.len(), table.lines().nth(1).expect("a cell").split(',').count());
             names.sort();
             let all = names.len();
             names.dedup();

@@ -19,10 +19,18 @@ pub enum SweepQuantity {
     FrictionLoss,
     /// Mechanical power over the power put in.
     Efficiency,
+    /// Amplitude under load of a stator that yields (m).
+    StatorAmplitude,
+    /// Power that the drive puts into such a stator (W).
+    DrivePower,
+    /// Power lost in the damping of its modes (W).
+    DampingLoss,
+    /// Mechanical power over the power of the drive.
+    ElectricalEfficiency,
 }
 
 impl SweepQuantity {
-    /// All quantities, in the order of the columns of a table.
+    /// All quantities but those of a stator that yields, in the order of the columns of a table.
     pub const ALL: [Self; 6] = [
         Self::Speed,
         Self::MechanicalPower,
@@ -31,6 +39,27 @@ impl SweepQuantity {
         Self::FrictionLoss,
         Self::Efficiency,
     ];
+
+    /// All quantities, those of a stator that yields last.
+    pub const WITH_STATOR: [Self; 10] = [
+        Self::Speed,
+        Self::MechanicalPower,
+        Self::InputPower,
+        Self::RestitutionLoss,
+        Self::FrictionLoss,
+        Self::Efficiency,
+        Self::StatorAmplitude,
+        Self::DrivePower,
+        Self::DampingLoss,
+        Self::ElectricalEfficiency,
+    ];
+
+    /// The quantities of a table of these operations: those of a stator only if one of them has it.
+    #[must_use]
+    pub fn of_table(operations: &[Operation]) -> &'static [Self] {
+        let yields = |operation: &Operation| operation.point().is_some_and(|point| point.stator.is_some());
+        if operations.iter().any(yields) { &Self::WITH_STATOR } else { &Self::ALL }
+    }
 
     /// Its name: `mechanical_power`.
     #[must_use]
@@ -42,20 +71,26 @@ impl SweepQuantity {
             Self::RestitutionLoss => "restitution_loss",
             Self::FrictionLoss => "friction_loss",
             Self::Efficiency => "efficiency",
+            Self::StatorAmplitude => "stator_amplitude",
+            Self::DrivePower => "drive_power",
+            Self::DampingLoss => "damping_loss",
+            Self::ElectricalEfficiency => "electrical_efficiency",
         }
     }
 
-    /// Its unit: `rad/s`, `W`, or `1` for a number without a unit.
+    /// Its unit: `rad/s`, `W`, `m`, or `1` for a number without a unit.
     #[must_use]
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Speed => "rad/s",
-            Self::MechanicalPower | Self::InputPower | Self::RestitutionLoss | Self::FrictionLoss => "W",
-            Self::Efficiency => "1",
+            Self::StatorAmplitude => "m",
+            Self::Efficiency | Self::ElectricalEfficiency => "1",
+            _ => "W",
         }
     }
 
-    /// Its value, however well it is known; `None` for a runaway and for an undefined efficiency.
+    /// Its value, however well it is known; `None` for a runaway, for an undefined efficiency, and
+    /// for what a stator that does not yield has not.
     #[must_use]
     pub fn of(self, operation: &Operation) -> Option<Estimate> {
         let point = operation.point()?;
@@ -66,6 +101,10 @@ impl SweepQuantity {
             Self::RestitutionLoss => Some(point.restitution_loss),
             Self::FrictionLoss => Some(point.friction_loss),
             Self::Efficiency => point.efficiency,
+            Self::StatorAmplitude => Some(point.stator?.amplitude),
+            Self::DrivePower => Some(point.stator?.drive_power),
+            Self::DampingLoss => Some(point.stator?.damping_loss),
+            Self::ElectricalEfficiency => point.stator?.efficiency,
         }
     }
 }
