@@ -2,18 +2,19 @@
 
 use std::str::FromStr;
 
-use bouncing_disk::Error;
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{
     CsvColumns, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds, RiseEstimate, RiseForm, Spread,
     TransientEnsemble, TransientFit, UnknownUnit,
 };
 use bouncing_disk::motor::{MotorParameters, SpeedCurve, TransientMember, TransientSettings};
+use bouncing_disk::{Error, System as SystemModel};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 
 use crate::arguments::{Arguments, Made, runs};
 use crate::errors;
+use crate::parameters::Motor;
 use crate::results::{array, column, make, matrix, room_for};
 
 /// One value tells neither deviation nor error.
@@ -25,7 +26,7 @@ fn shown_spread<'py>(py: Python<'py>, spread: &Spread, members: usize) -> Made<'
 /// The transients of one motor from many phases.
 #[pyfunction]
 pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
-    let (system, members, py) = (a.system()?, a.usize("members")?, a.py());
+    let (members, py) = (a.usize("members")?, a.py());
     let settings = TransientSettings {
         duration: a.real("duration")?,
         intervals: a.usize("intervals")?,
@@ -33,8 +34,15 @@ pub(crate) fn ensemble(a: Arguments<'_>) -> Made<'_> {
         seed: a.u64("seed")?,
         policy: a.policy()?,
     };
-    // The mass does not matter to a transient.
-    let motor = MotorParameters::of_system(&system, 1.0).build().map_err(|error| a.refused(error))?;
+    // The mass does not matter to a transient on a prescribed stator.
+    let of_system = |system: SystemModel| {
+        system.prescribed().and_then(|()| MotorParameters::of_system(&system, 1.0).build())
+    };
+    let motor = match a.held::<Motor>("system") {
+        Ok(motor) => motor.get().0,
+        Err(_) => of_system(a.system()?).map_err(|error| a.refused(error))?,
+    };
+    let system = *motor.system();
     let driven = a.driven_motor(motor, &a.drive("drive")?)?;
     let (runs, times, speeds) = a.run(|observer| {
         let runs = match &driven {

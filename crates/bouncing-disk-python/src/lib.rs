@@ -36,7 +36,7 @@ mod _native {
     #[pymodule_export]
     use crate::motor::{
         best_phase_lag, elementary_effects, input_spreads, local_sensitivities, low_period_traps, motor_map,
-        nearest_trap, report, sobol_indices, stall_load, torque_speed_curve,
+        nearest_trap, report, sobol_indices, stall_load, stator_report, torque_speed_curve,
     };
     #[pymodule_export]
     use crate::orbits::{

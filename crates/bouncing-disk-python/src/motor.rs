@@ -3,7 +3,8 @@
 use bouncing_disk::motor::{
     ElementaryEffects, Estimate, InputSpread, InputTolerance, MotorField, MotorRegime, MotorSweep,
     OperatingPoint, OperatingSettings, Operation, ParameterRange, SamplingSettings, SensitivityMethod,
-    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, TrapVerdict,
+    SensitivityParameter, SensitivityQuantity, SensitivitySettings, SobolIndices, SweepAxis, SweepQuantity,
+    TrapVerdict,
 };
 use bouncing_disk::parameters::DriveParameters;
 use numpy::PyArray1;
@@ -55,43 +56,40 @@ pub(crate) fn report(a: Arguments<'_>) -> Made<'_> {
     )
 }
 
+/// What follows from the stator of a data sheet, by name.
+#[pyfunction]
+pub(crate) fn stator_report(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyDict>>> {
+    let Some(report) = a.held::<Motor>("self")?.get().0.stator_report() else { return Ok(None) };
+    let rows = PyDict::new(a.py());
+    report.rows().try_for_each(|(name, value, _)| rows.set_item(name, value))?;
+    Ok(Some(rows))
+}
+
 /// How many doubles an operation has.
-const COLUMNS: usize = 18;
+const COLUMNS: usize = 6 + 2 * SweepQuantity::WITH_STATOR.len();
 
 /// The numbers of an operation in the order of the fields of `OperatingPoints`, NaN where there are none; its
 /// impacts, and the place in `OperatingPoints.STATUSES`.
 type Numbers = ([f64; COLUMNS], i64, u8);
 
-fn of_point(point: &OperatingPoint) -> [f64; COLUMNS] {
+fn of_point(operation: &Operation, point: &OperatingPoint) -> [f64; COLUMNS] {
     let none = Estimate { value: f64::NAN, standard_error: f64::NAN };
-    let efficiency = point.efficiency.unwrap_or(none);
-    [
-        point.load_torque,
-        point.speed.value,
-        point.speed.standard_error,
-        point.mechanical_power.value,
-        point.mechanical_power.standard_error,
-        point.input_power.value,
-        point.input_power.standard_error,
-        point.restitution_loss.value,
-        point.restitution_loss.standard_error,
-        point.friction_loss.value,
-        point.friction_loss.standard_error,
-        efficiency.value,
-        efficiency.standard_error,
-        point.perturbation_power,
-        point.energy_residual,
-        point.averaged_time,
-        point.start_up,
-        f64::NAN,
-    ]
+    let mut values = [f64::NAN; COLUMNS];
+    values[0] = point.load_torque;
+    for (index, quantity) in SweepQuantity::WITH_STATOR.into_iter().enumerate() {
+        let estimate = quantity.of(operation).unwrap_or(none);
+        (values[1 + 2 * index], values[2 + 2 * index]) = (estimate.value, estimate.standard_error);
+    }
+    let rest = [point.perturbation_power, point.energy_residual, point.averaged_time, point.start_up];
+    values[COLUMNS - 5..COLUMNS - 1].copy_from_slice(&rest);
+    values
 }
 
 fn numbers(operation: &Operation) -> Numbers {
     let nothing = [f64::NAN; COLUMNS];
     match operation {
-        Operation::Steady(point) => (of_point(point), signed(point.impacts), 0),
-        Operation::Unsettled(point, _) => (of_point(point), signed(point.impacts), 1),
+        Operation::Steady(point) => (of_point(operation, point), signed(point.impacts), 0),
+        Operation::Unsettled(point, _) => (of_point(operation, point), signed(point.impacts), 1),
         Operation::Runaway { load_torque, acceleration, .. } => {
             let mut values = nothing;
             (values[0], values[COLUMNS - 1]) = (*load_torque, *acceleration);

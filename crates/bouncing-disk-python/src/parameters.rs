@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{DrivenMotor, MotorField, MotorParameters};
-use bouncing_disk::parameters::{DriveParameters, Waveform};
+use bouncing_disk::parameters::{DriveParameters, StatorParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -70,7 +70,7 @@ impl Motor {
             ("amplitude", Some(platform.amplitude())),
             ("peak_angular_speed", Some(platform.peak_angular_speed())),
             ("twist_amplitude", Some(platform.twist_amplitude())),
-            ("phase_lag", Some(sheet.phase_lag)),
+            ("phase_lag", Some(platform.phase_lag())),
             ("mass", Some(motor.mass())),
             ("inertia", Some(motor.inertia())),
             ("contact_radius", Some(disk.contact_radius())),
@@ -274,7 +274,7 @@ pub(crate) fn known_system(name: &str) -> System {
 pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
     let sheet = MotorParameters {
         drive_frequency: a.real("drive_frequency")?,
-        amplitude: Some(a.real("amplitude")?),
+        amplitude: a.optional("amplitude")?,
         peak_angular_speed: a.optional("peak_angular_speed")?,
         twist_amplitude: a.optional("twist_amplitude")?,
         phase_lag: a.real("phase_lag")?,
@@ -291,10 +291,18 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
         contact: None,
-        stator: None,
+        stator: stator(&a)?,
         load: None,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
+}
+
+/// The table of a stator, as files have it.
+fn stator(a: &Arguments<'_>) -> PyResult<Option<StatorParameters>> {
+    let Some(table) = a.given("stator")? else { return Ok(None) };
+    let text: String = a.py().import("json")?.call_method1("dumps", (table,))?.extract()?;
+    let wrong = |error| errors::of_text(a.py(), format!("the stator cannot be read: {error}"), None);
+    serde_json::from_str(&text).map(Some).map_err(wrong)
 }
 
 /// A motor of the paper, or of the text of a data sheet.

@@ -89,7 +89,7 @@ def test_an_error_names_an_argument_and_its_value(
 def test_no_call_is_left_out() -> None:
     # What takes a whole object, a text or a file, and no number.
     plain = {"threads", "of_system", "read_speeds", "sweep", "read_sweep", "to_json", "to_dict", "from_json"}
-    plain |= {"from_dict", "pizza_toss", "motor", "paper", "names", "reasons"}
+    plain |= {"from_dict", "pizza_toss", "motor", "paper", "names", "reasons", "stator_report"}
     plain |= {"of", "column", "share", "branch_end_names", "to_xarray", "to_netcdf"}
     surface = set()
     for name in bd.__all__:

@@ -207,3 +207,33 @@ def test_what_sensitivities_refuse() -> None:
         bd.local_sensitivities(MOTOR, parameters=wrong, **LOOSE)
     with pytest.raises(ValueError, match="quantity"):
         bd.local_sensitivities(MOTOR, quantity="torque", **LOOSE)  # type: ignore[arg-type]
+
+
+def test_a_stator_that_yields_is_computed_or_refused() -> None:
+    table: dict[str, float | str] = {"mass": 0.05, "quality": 300.0}
+    motor = bd.Motor.paper_70_khz().replace(amplitude=1e-7, stator=table)
+    again = bd.Motor.from_json(motor.to_json())
+    assert again == motor and hash(again) == hash(motor) and motor.replace(stator=None) != motor
+    report = motor.stator_report()
+    assert report is not None and report["mass_ratio"] == pytest.approx(0.05 / motor.mass)
+    assert bd.Motor.paper_70_khz().stator_report() is None
+    loose: dict[str, Any] = {"relative_error": 0.3, "members": 4, "most_impacts": 5_000}
+    curve = bd.torque_speed_curve(motor, load_torques=[0.0, 1e-5], **loose)
+    # What the drive puts in goes into the damping and into the rotor, but for what the modes store.
+    assert curve.drive_power == pytest.approx(curve.damping_loss + curve.input_power, rel=0.02)
+    assert curve.electrical_efficiency[1] == pytest.approx(curve.mechanical_power[1] / curve.drive_power[1])
+    assert (curve.stator_amplitude < 1e-7).all() and (curve.stator_amplitude_error > 0.0).all()
+    prescribed = bd.torque_speed_curve(MOTOR, load_torques=[0.0], **loose)
+    assert np.isnan(prescribed.stator_amplitude).all() and np.isfinite(prescribed.efficiency).all()
+    heavy = bd.motor_map(motor, axes={"stator.mass": [0.05, 0.5]}, **loose)
+    assert heavy.stator_amplitude[0] < heavy.stator_amplitude[1]
+    short: dict[str, Any] = {"members": 2, "duration": 0.02, "intervals": 4}
+    assert (bd.ensemble(motor, **short).speeds != bd.ensemble(motor.replace(stator=None), **short).speeds).any()
+    assert bd.ensemble(MOTOR, **short) == bd.ensemble(MOTOR.system, **short)
+    for refused in (motor.report, lambda: bd.ensemble(motor.system, **short)):
+        with pytest.raises(bd.InvalidError, match="makes it yield"):
+            refused()
+    with pytest.raises(bd.InvalidError, match="both amplitude and stator.volts"):
+        motor.replace(stator={**table, "volts": 5.0, "force_per_volt": 0.4})
+    with pytest.raises(bd.InvalidError, match="stator cannot be read: unknown field `mas`"):
+        motor.replace(stator={"mas": 0.05})

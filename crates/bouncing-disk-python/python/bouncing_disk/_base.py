@@ -70,7 +70,8 @@ class Parameters:
     __delattr__ = __setattr__  # type: ignore[assignment]
 
     def _key(self) -> object:
-        return tuple(self._given.items())
+        # A table, such as that of a stator, is a dictionary.
+        return tuple((name, repr(own) if isinstance(own, dict) else own) for name, own in self._given.items())
 
     def __eq__(self, other: object) -> bool:
         return self._key() == other._key() if isinstance(other, type(self)) else NotImplemented
@@ -176,6 +177,11 @@ def _shown(value: Any) -> str:
     return repr(value.tolist()) if value.size <= 4 else f"<{value.dtype} array {value.shape}>"
 
 
+def _is_undefined(value: Any) -> bool:
+    """Whether an array is NaN throughout, such as those of a stator where none yields."""
+    return isinstance(value, np.ndarray) and value.dtype.kind == "f" and value.size > 0 and bool(np.isnan(value).all())
+
+
 def threads() -> int:
     """How many threads a call computes with.
 
@@ -218,8 +224,9 @@ class Result:
         return all(_same(getattr(self, field.name), getattr(other, field.name)) for field in fields(self))
 
     def __repr__(self) -> str:
-        """The fields, long arrays by their shape."""
-        parts = (f"{field.name}={_shown(getattr(self, field.name))}" for field in fields(self))
+        """The fields, long arrays by their shape; not those that are NaN throughout."""
+        values = ((field.name, getattr(self, field.name)) for field in fields(self))
+        parts = (f"{name}={_shown(value)}" for name, value in values if not _is_undefined(value))
         return f"{type(self).__name__}({', '.join(parts)})"
 
 

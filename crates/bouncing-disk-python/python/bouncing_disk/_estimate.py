@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
+from bouncing_disk._motor import Motor
 from bouncing_disk._system import ChatterCut, Drive, System
 
 __all__ = [
@@ -60,7 +61,7 @@ class TransientEnsemble(Result):
 
 
 def ensemble(
-    system: System,
+    system: System | Motor,
     *,
     members: Int,
     duration: Float = 3.0,
@@ -75,6 +76,7 @@ def ensemble(
     """The transients of one motor from phases that are spread evenly, each with its exponential fit.
 
     Args:
+        system: a system, or a motor, which a stator that yields needs: it has the mass.
         members: number of transients, in [1, 1000000].
         duration: duration (s), positive.
         intervals: intervals of equal length over which speeds are averaged, in [3, 1000000].

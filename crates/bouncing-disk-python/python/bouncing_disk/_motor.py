@@ -89,7 +89,7 @@ class Motor(Parameters):
 
     Args:
         drive_frequency: drive frequency omega/(2 pi) (Hz), positive.
-        amplitude: axial amplitude A of the stator (m), not negative.
+        amplitude: axial amplitude A of the stator (m), not negative; without a rotor where the stator yields.
         peak_angular_speed: largest angular speed omega Phi of the stator (rad/s), not negative.
         twist_amplitude: twist amplitude Phi of the stator (rad), not negative.
         phase_lag: phase lag theta of the twist (rad).
@@ -106,6 +106,9 @@ class Motor(Parameters):
         friction: coefficient of friction mu, not negative.
         restitution: coefficient of restitution, in [0, 1).
         load_torque: load torque T_L (N m); a positive one decelerates a positive rotation.
+        stator: the table ``[stator]`` of a file, by the names of its fields (SI), of a stator that yields: ``mass`` and
+            ``quality``, and, in place of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or with
+            ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md has them all.
 
     Attributes:
         inertia: moment of inertia m a_g^2 of the rotor (kg m^2).
@@ -144,7 +147,7 @@ class Motor(Parameters):
         self,
         *,
         drive_frequency: Float,
-        amplitude: Float,
+        amplitude: Float | None = None,
         peak_angular_speed: Float | None = None,
         twist_amplitude: Float | None = None,
         phase_lag: Float = 0.0,
@@ -160,10 +163,11 @@ class Motor(Parameters):
         friction: Float,
         restitution: Float,
         load_torque: Float = 0.0,
+        stator: Mapping[str, float | str] | None = None,
     ) -> None:
         self.__dict__["_native"] = native.motor(locals())
 
-    def replace(self, **changes: Float | None) -> Motor:
+    def replace(self, **changes: Float | Mapping[str, float | str] | None) -> Motor:
         """The same motor with other values in its data sheet.
 
         Args:
@@ -186,6 +190,21 @@ class Motor(Parameters):
     def report(self, *, progress: Progress = None) -> MotorReport:
         """The consequences of the data sheet, before any run: forcing, regime, largest torque."""
         return native.report(locals())
+
+    def stator_report(self) -> dict[str, float] | None:
+        """What follows from a stator that yields, before any run; None without one.
+
+        Returns:
+            By name: ``mass_ratio``, the stator's effective mass over that of the rotor; ``amplitude_without_rotor`` (m);
+            ``force``, the amplitude of the drive's force (N); of a circuit ``volts`` (V), ``current_without_rotor`` (A)
+            and ``power_without_rotor`` (W); ``lift_off_preload`` (N), from which on a rotor at rest is no longer lifted.
+
+        >>> import bouncing_disk as bd
+        >>> motor = bd.Motor.paper_70_khz().replace(amplitude=1e-7, stator={"mass": 0.05, "quality": 300.0})
+        >>> print(f"{motor.stator_report()['lift_off_preload']:.3f} N")
+        3.224 N
+        """
+        return native.stator_report(locals())
 
     @staticmethod
     def paper_70_khz() -> Motor:
@@ -238,6 +257,11 @@ class OperatingPoints(Result):
         restitution_loss, restitution_loss_error, friction_loss, friction_loss_error: power lost in impacts
             and in friction (W).
         efficiency, efficiency_error: mechanical power over the power put in.
+        stator_amplitude, stator_amplitude_error: amplitude under load of a stator that yields (m), else NaN, as the
+            next three.
+        drive_power, drive_power_error: power that the drive puts into such a stator (W).
+        damping_loss, damping_loss_error: power lost in the damping of its modes (W).
+        electrical_efficiency, electrical_efficiency_error: mechanical power over the power of the drive.
         perturbation_power: power that the perturbations of the relaunches put in (W).
         energy_residual: relative residual of the energy balance.
         averaged_time, start_up: averaged time, of all members together, and omitted time, of each (s).
@@ -261,6 +285,14 @@ class OperatingPoints(Result):
     friction_loss_error: FloatArray
     efficiency: FloatArray
     efficiency_error: FloatArray
+    stator_amplitude: FloatArray
+    stator_amplitude_error: FloatArray
+    drive_power: FloatArray
+    drive_power_error: FloatArray
+    damping_loss: FloatArray
+    damping_loss_error: FloatArray
+    electrical_efficiency: FloatArray
+    electrical_efficiency_error: FloatArray
     perturbation_power: FloatArray
     energy_residual: FloatArray
     averaged_time: FloatArray
@@ -302,7 +334,7 @@ def torque_speed_curve(
         most_impacts: most impacts of all members together, in [1, 1e15].
         relaunch_perturbation: size of the relaunch perturbation in units of g/omega, in (0, 1].
         seed: seed of the perturbations.
-        drive: how the stator moves; ``None`` for the sine.
+        drive: how the stator moves; ``None`` for the sine, the only one of a stator that yields.
         contact_time: how long an impact lasts (s), positive; ``None`` for rigid impacts.
     """
     return native.torque_speed_curve(locals())
