@@ -207,7 +207,10 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
 /// The page has one law of contacts that take time, and no stator that yields.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
-    motor.system().prescribed()?;
+    if motor.system().prescribed().is_err() {
+        let message = "a stator that yields and a load that varies are for the command line and Python";
+        return Err(Refusal::new("text", message.to_owned()));
+    }
     if let Some((ContactLaw::Hysteresis, _)) = motor.system().soft_contact() {
         let message =
             "contact.law = \"hysteresis\" is for the command line and Python: contacts have a damper here";

@@ -244,6 +244,8 @@ fn stators() {
             "motor phase-lag load.toml",
             "holds for a constant load only: replace the table [load] by load_torque",
         ),
+        ("motor curve load.toml", "holds for a constant load only"),
+        ("motor stall load.toml", "holds for a constant load only"),
         ("motor sweep load.toml --over friction=0.1:0.2:2", "holds for a constant load only"),
         ("motor report load.toml", "holds for a constant load only"),
         ("motor curve load.toml --template", "--template writes no table [load]"),

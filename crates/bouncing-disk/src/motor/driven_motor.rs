@@ -175,23 +175,25 @@ impl DrivenMotor {
         &self.stator
     }
 
-    fn loaded(&self) -> LoadedMotor<'_> {
+    /// For a steady operation, which is under a constant load.
+    fn loaded(&self) -> Result<LoadedMotor<'_>, Error> {
+        self.motor.load().map_or(Ok(()), |_| Err(Error::LoadLaw))?;
         let (mass, load_torque) = (self.motor.mass(), self.motor.load_torque());
-        LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.carrier)), mass, load_torque }
+        Ok(LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.carrier)), mass, load_torque })
     }
 
     /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together, except on sines with a
     /// contact time, where one vertical motion carries all rotors.
     ///
     /// # Errors
-    /// As [`Motor::torque_speed_curve`].
+    /// As [`Motor::torque_speed_curve`]; [`Error::LoadLaw`] for a load that varies, as by the next two.
     pub fn torque_speed_curve(
         &self,
         load_torques: &[f64],
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<Vec<Operation>, Error> {
-        curve_of(self.loaded(), load_torques, settings, observer)
+        curve_of(self.loaded()?, load_torques, settings, observer)
     }
 
     /// As [`Motor::stall_load`].
@@ -203,27 +205,23 @@ impl DrivenMotor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<StallLoad, Error> {
-        stall_load(&self.loaded(), settings, observer)
+        stall_load(&self.loaded()?, settings, observer)
     }
 
     /// As [`Motor::best_phase_lag`]; the phase lag shifts the whole waveform of the angle.
     ///
     /// # Errors
-    /// As [`Motor::best_phase_lag`]; [`Error::BothGiven`] where the one mode of a stator moves both height and angle,
-    /// [`Error::LoadLaw`] for a load that varies.
+    /// As [`Motor::best_phase_lag`]; [`Error::BothGiven`] where the one mode of a stator moves both height and angle.
     pub fn best_phase_lag(
         &self,
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<BestPhaseLag, Error> {
-        if self.motor.load().is_some() {
-            return Err(Error::LoadLaw);
-        }
         if self.motor.stator().is_some_and(|stator| stator.modes()[0].angle != 0.0) {
             let one = "a stator of the kind axial_twist";
             return Err(Error::BothGiven { one, other: "a phase lag to be found" });
         }
-        best_phase_lag(&self.loaded(), settings, observer)
+        best_phase_lag(&self.loaded()?, settings, observer)
     }
 
     /// The transients of these members by their phases and settings, computed in parallel.

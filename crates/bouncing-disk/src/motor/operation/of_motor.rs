@@ -164,7 +164,6 @@ pub fn operations(
         let observer = |_: Progress| observer.observe(Progress { done, total });
         if DrivenMotor::where_needed(group[0], &DriveParameters::default())?.is_some() {
             for motor in group {
-                motor.load().map_or(Ok(()), |_| Err(Error::LoadLaw))?;
                 let own = DrivenMotor::of_drive(*motor, &DriveParameters::default())?;
                 all.extend(own.torque_speed_curve(&[motor.load_torque()], settings, &observer)?);
             }
