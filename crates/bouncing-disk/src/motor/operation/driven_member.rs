@@ -19,6 +19,9 @@ use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::stator::StatorLedger;
 
+/// A rotor on a stator that yields lies if so many events in a row are of friction alone. Each further one recurs.
+const LIES: u64 = 100;
+
 /// All rotors of a member.
 #[derive(Debug)]
 pub(crate) struct Driven {
@@ -42,6 +45,8 @@ struct Rotor {
     impacts: u64,
     /// Impacts, and what of the events of a contact that takes time recurs without an impact.
     recurrences: u64,
+    /// Events of friction since the last touch or launch.
+    slips: u64,
     /// At the end of the last window.
     before: Totals,
 }
@@ -80,6 +85,7 @@ impl Driven {
                 given: 0.0,
                 impacts: 0,
                 recurrences: 0,
+                slips: 0,
                 before: Totals::default(),
             };
             rotor.before = rotor.totals(&reached);
@@ -213,8 +219,8 @@ impl Rotor {
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
         let before = self.recurrences;
-        let anywhere = anywhere && self.takes_time;
         loop {
+            let anywhere = anywhere && (self.takes_time || self.slips > LIES);
             let (now, done) = (self.engine.time(), self.recurrences - before);
             let lasts = now.order(&end).is_ge() && done >= *impacts.start();
             if (lasts || done >= *impacts.end()) && (anywhere || self.engine.launches()) {
@@ -255,8 +261,14 @@ impl Rotor {
                 let after = self.engine.disk().axial_velocity;
                 self.given += 0.5 * (after - before) * (after + before);
             }
+            _ if self.engine.driven().is_none() => {
+                self.slips += 1;
+                self.recurrences += u64::from(self.slips > LIES);
+                return Ok(true);
+            }
             _ => {}
         }
+        self.slips = 0;
         Ok(true)
     }
 
