@@ -232,8 +232,8 @@ impl TaylorStep {
         }
     }
 
-    /// The first fall through zero within `to`, at most a step: when, and the slope there. A touch that rounding hides
-    /// counts where the value is below zero.
+    /// The first fall through zero within `to`, at most a step: when, and the slope there. A touch that rounding hides is
+    /// none: the function stays above zero but for rounding.
     ///
     /// # Errors
     /// [`Error::NoConvergence`] after 100,000 evaluations.
@@ -244,9 +244,6 @@ impl TaylorStep {
             match first_root(|t| self.jet(t), from, to)? {
                 FirstRoot::Root(root) => return Ok(Some([root.at, root.slope])),
                 FirstRoot::None { .. } => break,
-                FirstRoot::Undecided { at, value, .. } if value < 0.0 => {
-                    return Ok(Some([at, self.jet(at).slope]));
-                }
                 FirstRoot::Undecided { until, .. } => from = until.max(from + f64::EPSILON * self.step),
             }
         }

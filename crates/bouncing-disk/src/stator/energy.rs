@@ -124,7 +124,7 @@ impl StatorEngine {
                     _ => friction * force * (at[SPEED] - turn).abs(),
                 };
                 // The speed of the tip is a small sum of its steady motion and the ringing where the disk is heavy.
-                let terms = torque.abs() * size(regime.slip.now(), &at);
+                let terms = size(&regime.torque, &at) * size(regime.slip.now(), &at);
                 ledger.record_friction(part * torque * turn, part * lost, part * (terms + lost));
                 for (index, mode) in
                     self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0)

@@ -657,7 +657,7 @@ impl StatorEngine {
     }
 
     /// Disk and modes so long after the last event, if no event comes before.
-    fn carried(&self, time: f64) -> State {
+    pub(super) fn carried(&self, time: f64) -> State {
         if !matches!(self.stage, Stage::Contact { .. }) {
             return self.flown(time);
         }

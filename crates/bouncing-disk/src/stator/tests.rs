@@ -243,3 +243,136 @@ fn a_stator_rings_down_and_up_as_its_circuit() {
     let [place, speed] = engine.state_after(400.0 * TAU).1.modes[0];
     assert!(place.abs() < 1e-9 && (speed - 5.0).abs() < 1e-9, "{place} {speed}");
 }
+
+/// Between two events the gap stays open, the contact pressed, the slip in its direction and the grip within friction: so no
+/// event is missed, of seams and of systems in between.
+fn attack_seams(count: usize, events: usize) -> usize {
+    let mut random = SplitMix64::new(11);
+    let mut done = 0;
+    let pick = |random: &mut SplitMix64, of: &[f64]| of[(random.unit() * of.len() as f64) as usize];
+    for trial in 0..count {
+        let peak = pick(&mut random, &[0.3, 1.0, 1.0 + 1e-9, 1.2, 3.0, 30.0, 2000.0]);
+        let base = base(
+            peak,
+            pick(&mut random, &[0.0, 1e-9, 0.5, 20.0, 1e4]),
+            pick(&mut random, &[0.0, -1.5, 3.0]),
+            pick(&mut random, &[0.0, 1e-3, 0.1, 0.9]),
+            pick(&mut random, &[0.0, 1e-3, 0.5, 0.9, 0.999]),
+            pick(&mut random, &[0.0, 1e-3, -0.1]),
+        );
+        let mass = pick(&mut random, &[1e-3, 0.3, 10.0, 1e6]);
+        let frequency = pick(&mut random, &[1e-3, 0.5, 1.0 - 1e-9, 1.0, 1.01, 7.0]);
+        let quality = pick(&mut random, &[0.5, 0.5 + 1e-9, 3.0, 300.0]);
+        let axial = YieldingMode::axial(mass, frequency, quality);
+        let torsional = YieldingMode::torsional(pick(&mut random, &[1e-2, 1.0, 1e3]), frequency, quality);
+        let twisting = YieldingMode { angle: pick(&mut random, &[-3.0, 0.1, 1.0]), ..axial };
+        let modes =
+            [vec![], vec![axial], vec![twisting], vec![axial, torsional], vec![torsional]][trial % 5].clone();
+        let contact_time = [None, None, Some(0.05), Some(1.0), Some(20.0)][(trial / 5) % 5];
+        let Ok(system) = StatorSystem::build(&base, &modes, 0.5, contact_time) else { continue };
+        let phase = pick(&mut random, &[0.0, TAU - 1e-15, 0.3, 1.57, 4.7]);
+        let mut engine = StatorEngine::new(system.clone(), start(phase)).expect("legal");
+        let mut zero = 0;
+        for _ in 0..events {
+            let before = engine.clone();
+            let Some(record) = engine.advance_within(300.0).unwrap_or_else(|error| {
+                panic!("{trial} {error} {:?} {:?} {:?}", before.stage, before.state, system.base.parameters())
+            }) else {
+                break;
+            };
+            done += 1;
+            let span = record.span.radians();
+            zero = if span > 0.0 { 0 } else { zero + 1 };
+            assert!(
+                zero < 20,
+                "an endless loop: {trial} {record:#?} {:?} {:?} {:?}",
+                before.stage,
+                before.state,
+                system.base.parameters()
+            );
+            assert!(
+                record.relative_closure() < 1e-11,
+                "{trial} {record:#?} {:?} {:?} {:?}",
+                before.stage,
+                before.state,
+                system.base.parameters()
+            );
+            for k in 1..40 {
+                let state = before.carried(span * f64::from(k) / 40.0);
+                before.check_within(&state, span);
+            }
+        }
+    }
+    done
+}
+
+#[test]
+fn no_event_is_missed_on_seams() {
+    assert!(attack_seams(600, 60) > 5_000);
+}
+
+/// A million events: some minutes.
+#[test]
+#[ignore = "takes minutes"]
+fn no_event_is_missed_in_a_million() {
+    assert!(attack_seams(6_000, 400) > 1_000_000);
+}
+
+impl StatorEngine {
+    /// That nothing has happened yet in this state of the present motion.
+    fn check_within(&self, state: &State, span: f64) {
+        use engine::{Stage, size};
+        let regime = self.regime();
+        let tolerance = 1e-10 * (1.0 + span);
+        let holds = |functional: &bouncing_disk_core::numerics::linear_flow::Functional<{ regime::N }>,
+                     what: &str| {
+            let value = bouncing_disk_core::numerics::linear_flow::dot(functional.now(), state);
+            let size = size(functional.now(), state).max(1.0);
+            assert!(
+                value >= -tolerance * size,
+                "{what}: {value} {size} {state:?} {:?} {:?} {:?} {:?}",
+                self.stage,
+                self.state,
+                self.system.base.parameters(),
+                self.system.given
+            );
+        };
+        match self.stage {
+            Stage::Flight(_) if self.system.contact == Contact::Rigid || state[regime::GAP] > 0.0 => {
+                let [tip, _] = self.system.tip(state);
+                let size = self.highest(&self.state) + tip.abs() + span * span;
+                assert!(
+                    state[regime::GAP] >= -1e-13 * size,
+                    "{state:?} {:?} {:?} {:?} {:?}",
+                    self.stage,
+                    self.state,
+                    self.system.base.parameters(),
+                    self.system.given
+                );
+            }
+            Stage::Flight(_) => {
+                let value = -bouncing_disk_core::numerics::linear_flow::dot(regime.force.now(), state);
+                assert!(
+                    value >= -tolerance * size(regime.force.now(), state).max(1.0),
+                    "{state:?} {:?} {:?} {:?} {:?}",
+                    self.stage,
+                    self.state,
+                    self.system.base.parameters(),
+                    self.system.given
+                );
+            }
+            Stage::Contact { grip, .. } => {
+                holds(&regime.force, "force");
+                if self.system.base.friction() > 0.0 {
+                    if grip == Grip::Stick {
+                        holds(&regime.hold[0], "hold");
+                        holds(&regime.hold[1], "hold");
+                    } else {
+                        holds(&regime.slip, "slip");
+                    }
+                }
+            }
+            Stage::Ended => {}
+        }
+    }
+}
