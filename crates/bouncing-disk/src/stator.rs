@@ -54,6 +54,9 @@ pub const MODES: usize = 2;
 /// Least and largest contact time (rad) on a stator that yields.
 pub const CONTACT_TIMES: [f64; 2] = [1.0e-2, 1.0e4];
 
+/// Nearer to a jam than this share of the friction that jams, a disk moves too fast for steps.
+const NEAREST_JAM: f64 = 0.99;
+
 /// Frequencies of modes, in units of that of the drive.
 const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
 
@@ -61,11 +64,11 @@ const FREQUENCIES: [f64; 2] = [1.0e-3, 1.0e3];
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct YieldingMode {
     /// Effective mass at the tip in units of that of the disk; of a mode that only twists the inertia, in units of that
-    /// of the disk. In (0, 1e20].
+    /// of the disk. In [1e-6, 1e20].
     pub mass: f64,
     /// Resonance, in units of the frequency of the drive, in [1e-3, 1e3].
     pub frequency: f64,
-    /// Quality factor, at least 1/2.
+    /// Quality factor, in [0.5, 1e5].
     pub quality: f64,
     /// Height of the tip for one unit of the coordinate: 1, or 0 for a mode that only twists.
     pub height: f64,
@@ -173,16 +176,11 @@ impl StatorSystem {
         check((1.0e-6..=1.0e6).contains(&arm), "arm (a_e/a_g)^2", arm, "[1e-6, 1e6]")?;
         let [least, most] = FREQUENCIES;
         for mode in modes {
-            check(mode.mass > 0.0 && mode.mass <= 1.0e20, "mass of a mode", mode.mass, "(0, 1e20]")?;
+            check((1.0e-6..=1.0e20).contains(&mode.mass), "mass of a mode", mode.mass, "[1e-6, 1e20]")?;
             let range = "[1e-3, 1e3]";
             check((least..=most).contains(&mode.frequency), "frequency of a mode", mode.frequency, range)?;
-            check(
-                mode.quality >= 0.5 && mode.quality <= 1.0e12,
-                "quality of a mode",
-                mode.quality,
-                "[0.5, 1e12]",
-            )?;
-            finite("angle of a mode", mode.angle)?;
+            check((0.5..=1.0e5).contains(&mode.quality), "quality of a mode", mode.quality, "[0.5, 1e5]")?;
+            check(mode.angle.abs() <= 1.0e6, "angle of a mode", mode.angle, "[-1e6, 1e6]")?;
             let is_one = |value: f64| (value - 1.0).abs() <= 0.0;
             let pure = mode.height == 0.0 && is_one(mode.angle);
             check(is_one(mode.height) || pure, "height of a mode", mode.height, "1, or 0 with the angle 1")?;
@@ -266,15 +264,27 @@ impl StatorSystem {
     /// speeds are in the units of the system.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for lines that do not follow each other, and slopes beyond 1e3.
+    /// [`Error::OutOfRange`] for lines that do not follow each other, and or do not meet, and for slopes
+    /// outside of [-1, 1e3].
     pub fn with_load(mut self, lines: &[LoadLine]) -> Result<Self, Error> {
         let mut reached = f64::NEG_INFINITY;
         for line in lines {
             let follows = line.from.total_cmp(&reached).is_eq() && line.to > line.from;
             check(follows, "start of a line of the load", line.from, "the end of the one before")?;
-            check(line.slope.abs() <= 1.0e3, "slope of the load", line.slope, "[-1e3, 1e3] (dimensionless)")?;
+            let slope = line.slope;
+            check((-1.0..=1.0e3).contains(&slope), "slope of the load", slope, "[-1, 1e3] (dimensionless)")?;
             finite("torque of the load", line.torque)?;
             reached = line.to;
+        }
+        for pair in lines.windows(2) {
+            let [here, there] = [pair[0], pair[1]].map(|line| line.torque + line.slope * pair[1].from);
+            let size = pair[0].torque.abs() + pair[1].torque.abs() + here.abs();
+            check(
+                (here - there).abs() <= 1.0e-9 * size,
+                "jump of the load",
+                there - here,
+                "none: lines must meet",
+            )?;
         }
         check(reached == f64::INFINITY, "end of the load", reached, "infinity")?;
         let constant = self.base.load();
@@ -289,6 +299,16 @@ impl StatorSystem {
         let line = |line: &LoadLine| LoadLine { torque: line.torque - constant, ..*line };
         let lines: Vec<_> = self.lines.iter().map(line).collect();
         Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&lines)
+    }
+
+    /// Whether the load depends on the speed.
+    pub(crate) fn load_varies(&self) -> bool {
+        self.lines.iter().any(|line| line.slope != 0.0)
+    }
+
+    /// Whether one mode moves in height and twists, so that the twist follows the height.
+    pub(crate) fn has_one_motion(&self) -> bool {
+        self.modes.iter().any(|mode| mode.height != 0.0 && mode.angle != 0.0)
     }
 
     /// Whether contacts take time.
@@ -355,7 +375,7 @@ impl StatorSystem {
         let b = self.mobility();
         let (friction, own) = (self.base.friction() * b[0][1].abs(), b[0][0]);
         check(
-            friction < own,
+            friction <= NEAREST_JAM * own,
             "friction",
             self.base.friction(),
             "below what jams a disk that slides on this stator",

@@ -238,13 +238,32 @@ impl TaylorStep {
     /// # Errors
     /// [`Error::NoConvergence`] after 100,000 evaluations.
     pub fn first_fall(&self, to: f64) -> Result<Option<[f64; 2]>, Error> {
+        self.first_fall_from(0.0, to)
+    }
+
+    /// [`Self::first_fall`] from a time on; at once if the function is below zero then.
+    ///
+    /// # Errors
+    /// As [`Self::first_fall`].
+    pub fn first_fall_from(&self, mut from: f64, to: f64) -> Result<Option<[f64; 2]>, Error> {
         let to = to.min(self.step);
-        let mut from = 0.0;
+        if from > 0.0 {
+            let start = self.jet(from);
+            if start.value < 0.0 {
+                return Ok((from < to).then_some([from, start.slope]));
+            }
+        }
         while from < to {
             match first_root(|t| self.jet(t), from, to)? {
                 FirstRoot::Root(root) => return Ok(Some([root.at, root.slope])),
                 FirstRoot::None { .. } => break,
-                FirstRoot::Undecided { until, .. } => from = until.max(from + f64::EPSILON * self.step),
+                FirstRoot::Undecided { until, .. } if until < to => {
+                    from = until.max(from + f64::EPSILON * self.step);
+                }
+                FirstRoot::Undecided { .. } => {
+                    let end = self.jet(to);
+                    return Ok((end.value < -end.error).then_some([to, end.slope]));
+                }
             }
         }
         Ok(None)

@@ -321,14 +321,25 @@ impl DrivenMotor {
             work.spend(FLIGHTS_OF_EVENT)?;
             let (angle, now) = (engine.disk().angle, engine.time().since(&began).radians());
             let left = settings.duration / unit.time - now;
-            if let Some(amplitude) = engine.amplitude() {
-                amplitudes.resize(bins.present.index.min(settings.intervals), amplitude * unit.length);
-            }
             let change =
                 load.and_then(|load| load.next_change_after(now * unit.time * (1.0 + 4.0 * f64::EPSILON)));
             let change = change.filter(|change| change / unit.time < left + now);
-            let until = change.map_or(left, |change| (change / unit.time - now).max(0.0));
+            let mut until = change.map_or(left, |change| (change / unit.time - now).max(0.0));
+            let yields = engine.amplitude_after(0.0).is_some();
+            let boundary = (amplitudes.len() + 1) as f64 * bins.width / unit.time - now;
+            let samples = yields && boundary < until;
+            if samples {
+                until = boundary.max(0.0);
+            }
             let Some((event, ..)) = engine.advance_within(until)? else {
+                if samples {
+                    amplitudes.extend(engine.amplitude_after(until).map(|amplitude| amplitude * unit.length));
+                    if engine.lies() {
+                        engine.pause(until);
+                        bins.add((now + until) * unit.time, engine.disk().angle - angle);
+                    }
+                    continue;
+                }
                 if let Some(change) = change {
                     engine.switch(until, self.carrier_at(change)?);
                     bins.add(change, engine.disk().angle - angle);
@@ -360,8 +371,8 @@ impl DrivenMotor {
             watch.set_done(bins.present.index as u64);
         }
         watch.end();
-        if let Some(amplitude) = engine.amplitude() {
-            amplitudes.resize(settings.intervals, amplitude * unit.length);
+        if let (Some(last), true) = (engine.amplitude_after(0.0), amplitudes.len() < settings.intervals) {
+            amplitudes.resize(settings.intervals, last * unit.length);
         }
         Ok((curve(bins, &unit, (impacts, separations))?, amplitudes))
     }

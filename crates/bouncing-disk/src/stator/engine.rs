@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bouncing_disk_core::flight::MAX_FLIGHT_DURATION;
 use bouncing_disk_core::numerics::elementary::{exp, exp_m1, ln_1p, sin_cos};
-use bouncing_disk_core::numerics::linear_flow::{Functional, Vector, dot};
+use bouncing_disk_core::numerics::linear_flow::{Functional, LinearFlow, Vector, dot};
 
 use super::impact::impact;
 use super::ledger::StatorLedger;
@@ -26,6 +26,9 @@ const CHATTER: f64 = 1.0e-7;
 
 /// Rounding of a functional at an event, in units of the sizes of its terms.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
+
+/// Where rounding calls what slips a stick and what sticks a slip, the present motion goes on for so long (rad).
+const TIE: f64 = 1.0e-6;
 
 /// A contact whose modes come back to the same state after a period, within this share of it, repeats for ever.
 const SAME: f64 = 1.0e-13;
@@ -91,6 +94,8 @@ pub(super) enum Launch {
     Rebound,
     /// By a force that falls to zero: in a rigid contact with no acceleration, in a soft one below the platform.
     Release,
+    /// Below the platform of a soft contact, where spring and damper would pull.
+    Below,
 }
 
 /// The motion of a disk on a stator that yields, as a lazy sequence of [`StatorRecord`]s. It ends where nothing more
@@ -104,6 +109,8 @@ pub struct StatorEngine {
     angle: LongSum,
     /// The line of the load.
     pub(super) line: usize,
+    /// Changes between stick and slide at the same instant.
+    ties: u32,
     /// Without it ledgers stay empty.
     pub(crate) with_energy: bool,
 }
@@ -125,6 +132,12 @@ enum Crossing {
     Slips(Grip),
     /// The speed reaches another line of the load.
     Line(usize),
+}
+
+impl Crossing {
+    const fn is_of_friction(self) -> bool {
+        matches!(self, Self::SlipEnd | Self::Slips(_))
+    }
 }
 
 impl StatorEngine {
@@ -184,7 +197,7 @@ impl StatorEngine {
         (state[SIN], state[COS], state[ONE]) = (now.phase.sin(), now.phase.cos(), 1.0);
         let stage = Stage::Flight(if state[GAP] > 0.0 { Launch::Air } else { Launch::Rebound });
         let mut engine =
-            Self { system, stage, now, state, angle: LongSum::new(0.0), line: 0, with_energy: true };
+            Self { system, stage, now, state, angle: LongSum::new(0.0), line: 0, ties: 0, with_energy: true };
         engine.line = engine.line_at(engine.state[SPEED]);
         match engine.system.contact {
             Contact::Rigid if lies => engine.lie_down(),
@@ -196,7 +209,13 @@ impl StatorEngine {
                 }
                 engine.press();
             }
-            Contact::Soft { .. } if engine.state[GAP] < 0.0 => engine.stage = Stage::Flight(Launch::Release),
+            Contact::Soft { .. } if engine.state[GAP] < 0.0 => engine.press(),
+            Contact::Soft { .. } if engine.state[GAP] == 0.0 && engine.state[CLOSING] == 0.0 => {
+                let flow = &engine.system.regimes[engine.line][0].flow;
+                if first_sign(flow, &flow.derivative(&closing()), &engine.state) != Some((0, true)) {
+                    engine.press();
+                }
+            }
             Contact::Rigid if engine.state[GAP] == 0.0 => engine.leave(),
             _ => {}
         }
@@ -263,17 +282,48 @@ impl StatorEngine {
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
         if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release)) = &mut self.stage {
             self.state[CLOSING] += speed;
-            if speed > 0.0 && self.system.contact == Contact::Rigid {
-                *launch = Launch::Rebound;
+            if speed > 0.0 {
+                *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound };
             }
         }
     }
 
-    /// The amplitude of the first mode, if it moves in height: how far it would go without a drive, losses and a disk.
-    pub(crate) fn amplitude(&self) -> Option<f64> {
+    /// The amplitude of the first mode, if it moves in height, so long after the last event: how far it would go
+    /// without a drive, losses and a disk.
+    pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
         let mode = self.system.modes[0];
-        let [place, speed] = self.mode_state(0, &self.state);
+        let state = if span > 0.0 { self.carried(span) } else { self.state };
+        let [place, speed] = self.mode_state(0, &state);
         (mode.height != 0.0).then(|| (place * place + speed * speed / mode.stiffness).sqrt())
+    }
+
+    /// Moves the origin of the present motion to `span` later, in which time no event comes.
+    pub(crate) fn pause(&mut self, span: f64) -> StatorRecord {
+        let span = if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 };
+        let state = self.carried(span);
+        let (ledger, stator) = if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
+        self.now = self.now.after(PhaseSpan::from_radians(span));
+        self.state = state;
+        (self.state[SIN], self.state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
+        self.angle.add(self.state[ANGLE]);
+        self.state[ANGLE] = 0.0;
+        if span > 0.0
+            && let Stage::Flight(launch) = &mut self.stage
+        {
+            *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Air };
+        }
+        let here = self.state();
+        StatorRecord {
+            time: self.now,
+            event: Event::Joint,
+            before: here,
+            after: here,
+            axial_impulse: 0.0,
+            angular_impulse: 0.0,
+            ledger,
+            stator,
+            span: PhaseSpan::from_radians(span),
+        }
     }
 
     /// Stills the modes: the stator is at rest, and the disk as it is relative to it.
@@ -286,23 +336,10 @@ impl StatorEngine {
     }
 
     /// Ends the present motion `span` radians after the last event, if no event comes before, and goes on with another
-    /// system of the same units: the drive is switched, or the load changes. Modes, height and speed of the disk are
-    /// continuous; a prescribed twist jumps.
+    /// system of the same units: the drive is switched, or the load changes. Modes and
+    /// disk are continuous; what no mode moves jumps, and the disk keeps its distance.
     pub fn switch(&mut self, span: f64, to: StatorSystem) -> StatorRecord {
-        let span = if span > 0.0 { span.min(MAX_FLIGHT_DURATION) } else { 0.0 };
-        let state = self.carried(span);
-        let (ledger, stator) = if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
-        let before = self.stated(&state, self.mode());
-        self.now = self.now.after(PhaseSpan::from_radians(span));
-        self.state = state;
-        (self.state[SIN], self.state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
-        self.angle.add(self.state[ANGLE]);
-        self.state[ANGLE] = 0.0;
-        if span > 0.0
-            && let Stage::Flight(launch) = &mut self.stage
-        {
-            *launch = if self.state[GAP] < 0.0 { Launch::Release } else { Launch::Air };
-        }
+        let mut record = self.pause(span);
         let phase = (self.state[SIN], self.state[COS]);
         for index in 0..MODES {
             let (old, new) = (self.system.steady(index, phase), to.steady(index, phase));
@@ -311,28 +348,18 @@ impl StatorEngine {
         }
         self.system = to;
         self.go_on();
-        let (after, span) = (self.state(), PhaseSpan::from_radians(span));
-        StatorRecord {
-            time: self.now,
-            event: Event::Joint,
-            before,
-            after,
-            axial_impulse: 0.0,
-            angular_impulse: 0.0,
-            ledger,
-            stator,
-            span,
-        }
+        record.after = self.state();
+        record
     }
 
     /// With another system or other modes.
     fn go_on(&mut self) {
         self.line = self.line_at(self.state[SPEED]);
-        if matches!(self.stage, Stage::Contact { .. }) {
-            match self.system.contact {
-                Contact::Rigid => self.lie_down(),
-                Contact::Soft { .. } => self.press(),
-            }
+        match (self.stage, self.system.contact) {
+            (Stage::Contact { .. }, Contact::Rigid) => self.lie_down(),
+            (Stage::Contact { .. }, Contact::Soft { .. }) => self.press(),
+            (Stage::Flight(Launch::Rebound | Launch::Release), Contact::Rigid) => self.leave(),
+            _ => {}
         }
     }
 
@@ -411,7 +438,10 @@ impl StatorEngine {
         let soft = self.system.contact != Contact::Rigid;
         let [height, velocity] = self.system.tip(&self.state);
         let (x, v) = (self.state[GAP] + height, self.state[CLOSING] + velocity);
-        if self.state[GAP] <= 0.0 && self.state[CLOSING] < 0.0 && launch != Launch::Release {
+        if self.state[GAP] <= 0.0
+            && self.state[CLOSING] < 0.0
+            && matches!(launch, Launch::Air | Launch::Rebound)
+        {
             return Ok(Some((0.0, Crossing::Touch(self.state[CLOSING]))));
         }
         let highest = self.highest(&self.state);
@@ -421,7 +451,7 @@ impl StatorEngine {
         let mut passed = 0.0;
         let mut state = self.state;
         // A soft contact ends before its spring is free: below the stator the force may set in again.
-        let mut inside = soft && launch == Launch::Release && self.state[GAP] < 0.0;
+        let mut inside = soft && self.state[GAP] < 0.0;
         loop {
             let left = limit - passed;
             if left <= 0.0 {
@@ -436,7 +466,7 @@ impl StatorEngine {
             let mut gap = regime.gap.along(&state, error);
             if passed == 0.0 && !inside {
                 gap = match launch {
-                    Launch::Air => gap,
+                    Launch::Air | Launch::Below => gap,
                     Launch::Rebound => gap.starting_with(&[0.0, self.state[CLOSING]]),
                     Launch::Release if soft => gap.starting_with(&[0.0, self.state[CLOSING]]),
                     Launch::Release => gap.starting_with(&[0.0, 0.0, 0.0]),
@@ -445,7 +475,7 @@ impl StatorEngine {
             if inside {
                 let rises = regime.gap.along(&state, error).negated();
                 let mut pull = regime.force.along(&state, error).negated();
-                if passed == 0.0 {
+                if passed == 0.0 && launch == Launch::Release {
                     pull = pull.starting_with(&[0.0]);
                 }
                 let free = rises.first_fall(left)?.map(|[at, _]| at);
@@ -545,7 +575,8 @@ impl StatorEngine {
         let speed = self.state[SPEED];
         let load = torque + slope * speed;
         let (node, next) = if load > 0.0 { (from, self.line.checked_sub(1)?) } else { (to, self.line + 1) };
-        if load == 0.0 || !node.is_finite() {
+        let rounding = ROUNDING * (torque.abs() + (slope * speed).abs());
+        if load.abs() <= rounding || !node.is_finite() {
             return None;
         }
         // (speed - node)/load is the integral of exp(-slope t).
@@ -562,6 +593,9 @@ impl StatorEngine {
 
     /// The end of a contact, or of a slide or a stick in it.
     fn contact_end(&mut self, grip: Grip, limit: f64) -> Result<Next, Error> {
+        if self.lies_for_ever() {
+            return Ok(None);
+        }
         let regimes = Arc::clone(&self.system.regimes);
         let regime = &regimes[self.line][self.regime_index()];
         let step = regime.flow.step();
@@ -578,6 +612,7 @@ impl StatorEngine {
                 Grip::Forward | Grip::Backward => watched.push((&regime.slip, Crossing::SlipEnd)),
             }
         }
+        let mut resting = vec![false; watched.len()];
         let (mut passed, mut state, mut begun) = (0.0, self.state, self.state);
         let mut steps: u64 = 0;
         let whole = (TAU / step + 0.5) as u64;
@@ -587,18 +622,29 @@ impl StatorEngine {
                 return Ok(None);
             }
             let mut first: Next = None;
-            for (functional, crossing) in &watched {
+            for (index, (functional, crossing)) in watched.iter().enumerate() {
+                if resting[index] {
+                    continue;
+                }
                 let error = ROUNDING * (steps as f64).sqrt() * size(functional.now(), &state);
-                let mut along = functional.along(&state, error);
+                let (mut along, mut from) = (functional.along(&state, error), 0.0);
                 if passed == 0.0 {
-                    match self.at_start(regime, functional, &along) {
-                        AtStart::Fallen => return Ok(Some((0.0, *crossing))),
-                        AtStart::Values(values) => along = along.starting_with(&values),
-                        AtStart::AsItIs => {}
+                    match first_sign(&regime.flow, functional.now(), &self.state) {
+                        Some((_, false)) if self.ties < 2 || !crossing.is_of_friction() => {
+                            return Ok(Some((0.0, *crossing)));
+                        }
+                        Some((_, false)) => from = TIE,
+                        Some((0, true)) => {}
+                        Some((order, true)) if order < 4 => along = along.starting_with(&[0.0; 3][..order]),
+                        // It rests at zero, or leaves it too slowly to be told from that yet.
+                        _ => {
+                            resting[index] = true;
+                            continue;
+                        }
                     }
                 }
                 let until = first.map_or(left, |(at, _)| at);
-                if let Some([at, _]) = along.first_fall(until)?
+                if let Some([at, _]) = along.first_fall_from(from, until)?
                     && at < until
                 {
                     first = Some((at, *crossing));
@@ -614,12 +660,12 @@ impl StatorEngine {
             (state[SIN], state[COS]) = sin_cos(self.now.phase.angle() + (steps % whole) as f64 * step);
             if steps.is_multiple_of(whole) {
                 if repeats(&begun, &state) {
-                    let lost = begun[SPEED] - state[SPEED];
-                    let gains = match grip {
-                        Grip::Stick => true,
-                        slide => slide.sign() * lost <= SAME * (1.0 + state[SPEED].abs()),
-                    };
-                    if gains || self.system.base.friction() == 0.0 {
+                    // Whether the speed drifts to the end of the slide, or to another line of the load.
+                    let gained = state[SPEED] - begun[SPEED];
+                    let drifts = gained.abs() > SAME * (1.0 + state[SPEED].abs());
+                    let slides_on = grip.sign() * gained >= 0.0 || self.system.base.friction() == 0.0;
+                    let node = usize::from(gained > 0.0);
+                    if !drifts || slides_on && regime.nodes[node].is_none() {
                         self.stage = Stage::Contact { grip, forever: true };
                         return Ok(None);
                     }
@@ -630,30 +676,6 @@ impl StatorEngine {
                 return Err(Error::SlipTooLong { duration: passed, limit: MAX_FLIGHT_DURATION });
             }
         }
-    }
-
-    /// What a functional that is zero within rounding at the start of a stage does next.
-    fn at_start(
-        &self,
-        regime: &Regime,
-        functional: &Functional<N>,
-        along: &bouncing_disk_core::numerics::linear_flow::TaylorStep,
-    ) -> AtStart {
-        let ([value, slope], _) = along.start();
-        let doubt = ROUNDING * size(functional.now(), &self.state);
-        if value > doubt {
-            return AtStart::AsItIs;
-        }
-        let first = regime.flow.derivative(functional.now());
-        let slope_doubt = ROUNDING * size(&first, &self.state);
-        if slope > slope_doubt {
-            return AtStart::Values(vec![0.0]);
-        }
-        if slope < -slope_doubt || value < -doubt {
-            return AtStart::Fallen;
-        }
-        let second = regime.flow.derivative(&first);
-        if dot(&second, &self.state) > 0.0 { AtStart::Values(vec![0.0, 0.0]) } else { AtStart::Fallen }
     }
 
     /// Disk and modes so long after the last event, if no event comes before.
@@ -685,6 +707,7 @@ impl StatorEngine {
         let (mut ledger, mut stator) =
             if self.with_energy { self.ledgers(span, &state) } else { Default::default() };
         let before = self.stated(&state, self.mode());
+        self.ties = if span == 0.0 && crossing.is_of_friction() { self.ties + 1 } else { 0 };
         self.now = self.now.after(PhaseSpan::from_radians(span));
         // The phase of the clock decides.
         (state[SIN], state[COS]) = (self.now.phase.sin(), self.now.phase.cos());
@@ -740,7 +763,7 @@ impl StatorEngine {
                 if let Stage::Flight(launch) = &mut self.stage
                     && span > 0.0
                 {
-                    *launch = if self.state[GAP] < 0.0 { Launch::Release } else { Launch::Air };
+                    *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Air };
                 }
                 Event::Joint
             }
@@ -782,7 +805,11 @@ impl StatorEngine {
         let mobility = self.system.mobility();
         let mut done = impact(mobility, base.friction(), base.restitution(), [velocity, slip]);
         // Free of each other, disk and stator approach with this acceleration.
-        let approach = -dot(&self.system.regimes[self.line][0].flow.derivative(&closing()), &self.state);
+        let mut thrown = self.state;
+        for (index, mode) in self.system.modes.iter().enumerate() {
+            thrown[VELOCITIES[index]] -= mode.by_force * done.normal + mode.by_torque * done.friction;
+        }
+        let approach = -dot(&self.system.regimes[self.line][0].flow.derivative(&closing()), &thrown);
         let lasts = 2.0 * done.velocity / (approach * (1.0 - base.restitution()));
         let rests = approach > 0.0 && lasts < CHATTER;
         if rests {
@@ -853,10 +880,7 @@ impl StatorEngine {
         self.settle_slip();
         let grip = self.onset(None);
         self.stage = Stage::Contact { grip, forever: false };
-        let force = self.regime().force.clone();
-        let value = dot(force.now(), &self.state);
-        let doubt = ROUNDING * size(force.now(), &self.state);
-        if value < -doubt {
+        if first_sign(&self.regime().flow, self.regime().force.now(), &self.state) == Some((0, false)) {
             self.stage = Stage::Flight(Launch::Rebound);
         }
     }
@@ -869,12 +893,11 @@ impl StatorEngine {
             return;
         }
         self.state[CLOSING] = 0.0;
-        let away = self.system.regimes[self.line][0].flow.derivative(&closing());
-        let (value, doubt) = (dot(&away, &self.state), ROUNDING * size(&away, &self.state));
-        if value < -doubt {
-            self.lie_down();
-        } else {
-            self.stage = Stage::Flight(if value > doubt { Launch::Rebound } else { Launch::Release });
+        let flow = &self.system.regimes[self.line][0].flow;
+        match first_sign(flow, &flow.derivative(&closing()), &self.state) {
+            Some((0, true)) => self.stage = Stage::Flight(Launch::Rebound),
+            Some((1, true)) => self.stage = Stage::Flight(Launch::Release),
+            _ => self.lie_down(),
         }
     }
 
@@ -883,18 +906,25 @@ impl StatorEngine {
         self.settle_slip();
         let grip = self.onset(None);
         self.stage = Stage::Contact { grip, forever: false };
+        if first_sign(&self.regime().flow, self.regime().force.now(), &self.state) == Some((0, false)) {
+            self.stage = Stage::Flight(if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound });
+        }
     }
 
     /// A slip of no more than rounding is none.
     fn settle_slip(&mut self) {
-        let [_, turn] = self.system.twist(&self.state);
-        if (self.state[SPEED] - turn).abs() <= 8.0 * f64::EPSILON * (self.state[SPEED].abs() + turn.abs()) {
-            self.state[SPEED] = turn;
+        let slip = self.system.regimes[self.line][0].slip.now();
+        if dot(slip, &self.state).abs() <= 0.125 * ROUNDING * size(slip, &self.state) {
+            self.state[SPEED] = self.system.twist(&self.state)[1];
         }
     }
 
     /// Whether friction holds, or in which direction the disk slides; `spent`: the slide that has just ended.
     fn onset(&self, spent: Option<Mode>) -> Grip {
+        if self.system.base.friction() == 0.0 {
+            // Nothing holds it.
+            return Grip::Forward;
+        }
         let slip = self.slip();
         if spent.is_none() {
             match SlipDirection::of(slip) {
@@ -909,7 +939,7 @@ impl StatorEngine {
             let first = stick.flow.derivative(hold.now());
             value < -doubt || value <= doubt && dot(&first, &self.state) < 0.0
         };
-        if self.system.base.friction() > 0.0 {
+        {
             let before = spent.map(|mode| mode == Mode::Sliding(SlipDirection::Forward));
             if gives(&stick.hold[0]) && before != Some(false) {
                 return Grip::Backward;
@@ -928,12 +958,17 @@ impl StatorEngine {
     }
 }
 
-/// What a functional that is zero within rounding does next.
-enum AtStart {
-    AsItIs,
-    /// It rises: its value, and perhaps its slope, are exactly zero.
-    Values(Vec<f64>),
-    Fallen,
+/// Which derivative of a functional is the first one beyond rounding, and whether it is positive; `None` if none is.
+fn first_sign(flow: &LinearFlow<N>, functional: &State, state: &State) -> Option<(usize, bool)> {
+    let mut of = *functional;
+    for order in 0..6 {
+        let value = dot(&of, state);
+        if value.abs() > ROUNDING * size(&of, state) {
+            return Some((order, value > 0.0));
+        }
+        of = flow.derivative(&of);
+    }
+    None
 }
 
 pub(super) fn size(functional: &Vector<N>, state: &State) -> f64 {
@@ -977,10 +1012,10 @@ fn rung(stiffness: f64, damping: f64, [r, v]: [f64; 2], time: f64) -> [f64; 2] {
 /// The integral of exp(-rate s) from 0 to `time`, and the integral of that.
 fn exponential_integrals(rate: f64, time: f64) -> (f64, f64) {
     let x = rate * time;
-    if x.abs() < 1.0e-2 {
+    if x.abs() < 0.5 {
         let series = |first: f64| {
             // 1/first! - x/(first + 1)! + ...
-            (1..=6).rev().fold(1.0, |sum, k| 1.0 - x / (first + f64::from(k)) * sum)
+            (1..=14).rev().fold(1.0, |sum, k| 1.0 - x / (first + f64::from(k)) * sum)
         };
         return (time * series(1.0), 0.5 * time * time * series(2.0));
     }

@@ -290,12 +290,15 @@ fn attack_seams(count: usize, events: usize) -> usize {
                 before.state,
                 system.base.parameters()
             );
+            // Where a rotor hardly turns its energy is rounding beside the rest.
+            let (disk, modes) = (&record.ledger, &record.stator);
+            let left = disk.axial_closure().abs() + 0.5 * disk.rotary_closure().abs() + modes.closure().abs();
+            let size = disk.axial_magnitude + 0.5 * disk.rotary_magnitude + modes.magnitude;
             assert!(
-                record.relative_closure() < 1e-11,
-                "{trial} {record:#?} {:?} {:?} {:?}",
+                left <= 1e-12 * size,
+                "{trial} {left} {size} {record:#?} {:?} {:?}",
                 before.stage,
-                before.state,
-                system.base.parameters()
+                before.state
             );
             for k in 1..40 {
                 let state = before.carried(span * f64::from(k) / 40.0);
@@ -373,6 +376,82 @@ impl StatorEngine {
                 }
             }
             Stage::Ended => {}
+        }
+    }
+}
+
+/// A motion that is stored at any time, or paused, goes on to the same next event.
+#[test]
+fn a_stored_motion_goes_on() {
+    let mut random = SplitMix64::new(23);
+    let base = base(4.0, 6.0, 0.4, 0.15, 0.6, 0.01);
+    for modes in stators(&mut random) {
+        for contact_time in [None, Some(0.9), Some(6.0)] {
+            let Ok(system) = StatorSystem::build(&base, &modes, 0.8, contact_time) else { continue };
+            let mut engine = StatorEngine::new(system.clone(), start(1.0)).expect("legal");
+            for _ in 0..200 {
+                let before = engine.clone();
+                let Some(next) = engine.advance().expect("no failure") else { break };
+                let span = next.span.radians();
+                if span < 1e-3 {
+                    // The difference of two heights has lost the digits of so low a flight.
+                    continue;
+                }
+                let part = random.unit() * span;
+                let (time, state) = before.state_after(part);
+                let mut paused = before.clone();
+                paused.pause(part);
+                let mut stored = StatorEngine::of_state(system.clone(), time, state).expect("legal");
+                for resumed in [&mut paused, &mut stored] {
+                    let own = resumed.advance().expect("no failure").expect("an event");
+                    let near = |own: f64, known: f64| (own - known).abs() < 1e-9 * (1.0 + span);
+                    let same = std::mem::discriminant(&own.event) == std::mem::discriminant(&next.event);
+                    assert!(
+                        same && near(part + own.span.radians(), span),
+                        "{part} {own:#?} {next:#?} {before:?}"
+                    );
+                    assert!(
+                        near(own.after.disk.axial_velocity, next.after.disk.axial_velocity),
+                        "{part} {span} {own:#?} {next:#?} {:?} {contact_time:?} {modes:?}",
+                        before.state
+                    );
+                    assert!(near(own.after.disk.angular_speed, next.after.disk.angular_speed));
+                }
+            }
+        }
+    }
+}
+
+/// A fan has a node at rest: a rotor that rests there, on a still stator or after a slip, goes on in time.
+#[test]
+fn a_load_with_a_node_at_rest_does_not_stop_the_time() {
+    let base = base(3.0, 5.0, 0.3, 0.2, 0.5, 0.0);
+    let still = DimensionlessParameters { peak_acceleration: 0.0, twist_speed: 0.0, ..base.parameters() };
+    let still = still.build().expect("legal");
+    let lines = [
+        LoadLine { from: f64::NEG_INFINITY, to: 0.0, torque: 0.0, slope: -0.01 },
+        LoadLine { from: 0.0, to: f64::INFINITY, torque: 0.0, slope: 0.01 },
+    ];
+    for modes in [vec![], vec![YieldingMode::axial(3.0, 1.0, 30.0)]] {
+        let system =
+            StatorSystem::new(&base, &modes).and_then(|system| system.with_load(&lines)).expect("legal");
+        let rest = system.with_base(&still).expect("legal");
+        for (from, to) in [(&rest, &system), (&system, &rest)] {
+            let mut engine = StatorEngine::new(from.clone(), start(0.3)).expect("legal");
+            let run = |engine: &mut StatorEngine, until: f64| {
+                let begun = engine.time();
+                for _ in 0..3_000 {
+                    let left = until - engine.time().since(&begun).radians();
+                    if engine.advance_within(left).expect("no failure").is_none() {
+                        engine.pause(left);
+                        return;
+                    }
+                }
+                panic!("time stands still: {engine:?}");
+            };
+            run(&mut engine, 300.0);
+            engine.switch(0.0, to.clone());
+            run(&mut engine, 300.0);
         }
     }
 }

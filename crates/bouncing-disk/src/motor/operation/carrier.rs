@@ -109,7 +109,7 @@ impl CarriedEngine {
         }
     }
 
-    /// The next event within `limit`, the energy balances up to it, and the angle that the rotor turns.
+    /// The next event within `limit`, the energy balances up to it
     pub(crate) fn advance_within(
         &mut self,
         limit: f64,
@@ -159,11 +159,27 @@ impl CarriedEngine {
         }
     }
 
-    /// The amplitude to which the axial mode would ring freely.
-    pub(crate) fn amplitude(&self) -> Option<f64> {
+    /// The amplitude to which the axial mode would ring freely, so long after the last event.
+    pub(crate) fn amplitude_after(&self, span: f64) -> Option<f64> {
         match self {
             Self::Driven(_) => None,
-            Self::Yielding(engine) => engine.amplitude(),
+            Self::Yielding(engine) => engine.amplitude_after(span),
+        }
+    }
+
+    /// Whether the rotor lies on a stator that yields.
+    pub(crate) fn lies(&self) -> bool {
+        matches!(self, Self::Yielding(engine) if !engine.launches())
+    }
+
+    /// Goes on from so long after the last event, if none comes before: what follows need not be followed from there.
+    pub(crate) fn pause(&mut self, span: f64) -> (EnergyLedger, StatorLedger) {
+        match self {
+            Self::Driven(_) => Default::default(),
+            Self::Yielding(engine) => {
+                let record = engine.pause(span);
+                (record.ledger, record.stator)
+            }
         }
     }
 

@@ -19,9 +19,6 @@ use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
 use crate::stator::StatorLedger;
 
-/// A rotor on a stator that yields lies if so many events in a row are of friction alone. Each further one recurs.
-const LIES: u64 = 100;
-
 /// All rotors of a member.
 #[derive(Debug)]
 pub(crate) struct Driven {
@@ -45,8 +42,6 @@ struct Rotor {
     impacts: u64,
     /// Impacts, and what of the events of a contact that takes time recurs without an impact.
     recurrences: u64,
-    /// Events of friction since the last touch or launch.
-    slips: u64,
     /// At the end of the last window.
     before: Totals,
 }
@@ -85,7 +80,6 @@ impl Driven {
                 given: 0.0,
                 impacts: 0,
                 recurrences: 0,
-                slips: 0,
                 before: Totals::default(),
             };
             rotor.before = rotor.totals(&reached);
@@ -184,7 +178,11 @@ impl Driven {
                     perturbation_work: change(|totals| totals.given),
                     restitution_loss: change(|totals| totals.ledger.restitution_loss),
                     energy_change: change(|totals| totals.axial_energy),
-                    impacts: if lies { (duration / TAU + 0.5) as u64 } else { now.impacts - before.impacts },
+                    impacts: if lies || now.impacts == before.impacts {
+                        (duration / TAU + 0.5) as u64
+                    } else {
+                        now.impacts - before.impacts
+                    },
                 }
             };
             if index == 0 {
@@ -219,10 +217,14 @@ impl Rotor {
     ) -> Result<(PhaseTime, bool), Error> {
         let end = from.after(PhaseSpan::from_radians(duration));
         let before = self.recurrences;
+        let yields = self.engine.driven().is_none();
+        let anywhere = anywhere && (self.takes_time || yields);
+        let impacts_before = self.impacts;
         loop {
-            let anywhere = anywhere && (self.takes_time || self.slips > LIES);
             let (now, done) = (self.engine.time(), self.recurrences - before);
-            let lasts = now.order(&end).is_ge() && done >= *impacts.start();
+            // A rotor that lies on a stator that yields has events of friction only, or none.
+            let lies = yields && self.impacts == impacts_before;
+            let lasts = now.order(&end).is_ge() && (lies || done >= *impacts.start());
             if (lasts || done >= *impacts.end()) && (anywhere || self.engine.launches()) {
                 return Ok((now, false));
             }
@@ -239,6 +241,11 @@ impl Rotor {
     /// Goes on to this time.
     fn follow(&mut self, to: &PhaseTime, work: &mut WorkCount<'_>) -> Result<(), Error> {
         while self.advance(to.since(&self.engine.time()).radians(), work)? {}
+        if self.engine.lies() {
+            let (ledger, stator) = self.engine.pause(to.since(&self.engine.time()).radians());
+            self.ledger += ledger;
+            self.stator += stator;
+        }
         Ok(())
     }
 
@@ -254,6 +261,9 @@ impl Rotor {
                 self.recurrences += 1;
             }
             Event::Turn => self.recurrences += 1,
+            Event::SlipToStick | Event::SlipReversal(_) if self.engine.driven().is_none() => {
+                self.recurrences += 1
+            }
             Event::Separation => {
                 let speed = self.perturbation * self.generator.unit();
                 let before = self.engine.disk().axial_velocity;
@@ -261,14 +271,8 @@ impl Rotor {
                 let after = self.engine.disk().axial_velocity;
                 self.given += 0.5 * (after - before) * (after + before);
             }
-            _ if self.engine.driven().is_none() => {
-                self.slips += 1;
-                self.recurrences += u64::from(self.slips > LIES);
-                return Ok(true);
-            }
             _ => {}
         }
-        self.slips = 0;
         Ok(true)
     }
 

@@ -16,7 +16,7 @@ use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
-use crate::stator::StatorLedger;
+use crate::stator::{StatorLedger, StatorSystem};
 
 /// Windows of the first round, and windows in the time in which friction gives the platform's largest speed.
 const FIRST_WINDOWS: usize = 12;
@@ -97,7 +97,9 @@ impl LoadedMotor<'_> {
     /// weight under preload, so that friction gives no more, whatever the motion.
     fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
-        system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
+        let varies =
+            self.stator.and_then(|(_, carrier)| carrier.yielding()).is_some_and(StatorSystem::load_varies);
+        !varies && system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
     }
 
     fn runaway(&self) -> Operation {

@@ -75,7 +75,8 @@ impl Member {
         if !carriers.is_empty() {
             let starts = starts.iter().map(|&(motor, speed)| (&carriers[motor], speed));
             let member = Driven::new(starts.clone(), phase, perturbation)?;
-            return Ok(match member.lies_for_ever() {
+            let lies = member.lies_for_ever() && carriers.iter().all(|carrier| carrier.driven().is_some());
+            return Ok(match lies {
                 false => Self::Driven(Box::new(member)),
                 true => Self::Lying(Lying::new(lying(), phase)),
             });
