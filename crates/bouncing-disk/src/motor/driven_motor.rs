@@ -279,7 +279,7 @@ impl DrivenMotor {
         settings.check_for(&unit)?;
         let watch = Watch::begin(observer, 0, settings.intervals as u64)?;
         let mut work = watch.work();
-        let (load, mut amplitudes) = (self.motor.load(), Vec::new());
+        let (load, mut amplitudes, mut switched) = (self.motor.load(), Vec::new(), 0.0);
         let mut engine = match load {
             Some(_) => {
                 Carrier::Yielding(Box::new(self.carrier_at(0.0)?)).start(phase, 0.0, settings.policy)?
@@ -321,8 +321,7 @@ impl DrivenMotor {
             work.spend(FLIGHTS_OF_EVENT)?;
             let (angle, now) = (engine.disk().angle, engine.time().since(&began).radians());
             let left = settings.duration / unit.time - now;
-            let change =
-                load.and_then(|load| load.next_change_after(now * unit.time * (1.0 + 4.0 * f64::EPSILON)));
+            let change = load.and_then(|load| load.next_change_after(switched));
             let change = change.filter(|change| change / unit.time < left + now);
             let mut until = change.map_or(left, |change| (change / unit.time - now).max(0.0));
             let yields = engine.amplitude_after(0.0).is_some();
@@ -342,6 +341,7 @@ impl DrivenMotor {
                 }
                 if let Some(change) = change {
                     engine.switch(until, self.carrier_at(change)?);
+                    switched = change;
                     bins.add(change, engine.disk().angle - angle);
                     continue;
                 }
@@ -404,6 +404,7 @@ mod tests {
 
     use super::*;
     use crate::motor::Estimate;
+    use crate::parameters::stator::StatorParameters;
 
     fn settings() -> OperatingSettings {
         OperatingSettings { relative_error: 0.04, members: 4, ..OperatingSettings::default() }
@@ -536,5 +537,72 @@ mod tests {
             assert!((own.friction_loss.value - loss).abs() < 1e-6 * loss, "{own:?} {known:?}");
             assert!(own.energy_residual < 1e-9, "{own:?}");
         }
+    }
+
+    fn on_stator(
+        mass: f64,
+        quality: f64,
+        change: impl FnOnce(&mut crate::motor::MotorParameters),
+    ) -> DrivenMotor {
+        let modes =
+            StatorParameters { mass: Some(mass), quality: Some(quality), ..StatorParameters::default() };
+        let motor = Motor::paper_70_khz().with(|sheet| {
+            sheet.stator = Some(modes);
+            change(sheet);
+        });
+        DrivenMotor::where_needed(motor.expect("legal"), &DriveParameters::default())
+            .expect("legal")
+            .expect("yields")
+    }
+
+    /// A stator of a thousand tons is prescribed; one of 10 g is damped by the rotor, and lifts none that presses too
+    /// hard, but answers.
+    #[test]
+    fn a_stator_yields_by_its_mass() {
+        let point = |motor: &DrivenMotor| {
+            motor.torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure").swap_remove(0)
+        };
+        let heavy = point(&on_stator(1e6, 300.0, |_| {}));
+        let known =
+            Motor::paper_70_khz().torque_speed_curve(&[0.0], &settings(), &Unobserved).expect("no failure");
+        let (own, known) = (heavy.steady().expect("known"), known[0].steady().expect("known"));
+        let error = own.speed.standard_error + known.speed.standard_error;
+        assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
+        let stator = own.stator.expect("yields");
+        assert!((stator.amplitude.value / 1e-8 - 1.0).abs() < 1e-6 && own.energy_residual < 1e-9, "{own:?}");
+        let light = |preload: f64| {
+            on_stator(0.01, 300.0, |sheet| {
+                (sheet.amplitude, sheet.preload_acceleration) = (Some(1e-7), Some(preload));
+            })
+        };
+        let own = *point(&light(5.0)).point().expect("it turns");
+        let stator = own.stator.expect("yields");
+        // By an integration in small steps: 0.6861 of the amplitude without a rotor, 8.10 mW.
+        assert!((stator.amplitude.value / 1e-7 - 0.686).abs() < 0.01, "{own:?}");
+        let drive = stator.drive_power.value;
+        let lost = stator.damping_loss.value + own.restitution_loss.value + own.friction_loss.value;
+        assert!((drive / 8.17e-3 - 1.0).abs() < 0.02 && (drive / lost - 1.0).abs() < 0.02, "{own:?}");
+        // A rotor that is never lifted off: by periods, in place of impacts.
+        let few = OperatingSettings { most_impacts: 2_000, ..settings() };
+        let weighed = light(25.0).torque_speed_curve(&[0.0], &few, &Unobserved).expect("no failure");
+        let weighed = *weighed[0].point().expect("it does not run away");
+        assert!(weighed.impacts > 0 && weighed.energy_residual < 1e-9, "{weighed:?}");
+        assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
+    }
+
+    /// The drive is switched off at half of a run-up: the modes ring down within 2 Q/omega, and the rotor stops.
+    #[test]
+    fn a_run_up_ends_when_the_drive_is_switched_off() {
+        let motor = on_stator(1.0, 300.0, |sheet| {
+            sheet.load = LoadLaw::fan(20.0, 1e-7, 4).and_then(|load| load.with_drive(0.005, 0.05)).ok();
+            sheet.peak_angular_speed = Some(3.0);
+        });
+        let settings = TransientSettings { duration: 0.1, intervals: 100, ..TransientSettings::default() };
+        let (curve, amplitudes) =
+            motor.run_up(Phase::new(1.0).expect("finite"), &settings, &Unobserved).expect("legal");
+        assert!(amplitudes.len() == 100 && curve.speeds.len() == 100);
+        assert!(amplitudes[..4].iter().all(|amplitude| *amplitude < 1e-10), "{amplitudes:?}");
+        assert!(amplitudes[48] > 5e-9 && amplitudes[99] < 0.2 * amplitudes[48], "{amplitudes:?}");
+        assert!(curve.speeds[48] > 0.1, "{:?}", curve.speeds);
     }
 }

@@ -86,14 +86,15 @@ pub(super) enum Stage {
 }
 
 /// How a flight begins, which says which derivatives of the gap vanish at its start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Launch {
     /// Above the platform.
     Air,
     /// From the platform with a speed.
     Rebound,
     /// By a force that falls to zero: in a rigid contact with no acceleration, in a soft one below the platform.
-    Release,
+    /// With its third derivative.
+    Release(f64),
     /// Below the platform of a soft contact, where spring and damper would pull.
     Below,
 }
@@ -280,7 +281,7 @@ impl StatorEngine {
 
     /// Adds a relative speed >= 0 to a flight that starts now from the stator; does nothing at any other time.
     pub(crate) fn perturb_launch(&mut self, speed: f64) {
-        if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release)) = &mut self.stage {
+        if let Stage::Flight(launch @ (Launch::Rebound | Launch::Release(_))) = &mut self.stage {
             self.state[CLOSING] += speed;
             if speed > 0.0 {
                 *launch = if self.state[GAP] < 0.0 { Launch::Below } else { Launch::Rebound };
@@ -358,7 +359,7 @@ impl StatorEngine {
         match (self.stage, self.system.contact) {
             (Stage::Contact { .. }, Contact::Rigid) => self.lie_down(),
             (Stage::Contact { .. }, Contact::Soft { .. }) => self.press(),
-            (Stage::Flight(Launch::Rebound | Launch::Release), Contact::Rigid) => self.leave(),
+            (Stage::Flight(Launch::Rebound | Launch::Release(_)), Contact::Rigid) => self.leave(),
             _ => {}
         }
     }
@@ -468,14 +469,16 @@ impl StatorEngine {
                 gap = match launch {
                     Launch::Air | Launch::Below => gap,
                     Launch::Rebound => gap.starting_with(&[0.0, self.state[CLOSING]]),
-                    Launch::Release if soft => gap.starting_with(&[0.0, self.state[CLOSING]]),
-                    Launch::Release => gap.starting_with(&[0.0, 0.0, 0.0]),
+                    Launch::Release(_) if soft => gap.starting_with(&[0.0, self.state[CLOSING]]),
+                    Launch::Release(third) => {
+                        gap.starting_with(&[0.0, 0.0, 0.0, third.max(f64::MIN_POSITIVE)])
+                    }
                 };
             }
             if inside {
                 let rises = regime.gap.along(&state, error).negated();
                 let mut pull = regime.force.along(&state, error).negated();
-                if passed == 0.0 && launch == Launch::Release {
+                if passed == 0.0 && matches!(launch, Launch::Release(_)) {
                     pull = pull.starting_with(&[0.0]);
                 }
                 let free = rises.first_fall(left)?.map(|[at, _]| at);
@@ -733,9 +736,20 @@ impl StatorEngine {
                 Event::Recontact
             }
             Crossing::Release => {
-                self.stage = Stage::Flight(Launch::Release);
+                // The force falls through zero: so the gap opens, whatever rounding makes of its derivatives.
+                let regime = self.regime();
+                let falls = -dot(&regime.flow.derivative(regime.force.now()), &self.state);
+                self.stage = Stage::Flight(Launch::Release(0.0));
                 if rigid {
-                    self.leave();
+                    self.state[CLOSING] = 0.0;
+                    let flow = &self.system.regimes[self.line][0].flow;
+                    let away = flow.derivative(&closing());
+                    let third = dot(&flow.derivative(&away), &self.state);
+                    let third = if third > 0.0 { third } else { self.system.mobility()[0][0] * falls };
+                    self.stage = Stage::Flight(Launch::Release(third));
+                    if first_sign(flow, &away, &self.state) == Some((0, true)) {
+                        self.stage = Stage::Flight(Launch::Rebound);
+                    }
                 }
                 Event::Separation
             }
@@ -759,6 +773,8 @@ impl StatorEngine {
                 }
             }
             Crossing::Line(line) => {
+                let old = self.system.lines[self.line];
+                self.state[SPEED] = if line < self.line { old.from } else { old.to };
                 self.line = line;
                 if let Stage::Flight(launch) = &mut self.stage
                     && span > 0.0
@@ -896,7 +912,10 @@ impl StatorEngine {
         let flow = &self.system.regimes[self.line][0].flow;
         match first_sign(flow, &flow.derivative(&closing()), &self.state) {
             Some((0, true)) => self.stage = Stage::Flight(Launch::Rebound),
-            Some((1, true)) => self.stage = Stage::Flight(Launch::Release),
+            Some((1, true)) => {
+                let third = dot(&flow.derivative(&flow.derivative(&closing())), &self.state);
+                self.stage = Stage::Flight(Launch::Release(third));
+            }
             _ => self.lie_down(),
         }
     }

@@ -560,7 +560,9 @@ impl Sum {
         let rotary_left = rotor.friction_work - rotor.friction_loss - rotor.load_work - rotor.kinetic_change;
         let stator_left = self.stator().closure() * units.axial;
         let left = (axial_left * units.axial).abs() + (rotary_left * units.rotary).abs() + stator_left.abs();
-        let scale = self.energy_scale(units, motor, members);
+        // The modes of a heavy stator hold much more than the disk.
+        let modes = self.stator();
+        let scale = self.energy_scale(units, motor, members) + modes.drive_work.abs() * units.axial;
         if scale > 0.0 { left / scale } else { left }
     }
 }
