@@ -306,11 +306,6 @@ impl StatorSystem {
         self.lines.iter().any(|line| line.slope != 0.0)
     }
 
-    /// Whether one mode moves in height and twists, so that the twist follows the height.
-    pub(crate) fn has_one_motion(&self) -> bool {
-        self.modes.iter().any(|mode| mode.height != 0.0 && mode.angle != 0.0)
-    }
-
     /// Whether contacts take time.
     pub(crate) const fn takes_time(&self) -> bool {
         self.contact_time.is_some()
