@@ -90,7 +90,7 @@ const single = filled(html, {
   styles: `<style>${page.styles}</style>`,
   scripts:
     `<script type="text/plain" id="worker-script">${inScript(workerScript)}</script>\n` +
-    `<script type="text/plain" id="module-base64">${module.toString("base64")}</script>\n` +
+    `<script type="text/plain" id="module-base64">${gzipSync(module, { level: 9 }).toString("base64")}</script>\n` +
     `<script>${pageScript}</script>`,
 });
 const hosted = filled(html, {

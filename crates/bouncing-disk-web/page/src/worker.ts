@@ -1,6 +1,6 @@
 /** What the page and a worker say to each other. */
 
-/** Where a worker finds the module: compiled by another worker, as base64 text, or at an address beside the page. */
+/** Where a worker finds the module: compiled by another worker, compressed by gzip as base64 text, or at an address beside the page. */
 export type ModuleSource = { compiled: WebAssembly.Module } | { base64: string } | { address: string };
 
 export type ToWorker =
@@ -57,7 +57,10 @@ function decoded(base64: string): Uint8Array<ArrayBuffer> {
 
 async function compiled(source: ModuleSource): Promise<WebAssembly.Module> {
   if ("compiled" in source) return source.compiled;
-  if ("base64" in source) return WebAssembly.compile(decoded(source.base64));
+  if ("base64" in source) {
+    const inflated = new Blob([decoded(source.base64)]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return WebAssembly.compile(await new Response(inflated).arrayBuffer());
+  }
   const response = await fetch(source.address);
   if (!response.ok) throw new Error(`${source.address} is not there (status ${response.status})`);
   // Not compileStreaming: some static hosts send the module with another media type.
