@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with the normal force N >= 0 and the torque T of friction on the disk. All that happens between two events is a
-//! [linear flow](regime), so that the first root of gap, force or slip is certain; an impact has the law of
-//! [`impact`](impact), which cannot create energy (docs/numerics/stators.md).
+//! linear flow, so that the first root of gap, force or slip is certain; an impact has the law of
+//! Routh and Stronge, which cannot create energy (docs/numerics/stators.md).
 //!
 //! ```
 //! use bouncing_disk::System;
@@ -150,7 +150,7 @@ impl PartialEq for StatorSystem {
 impl StatorSystem {
     /// The system on a stator with these modes, at most two, whose steady motion without a disk is that of `system`.
     /// What no mode moves is prescribed. Rigid impacts; the radii a_e and a_g are equal, which matters for modes that
-    /// move in height and twist ([`Self::with_arm`]).
+    /// move in height and twist ([`Self::build`]).
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for numbers outside the ranges of [`YieldingMode`], for more than [`MODES`] modes, for a
