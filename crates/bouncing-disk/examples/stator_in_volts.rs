@@ -1,4 +1,7 @@
 //! What a stator does without a rotor under a voltage: amplitude, current and power.
+//!
+//!     cargo run --release -p bouncing-disk --example stator_in_volts
+#![allow(clippy::print_stdout, reason = "an example shows its result")]
 
 use bouncing_disk::Motor;
 use bouncing_disk::parameters::StatorParameters;
