@@ -50,7 +50,8 @@ impl Motor {
     /// The items of `observer` are the impacts of up to three motions, each counted from 0.
     ///
     /// # Errors
-    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; those of the core, for a flight longer than it can count.
+    /// [`Error::YieldingStator`], of which [`Self::stator_report`] says what is known; those of the core, for a flight
+    /// longer than it can count.
     pub fn report(&self, observer: &dyn Observer) -> Result<MotorReport, Error> {
         self.system().prescribed()?;
         let (regime, flight) = regime(self.system().dimensionless(), observer)?;

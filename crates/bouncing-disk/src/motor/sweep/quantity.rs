@@ -31,14 +31,10 @@ pub enum SweepQuantity {
 
 impl SweepQuantity {
     /// All quantities but those of a stator that yields, in the order of the columns of a table.
-    pub const ALL: [Self; 6] = [
-        Self::Speed,
-        Self::MechanicalPower,
-        Self::InputPower,
-        Self::RestitutionLoss,
-        Self::FrictionLoss,
-        Self::Efficiency,
-    ];
+    pub const ALL: [Self; 6] = {
+        let [a, b, c, d, e, f, ..] = Self::WITH_STATOR;
+        [a, b, c, d, e, f]
+    };
 
     /// All quantities, those of a stator that yields last.
     pub const WITH_STATOR: [Self; 10] = [
