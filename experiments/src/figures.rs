@@ -19,6 +19,7 @@ pub mod extra_regimes;
 pub mod extra_restitution_law;
 pub mod extra_torque_speed;
 pub mod extra_traps;
+pub mod extra_yielding;
 pub mod fig01;
 pub mod fig02;
 pub mod fig03;

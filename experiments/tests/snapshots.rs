@@ -63,6 +63,7 @@ snapshots![
     extra_attractors,
     extra_drives,
     extra_contact,
+    extra_yielding,
 ];
 
 /// The identifier of the experiment whose test has this name, which cannot have hyphens.

@@ -8,6 +8,7 @@ pub(crate) mod stall;
 pub(crate) mod toss;
 
 use bouncing_disk::core::chaos::Manifold;
+use bouncing_disk::core::numerics::elementary::{exp, ln};
 use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{ImpactMap, ImpactState, Vibration};
 
@@ -19,6 +20,16 @@ pub(crate) const FORCING_RANGE: (f64, f64) = (0.30, 0.62);
 
 pub(crate) fn map(axial_forcing: f64, restitution: f64) -> Result<ImpactMap, ExperimentError> {
     Ok(ImpactMap::new(Vibration::from_axial_forcing(axial_forcing)?, restitution)?)
+}
+
+/// The value at a share of the way between two ends, in equal ratios.
+pub(crate) fn between((from, to): (f64, f64), share: f64) -> f64 {
+    exp(ln(from) + (ln(to) - ln(from)) * share)
+}
+
+/// `count` values at equal ratios from one end to the other.
+pub(crate) fn logarithmic(ends: (f64, f64), count: usize) -> Vec<f64> {
+    (0..count).map(|k| between(ends, k as f64 / (count - 1) as f64)).collect()
 }
 
 /// What `of` makes of each item, in their order, over all threads; of several errors the one of the first item.

@@ -2,7 +2,6 @@
 
 use std::f64::consts::{PI, TAU};
 
-use bouncing_disk::core::numerics::elementary::{exp, ln};
 use bouncing_disk::core::numerics::random::SplitMix64;
 use bouncing_disk::core::run::in_parallel;
 use bouncing_disk::core::{
@@ -17,6 +16,7 @@ use super::{
     RESTITUTIONS, Run, SEED, TRANSITION, Transition,
 };
 use crate::experiment::{ExperimentError, Quality};
+use crate::figures::shared::{between, logarithmic};
 use crate::progress::Progress;
 
 /// Parts of the period into which impulses are sorted, and phase lags among which the best is chosen.
@@ -133,16 +133,6 @@ fn at_one_phase(phases: &[f64]) -> bool {
         let apart = (pair[1] - pair[0]).rem_euclid(TAU);
         apart.min(TAU - apart) < 1e-3
     })
-}
-
-/// The value at a share of the way between two ends, in equal ratios.
-fn between((from, to): (f64, f64), share: f64) -> f64 {
-    exp(ln(from) + (ln(to) - ln(from)) * share)
-}
-
-/// `count` values at equal ratios from one end to the other.
-fn logarithmic(ends: (f64, f64), count: usize) -> Vec<f64> {
-    (0..count).map(|k| between(ends, k as f64 / (count - 1) as f64)).collect()
 }
 
 /// Results in parallel, in order.
