@@ -4,15 +4,20 @@ use std::str::FromStr;
 
 use bouncing_disk::core::Unobserved;
 use bouncing_disk::estimate::{
-    CsvColumns, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds, RiseEstimate, RiseForm, Spread,
+    CsvColumns, FitParameter, FitRange, FitSettings, IntervalEstimate, MeasuredRun, MeasuredSpeeds,
+    RatedCondition, RatedFit, RatedFitSettings, RatedPoint, RiseEstimate, RiseForm, Spread,
     TransientEnsemble, TransientFit, UnknownUnit,
 };
-use bouncing_disk::motor::{MotorParameters, SpeedCurve, TransientMember, TransientSettings};
+use bouncing_disk::motor::{
+    MotorField, MotorParameters, OperatingSettings, SpeedCurve, TransientMember, TransientSettings,
+};
 use bouncing_disk::{Error, System as SystemModel};
 use numpy::PyArray1;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyMapping};
 
-use crate::arguments::{Arguments, Made, runs};
+use crate::arguments::{Arguments, Made, Real, runs};
 use crate::errors;
 use crate::parameters::Motor;
 use crate::results::{array, column, make, matrix, room_for};
@@ -124,6 +129,72 @@ pub(crate) fn fit_transients(a: Arguments<'_>) -> Made<'_> {
         fit.duration,
         fit.points,
         fit.members,
+    )
+}
+
+/// A rated point from its numbers by name.
+fn rated_point(numbers: &Bound<'_, PyMapping>) -> PyResult<RatedPoint> {
+    let mut point = RatedPoint { speed: f64::NAN, speed_error: 0.0, conditions: Vec::new() };
+    let mut errors = Vec::new();
+    for item in numbers.items()? {
+        let (name, Real(value)): (String, Real) = item.extract()?;
+        let field = |name: &str| {
+            name.parse::<MotorField>().map_err(|unknown| PyValueError::new_err(format!("points: {unknown}")))
+        };
+        match (name.as_str(), name.strip_suffix("_error")) {
+            ("speed", _) => point.speed = value,
+            ("speed_error", _) => point.speed_error = value,
+            (_, Some(of)) => errors.push((field(of)?, value)),
+            (name, None) => point.conditions.push(RatedCondition { field: field(name)?, value, error: 0.0 }),
+        }
+    }
+    for (field, error) in errors {
+        let own = point.conditions.iter_mut().find(|own| own.field == field);
+        let missing = || PyValueError::new_err(format!("points: the error of {field} is without a value"));
+        own.ok_or_else(missing)?.error = error;
+    }
+    Ok(point)
+}
+
+/// Parameters of a motor from the points that its maker prints.
+#[pyfunction]
+pub(crate) fn fit_rated_points(a: Arguments<'_>) -> Made<'_> {
+    let (motor, py) = (a.motor()?, a.py());
+    let points = a.of::<Vec<Bound<'_, PyMapping>>>("points")?;
+    let points = points.iter().map(rated_point).collect::<PyResult<Vec<_>>>()?;
+    let mut ranges = Vec::new();
+    for item in a.of::<Bound<'_, PyMapping>>("ranges")?.items()? {
+        let (name, [Real(low), Real(high)]): (String, [Real; 2]) = item.extract()?;
+        let parameter = FitParameter::ALL.into_iter().find(|parameter| parameter.name() == name);
+        let all = FitParameter::ALL.map(FitParameter::name).join(", ");
+        let unknown =
+            || PyValueError::new_err(format!("ranges: {name:?} cannot be fitted; possible are {all}"));
+        ranges.push(FitRange { parameter: parameter.ok_or_else(unknown)?, low, high });
+    }
+    let defaults = RatedFitSettings::default();
+    let operating = OperatingSettings {
+        seed: a.u64("seed")?,
+        most_impacts: a.u64("most_impacts")?,
+        ..defaults.operating
+    };
+    let settings = RatedFitSettings { most_evaluations: a.usize("most_evaluations")?, operating, ..defaults };
+    let fit = a.run_fit(|observer| RatedFit::new(&motor, &points, &ranges, &settings, observer))?;
+    let (accepted, fitted) = (PyDict::new(py), |of: fn(&_) -> f64| column(py, &fit.points, of));
+    for own in &fit.parameters {
+        let ends: Vec<_> = own.accepted.iter().map(|range| (range.low, range.high)).collect();
+        accepted.set_item(own.range.parameter.name(), ends)?;
+    }
+    make!(
+        py,
+        "RatedFit",
+        accepted,
+        fitted(|point| point.fitted),
+        fitted(|point| point.standard_error),
+        fit.misfit,
+        fit.degrees_of_freedom,
+        fit.evaluations,
+        fit.settled,
+        format!("{fit:.3}"),
     )
 }
 

@@ -32,7 +32,7 @@ mod _native {
         Crisis, crisis, lives, lyapunov_exponents, lyapunov_spectra, manifold, orbit_diagram, verdicts,
     };
     #[pymodule_export]
-    use crate::estimate::{ensemble, fit_transients, read_speeds};
+    use crate::estimate::{ensemble, fit_rated_points, fit_transients, read_speeds};
     #[pymodule_export]
     use crate::motor::{
         best_phase_lag, elementary_effects, input_spreads, local_sensitivities, low_period_traps, motor_map,

@@ -129,6 +129,12 @@ def good() -> list[tuple[Callable[..., Any], list[Any], dict[str, Any]]]:
         (bd.nearest_trap, [bd.Motor.paper_70_khz()], {"relative_range": 0.01, "progress": None}),
         (bd.rotary_response, [TOSS, toss_orbit], {}),
         (bd.fit_transients, [], {"times": times, "speeds": speeds, "resamples": 200, "seed": 1}),
+        (
+            bd.fit_rated_points,
+            [MOTOR],
+            {"points": [{"speed": 20.0, "speed_error": 9.0, "load_torque": 0.0}], "ranges": {"friction": (0.1, 0.3)}}
+            | {"most_evaluations": 8, "most_impacts": 2000, "seed": 1},
+        ),
         (bd.set_threads, [], {"count": 2}),
         (MOTOR.replace, [], {"friction": 0.2}),
         (MOTOR.report, [], {}),

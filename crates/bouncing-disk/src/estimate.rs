@@ -18,7 +18,7 @@
 //! ```
 //!
 //! [`TransientFit`] fits run-ups, `ParameterFit` (feature `fit`) finds the parameters of a motor that explain
-//! them, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
+//! them, `RatedFit` those that explain the points that a maker prints, and [`MeasuredSpeeds`] holds measurements, read from files with the feature `csv`. Run-ups of the
 //! model are in [`motor`](crate::motor). The derivation of the intervals: docs/numerics/motors.md.
 
 pub(crate) mod braking_fit;
@@ -28,6 +28,8 @@ pub(crate) mod interval;
 pub(crate) mod measured_speeds;
 #[cfg(feature = "fit")]
 pub(crate) mod parameter_fit;
+#[cfg(feature = "fit")]
+pub(crate) mod rated_fit;
 pub(crate) mod refusal;
 pub(crate) mod statistics;
 pub(crate) mod transient_fit;
@@ -45,13 +47,17 @@ pub use measured_speeds::{MeasuredRun, MeasuredSpeeds};
 #[cfg(feature = "fit")]
 pub use parameter_fit::ParameterFit;
 #[cfg(feature = "fit")]
-pub use parameter_fit::estimate::{ContactTimes, ParameterEstimate, UndeterminedDirection};
+pub use parameter_fit::estimate::{AcceptedRange, ParameterEstimate, UndeterminedDirection};
 #[cfg(feature = "fit")]
 pub use parameter_fit::measured_transient::{MeasuredTransient, RunPreload};
 #[cfg(feature = "fit")]
 pub use parameter_fit::parameter::{FitParameter, FitRange};
 #[cfg(feature = "fit")]
 pub use parameter_fit::settings::ParameterFitSettings;
+#[cfg(feature = "fit")]
+pub use rated_fit::point::{RatedCondition, RatedPoint};
+#[cfg(feature = "fit")]
+pub use rated_fit::{FittedPoint, RatedEstimate, RatedFit, RatedFitSettings};
 pub use refusal::{FitError, FitRefusal};
 pub use statistics::{LARGEST_CONSTANT, LARGEST_RESIDUAL, MotorStatistics, RiseForm, unperturbed_orbit};
 pub use transient_fit::{FitSettings, LEAST_MEMBERS, RiseEstimate, TransientFit};

@@ -37,7 +37,7 @@
 //! | `json` | yes | a motor's data sheet as JSON |
 //! | `toml` | no | a motor's data sheet as TOML |
 //! | `storage` | yes | provenance of stored files, and the journal of a long computation |
-//! | `fit` | no | friction, restitution, phase lag and amplitudes of a motor from its transients |
+//! | `fit` | no | what nobody knows of a motor from its transients, or from rated points |
 //! | `csv` | no | measured speeds from comma-separated files, sweeps written as such |
 //!
 //! Deserialising runs the same checks as construction: a value outside its range, a missing key of a
@@ -97,6 +97,6 @@ struct ReadmeExamples;
 struct TutorialExamples;
 
 /// Compiles and runs the programs of the page on motors.
-#[cfg(all(doctest, feature = "storage"))]
+#[cfg(all(doctest, feature = "storage", feature = "fit"))]
 #[doc = include_str!("../../../docs/designing-a-motor.md")]
 struct MotorExamples;

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use bouncing_disk::Motor;
 use bouncing_disk::estimate::{
     CsvColumns, FitError, FitParameter, FitRange, FitSettings, MeasuredSpeeds, MeasuredTransient,
-    ParameterEstimate, ParameterFit, ParameterFitSettings, RunPreload, SpeedUnit, TimeUnit, TransientFit,
+    ParameterEstimate, ParameterFit, ParameterFitSettings, RatedEstimate, RatedFit, RatedFitSettings,
+    RatedPoint, RunPreload, SpeedUnit, TimeUnit, TransientFit,
 };
+use bouncing_disk::motor::OperatingSettings;
 use bouncing_disk_plot::Figure;
 
 use super::prelude::*;
@@ -21,13 +23,18 @@ such as \"t (ms)\" and \"n (rpm)\"; commas, semicolons or tabs separate them. Wi
 fitted to their mean, with 95 % intervals: time zero, a dead time and the speed at the start need not be known. \
 --from-rest fits alpha_ss (1 - exp(-t/t_c)) to times that count from the start of the rise, with narrower intervals. With --parameter FIELD=LOW:HIGH parameters of a motor are fitted: friction, restitution, phase_lag (rad), \
 amplitude (m), twist_amplitude (rad), contact.time (s), each within its range, to run-ups from rest whose times count from the switch-on; all else is that of the motor, which --motor or --preset \
-names. See \
+names.
+
+A table of points that a maker prints has no times: columns speed_rad_s (or \"speed (rpm)\"), speed_error, and fields of the data sheet \
+such as load_torque (0 without load), stator.volts or preload_force, each perhaps with its error (load_torque_error); a line each, the speed 0 \
+at the stall torque. With --parameter, also stator.mass (kg), stator.quality and stator.twist_per_height (rad/m) are fitted to it. See \
 docs/designing-a-motor.md.
 
 Examples:
   bouncing-disk fit run-up.csv --out fit.png
   bouncing-disk fit scope.txt --time-column CH1 --speed-column CH2 --time-unit ms --speed-unit rpm
-  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4")]
+  bouncing-disk fit run-up.csv --motor motor.toml --parameter friction=0.05:0.4
+  bouncing-disk fit points.csv --motor motor.toml --parameter stator.mass=0.005:0.1")]
 pub(crate) struct FitArgs {
     /// Measured speeds: time_s, speed_rad_s and, of several runs, member
     file: PathBuf,
@@ -62,6 +69,10 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = ParameterFitSettings::default().most_evaluations)]
     evaluations: usize,
+    /// Of points: most impacts of all members of a computed speed, from 1 on
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
+          default_value_t = RatedFitSettings::default().operating.most_impacts)]
+    most_impacts: u64,
     /// Resampled fits, 200 to 100000
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = FitSettings::default().resamples)]
     resamples: usize,
@@ -97,6 +108,12 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
         return Err(Failure::Usage(message.to_owned()));
     }
     args.output.check(args.parameter.is_empty(), &inputs, None)?;
+    if !args.parameter.is_empty() {
+        let points = RatedPoint::table_from_csv(&args.file, args.speed_unit);
+        if let Some(points) = points.map_err(|error| Failure::Usage(with_causes(error)))? {
+            return rated(args, &points, context)?.deliver(&args.output, context);
+        }
+    }
     let columns = CsvColumns {
         time: args.time_column.clone(),
         speed: args.speed_column.clone(),
@@ -170,10 +187,38 @@ pub(super) fn refusal(error: &FitError) -> Result<String> {
     }
 }
 
+/// The motor whose parameters are fitted.
+fn motor_of(args: &FitArgs) -> Result<Motor> {
+    MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false }.get()
+}
+
+fn rated(args: &FitArgs, points: &[RatedPoint], context: Context) -> Result<Report<'static>> {
+    let motor = motor_of(args)?;
+    motor.warnings().into_iter().for_each(|warning| context.note(&format!("warning: {warning}")));
+    let mut settings = RatedFitSettings { most_evaluations: args.evaluations, ..RatedFitSettings::default() };
+    settings.operating =
+        OperatingSettings { seed: args.seed, most_impacts: args.most_impacts, ..settings.operating };
+    let fit = RatedFit::new(&motor, points, &args.parameter, &settings, &context.watch("fit"))?;
+    let columns = Columns::<RatedEstimate>::new()
+        .column("parameter", "1", |own| own.range.parameter.name())
+        .column("unit", "1", |own| own.range.parameter.unit())
+        .column("nominal", "1", |own| own.nominal)
+        .column("value", "1", |own| own.value)
+        .column("accepted", "1", |own| {
+            own.accepted.iter().map(|range| format!("{range:.3}")).collect::<Vec<_>>().join(", or ")
+        });
+    let job = json!({ "points": points, "motor": motor, "ranges": args.parameter, "settings": settings });
+    Ok(Report {
+        provenance: provenance("bouncing-disk rated fit", &job)?.with_seed(args.seed),
+        text: format!("{fit:.3}\n"),
+        table: columns.csv_of(fit.parameters.clone()),
+        data: vec![("fit", stored(&fit)?)],
+        figure: None,
+    })
+}
+
 fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Result<Report<'static>> {
-    let sheet =
-        MotorArgs { file: args.motor.clone(), preset: args.preset, set: args.set.clone(), template: false };
-    let motor = sheet.get()?;
+    let motor = motor_of(args)?;
     let warnings = motor.warnings().into_iter().chain(motor.warnings_on(&speeds));
     warnings.for_each(|warning| context.note(&format!("warning: {warning}")));
     let settings = ParameterFitSettings {

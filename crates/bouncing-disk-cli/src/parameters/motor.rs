@@ -115,6 +115,7 @@ fn described(field: MotorField) -> String {
         MotorField::StatorMass => "effective mass M of the stator that yields",
         MotorField::StatorQuality => "its quality factor Q",
         MotorField::StatorResonance => "its resonance",
+        MotorField::StatorTwistPerHeight => "twist over height of its mode, kappa",
         MotorField::StatorForce => "amplitude of the force that drives it",
         MotorField::StatorVolts => "amplitude of the voltage that drives it",
     };

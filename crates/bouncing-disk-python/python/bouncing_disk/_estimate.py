@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,11 +15,13 @@ from bouncing_disk._system import ChatterCut, Drive, System
 
 __all__ = [
     "IntervalEstimate",
+    "RatedFit",
     "RiseEstimate",
     "Spread",
     "TransientEnsemble",
     "TransientFit",
     "ensemble",
+    "fit_rated_points",
     "fit_transients",
     "read_speeds",
 ]
@@ -180,6 +183,65 @@ def fit_transients(
     ('exponential', 6, True)
     """
     return native.fit_transients(locals())
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class RatedFit(Result):
+    """What rated points leave of the ranges of parameters.
+
+    Attributes:
+        accepted: of each parameter the ranges that are not excluded with 95 % confidence, as (low, high) with None where one
+            reaches the end of what was searched.
+        fitted, standard_errors: the speed of the best motor at each point, and the standard error of its difference from
+            the printed one (rad/s).
+        misfit, degrees_of_freedom: the remaining sum of weighted squares, and its expectation.
+        evaluations: places of the ranges at which all points were computed.
+        settled: whether they were enough; otherwise more, or more impacts, would narrow the ranges.
+        text: all of it in words, with the directions that are not determined.
+    """
+
+    accepted: dict[str, list[tuple[float | None, float | None]]]
+    fitted: FloatArray
+    standard_errors: FloatArray
+    misfit: float
+    degrees_of_freedom: int
+    evaluations: int
+    settled: bool
+    text: str
+
+
+def fit_rated_points(
+    motor: Motor,
+    *,
+    points: Sequence[Mapping[str, Float]],
+    ranges: Mapping[str, tuple[Float, Float]],
+    most_evaluations: Int = 120,
+    most_impacts: Int = 500_000,
+    seed: Int = 1,
+    progress: Progress = None,
+) -> RatedFit:
+    """What nobody knows of a motor, from the few steady speeds that its maker prints.
+
+    Args:
+        motor: the data sheet, which has all else.
+        points: of each the ``speed`` (rad/s; 0 at the stall torque), perhaps its ``speed_error``, and what differs from the
+            data sheet by its name there, such as ``load_torque`` or ``stator.volts``, perhaps with its standard error
+            (``load_torque_error``).
+        ranges: of each fitted parameter its range: friction, restitution, phase_lag, amplitude, twist_amplitude,
+            contact.time, stator.mass, stator.quality, stator.twist_per_height.
+        most_evaluations: most places of the ranges at which all points are computed, in [8, 2000].
+        most_impacts: most impacts of all members of a computed speed.
+        seed: seed of the perturbations.
+
+    >>> import bouncing_disk as bd
+    >>> point = {"speed": 21.4, "speed_error": 0.5, "load_torque": 0.0}
+    >>> twist = {"twist_amplitude": (2e-5, 2e-4)}
+    >>> fit = bd.fit_rated_points(bd.Motor.paper_70_khz(), points=[point], ranges=twist, most_evaluations=12)
+    >>> [(low, high)] = fit.accepted["twist_amplitude"]
+    >>> low < 30.0 / (2 * 3.14159 * 70e3) < high
+    True
+    """
+    return native.fit_rated_points(locals())
 
 
 def read_speeds(

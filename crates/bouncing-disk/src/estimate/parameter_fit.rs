@@ -7,7 +7,7 @@
 
 mod bootstrap;
 mod contact_time;
-mod determined;
+pub(crate) mod determined;
 mod display;
 pub(crate) mod estimate;
 pub(crate) mod measured_transient;
@@ -27,10 +27,10 @@ use crate::error::{Error, check, within_limit};
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::parameter_fit::bootstrap::resampled_places;
 use crate::estimate::parameter_fit::contact_time::{MOST_TIMES, scan};
-use crate::estimate::parameter_fit::estimate::{ContactTimes, ParameterEstimate, UndeterminedDirection};
+use crate::estimate::parameter_fit::estimate::{AcceptedRange, ParameterEstimate, UndeterminedDirection};
 use crate::estimate::parameter_fit::measured_transient::MeasuredTransient;
 use crate::estimate::parameter_fit::model::{Model, mean_of};
-use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
+use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange, check_ranges};
 use crate::estimate::parameter_fit::search::{Evaluations, Linearised};
 use crate::estimate::parameter_fit::settings::ParameterFitSettings;
 use crate::estimate::parameter_fit::windows::{INTERVALS, Windows};
@@ -96,7 +96,7 @@ pub struct ParameterFit {
     /// Where the contact time is fitted, the ranges that the transients do not exclude, the shortest times first:
     /// several are not decided between. Its estimate exists if there is one range with two ends. A time at which the
     /// search does not converge is not excluded, and the other parameters then have no estimates.
-    pub contact_times: Vec<ContactTimes>,
+    pub contact_times: Vec<AcceptedRange>,
     /// The motor with the fitted parameters, at the preload of its data sheet.
     pub motor: Motor,
     /// The remaining weighted sum of squares, not negative.
@@ -221,12 +221,7 @@ fn checked<'a>(
     settings.check()?;
     check(!transients.is_empty(), "number of transients", 0.0, "[1, 1000]")?;
     within_limit("transients", transients.len(), MOST_TRANSIENTS)?;
-    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 6]")?;
-    for (k, range) in ranges.iter().enumerate() {
-        range.check_for(nominal)?;
-        let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
-        check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
-    }
+    check_ranges(nominal, ranges)?;
     // Not every restitution is legal together with a contact time.
     let scanned = ranges.iter().find(|range| range.parameter == FitParameter::ContactTime);
     let lasting =
@@ -295,7 +290,7 @@ fn widening_for(misfit: f64, degrees: usize, model: &Model<'_>) -> Result<f64, F
 
 /// The misfit that one fit of 10,000 exceeds, whose mean is `expected`: Wilson and Hilferty's approximation of
 /// the quantile of chi-squared.
-fn rare_misfit(expected: f64) -> f64 {
+pub(crate) fn rare_misfit(expected: f64) -> f64 {
     let spread = 2.0 / (9.0 * expected);
     let root = 1.0 - spread + RARE * spread.sqrt();
     expected * root * root * root
@@ -312,7 +307,7 @@ fn sample_widening(model: &Model<'_>) -> f64 {
 }
 
 /// An undetermined direction as changes of the named parameters, the largest change scaled to 1.
-fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
+pub(crate) fn named(ranges: &[FitRange], direction: &DVector<f64>, error: f64) -> UndeterminedDirection {
     let changes = ranges.iter().zip(direction.iter()).map(|(range, along)| along * range.half_width());
     let changes: Vec<f64> = changes.collect();
     let largest =

@@ -14,7 +14,7 @@ use crate::estimate::measured_speeds::{MeasuredRun, MeasuredSpeeds};
 use crate::regular_file;
 
 /// The names of columns without their units, in small letters.
-const NAMES: [&[&str]; 3] =
+pub(crate) const NAMES: [&[&str]; 3] =
     [&["time", "t"], &["speed", "angular speed", "angular_speed", "omega", "n"], &["member", "run", "trial"]];
 
 /// The names of the columns in messages.
@@ -24,10 +24,10 @@ const COLUMNS: [&str; 3] = ["time_s", "speed_rad_s", "member"];
 const LEGAL: [&str; 3] = ["a finite number", "a finite number", "a whole number from 0 to 4294967295"];
 
 /// Characters that may separate columns, in the order in which they are tried.
-const SEPARATORS: [char; 3] = [';', '\t', ','];
+pub(crate) const SEPARATORS: [char; 3] = [';', '\t', ','];
 
 /// The largest file that is read (bytes).
-const LARGEST_FILE: u64 = 64 << 20;
+pub(crate) const LARGEST_FILE: u64 = 64 << 20;
 
 /// The longest line that is read (bytes).
 const LONGEST_LINE: usize = 1 << 16;
@@ -105,7 +105,7 @@ impl MeasuredSpeeds {
 }
 
 /// The beginning of a text from a file.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     if text.chars().nth(SHOWN).is_none() {
         return text.to_owned();
     }
@@ -113,7 +113,14 @@ fn shortened(text: &str) -> String {
 }
 
 /// A fault and its place: line and field, counted from 1.
-struct Located(Option<usize>, Option<usize>, CsvFault);
+pub(crate) struct Located(pub(crate) Option<usize>, pub(crate) Option<usize>, pub(crate) CsvFault);
+
+impl Located {
+    pub(crate) fn in_file(self, file: &str) -> MeasuredSpeedsError {
+        let Self(line, field, fault) = self;
+        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
+    }
+}
 
 impl From<RecordFault> for Located {
     fn from(fault: RecordFault) -> Self {
@@ -128,9 +135,7 @@ impl From<RecordFault> for Located {
 type Runs = BTreeMap<u32, (Vec<f64>, Vec<f64>)>;
 
 fn parse(file: &str, bytes: &[u8], columns: &CsvColumns) -> Result<MeasuredSpeeds, MeasuredSpeedsError> {
-    let (runs, units) = runs_of(bytes, columns).map_err(|Located(line, field, fault)| {
-        MeasuredSpeedsError::Malformed { file: file.to_owned(), line, field, fault }
-    })?;
+    let (runs, units) = runs_of(bytes, columns).map_err(|located| located.in_file(file))?;
     let run = |(member, (times, speeds))| MeasuredRun { member, times, speeds };
     let mut measured = MeasuredSpeeds::new(runs.into_iter().map(run).collect())?;
     measured.units = units;
@@ -190,7 +195,7 @@ fn runs_of(bytes: &[u8], columns: &CsvColumns) -> Result<(Runs, (TimeUnit, Speed
 }
 
 /// The name of a column and its unit in brackets or behind an underscore, if it has one.
-fn name_and_unit(field: &str) -> (String, Option<&str>) {
+pub(crate) fn name_and_unit(field: &str) -> (String, Option<&str>) {
     for (open, close) in [('(', ')'), ('[', ']')] {
         if let Some((name, unit)) = field.strip_suffix(close).and_then(|rest| rest.split_once(open)) {
             return (name.trim().to_lowercase(), Some(unit.trim()));

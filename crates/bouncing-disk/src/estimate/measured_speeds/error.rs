@@ -87,6 +87,12 @@ pub enum CsvFault {
          columns of times and speeds when you read the file"
     )]
     UnknownColumn(String),
+    /// The header of a table of points has an unknown name, or lacks the speed, or a field is no number there.
+    #[error(
+        "{0}; a table of points has the columns speed_rad_s (or speed (rpm), ...), speed_error, and fields of the data sheet in its \
+         units, such as load_torque, stator.volts or preload_force, each perhaps with its error, such as load_torque_error"
+    )]
+    Points(String),
     /// The header has a name twice.
     #[error("the column {0:?} occurs twice; remove one of the two")]
     RepeatedColumn(&'static str),

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::error::Error;
 use crate::estimate::interval::IntervalEstimate;
 use crate::estimate::parameter_fit::bootstrap::differences;
-use crate::estimate::parameter_fit::estimate::{ContactTimes, ParameterEstimate};
+use crate::estimate::parameter_fit::estimate::{AcceptedRange, ParameterEstimate};
 use crate::estimate::parameter_fit::model::Model;
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
 use crate::estimate::parameter_fit::search::{Evaluations, Linearised};
@@ -214,8 +214,8 @@ impl<'a> Scan<'a> {
     }
 
     /// The ranges of accepted and undecided times, each up to the next one that is excluded.
-    pub(super) fn times(&self, accepted: &[bool]) -> Vec<ContactTimes> {
-        let mut ranges: Vec<ContactTimes> = Vec::new();
+    pub(super) fn times(&self, accepted: &[bool]) -> Vec<AcceptedRange> {
+        let mut ranges: Vec<AcceptedRange> = Vec::new();
         let flights = FLIGHTS / RIGID * self.rigid;
         let near = |end: f64| (NEAR_FLIGHTS * end).min(flights).max(NEAR * end);
         let known = self.candidates.iter().map(|own| own.time).zip(accepted.iter().copied());
@@ -227,7 +227,7 @@ impl<'a> Scan<'a> {
             let high = all.get(index + 1).map(|next| next.0);
             match ranges.last_mut() {
                 Some(last) if last.high.is_some_and(|end| low <= Some(near(end))) => last.high = high,
-                _ => ranges.push(ContactTimes { low, high }),
+                _ => ranges.push(AcceptedRange { parameter: FitParameter::ContactTime, low, high }),
             }
         }
         ranges
@@ -265,7 +265,7 @@ pub(super) fn scan(whole: &Model<'_>, range: FitRange, watch: &Watch<'_>) -> Res
     fit.parameters.iter_mut().filter(|_| unknown).for_each(|all| all.estimate = None);
     fit.contact_times = scan.times(&accepted);
     let estimate = match fit.contact_times[..] {
-        [ContactTimes { low: Some(low), high: Some(high) }] => {
+        [AcceptedRange { low: Some(low), high: Some(high), .. }] => {
             Some(IntervalEstimate { value: *value, low, high })
         }
         _ => None,

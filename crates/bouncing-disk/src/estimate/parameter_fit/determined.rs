@@ -13,13 +13,35 @@ pub(crate) const LARGEST_ERROR: f64 = 0.5;
 /// range changes the parameter by less than this share of its standard error.
 const LARGEST_SHARE: f64 = 0.5;
 
+/// A direction that is not determined, and its standard error.
+pub(crate) type Open = (DVector<f64>, f64);
+
+/// The directions that an information matrix of places determines, and the others with their standard errors; the
+/// least uncertain first.
+pub(crate) fn split(information: DMatrix<f64>) -> (Vec<DVector<f64>>, Vec<Open>) {
+    let eigen = SymmetricEigen::new(information);
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
+    let (mut determined, mut undetermined) = (Vec::new(), Vec::new());
+    for index in order {
+        let (value, vector) = (eigen.eigenvalues[index], eigen.eigenvectors.column(index).into_owned());
+        let error = if value > 0.0 { 1.0 / value.sqrt() } else { f64::INFINITY };
+        if error <= LARGEST_ERROR {
+            determined.push(vector);
+        } else {
+            undetermined.push((vector, error));
+        }
+    }
+    (determined, undetermined)
+}
+
 /// The directions in which the weighted means change, and by how much.
 #[derive(Debug)]
 pub(crate) struct Directions {
     /// Directions that are determined, orthonormal in places: a column each.
     pub(crate) determined: DMatrix<f64>,
     /// Those that are not, with their standard errors, infinite where the means do not change at all.
-    pub(crate) undetermined: Vec<(DVector<f64>, f64)>,
+    pub(crate) undetermined: Vec<Open>,
     /// The weighted derivatives: a column a parameter.
     pub(crate) derivatives: DMatrix<f64>,
 }
@@ -54,19 +76,7 @@ impl Directions {
             let variance = rough.residuals.iter().map(|residual| weights.apply(residual).norm_squared());
             information[(rough.parameter, rough.parameter)] -= rough.slope_variance * variance.sum::<f64>();
         }
-        let eigen = SymmetricEigen::new(information);
-        let mut order: Vec<usize> = (0..derivatives.len()).collect();
-        order.sort_by(|&a, &b| eigen.eigenvalues[b].total_cmp(&eigen.eigenvalues[a]));
-        let (mut determined, mut undetermined) = (Vec::new(), Vec::new());
-        for index in order {
-            let (value, vector) = (eigen.eigenvalues[index], eigen.eigenvectors.column(index).into_owned());
-            let error = if value > 0.0 { 1.0 / value.sqrt() } else { f64::INFINITY };
-            if error <= LARGEST_ERROR {
-                determined.push(vector);
-            } else {
-                undetermined.push((vector, error));
-            }
-        }
+        let (determined, undetermined) = split(information);
         let determined = if determined.is_empty() {
             DMatrix::zeros(derivatives.len(), 0)
         } else {

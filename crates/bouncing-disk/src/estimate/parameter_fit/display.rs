@@ -6,9 +6,10 @@ use crate::display::numbers;
 use crate::estimate::parameter_fit::ParameterFit;
 use crate::estimate::parameter_fit::estimate::{ParameterEstimate, UndeterminedDirection};
 use crate::estimate::parameter_fit::parameter::{FitParameter, FitRange};
+use crate::estimate::rated_fit::{RatedEstimate, RatedFit};
 
 /// A unit behind a number, or nothing.
-fn behind(unit: &str) -> String {
+pub(crate) fn behind(unit: &str) -> String {
     if unit == "1" { String::new() } else { format!(" {unit}") }
 }
 
@@ -51,9 +52,9 @@ impl Display for UndeterminedDirection {
         write!(f, "a change of {}", steps.join(" and "))?;
         if self.standard_error.is_finite() {
             let error = n(self.standard_error);
-            write!(f, " hardly changes the transients: the standard error is {error} such changes")
+            write!(f, " hardly changes what was measured: the standard error is {error} such changes")
         } else {
-            f.write_str(" does not change the transients at all")
+            f.write_str(" does not change what was measured at all")
         }
     }
 }
@@ -78,6 +79,41 @@ impl Display for ParameterFit {
         for direction in &self.undetermined {
             f.write_str("\nnot determined: ")?;
             direction.fmt(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl Display for RatedEstimate {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let (n, unit) = (numbers(f), behind(self.range.parameter.unit()));
+        write!(f, "{}: ", self.range.parameter)?;
+        if let Some(value) = self.value {
+            write!(f, "{}{unit}, ", n(value))?;
+        }
+        for (index, accepted) in self.accepted.iter().enumerate() {
+            f.write_str(if index == 0 { "" } else { ", or " })?;
+            accepted.fmt(f)?;
+        }
+        write!(f, "; nominally {}{unit}", n(self.nominal))
+    }
+}
+
+/// Several lines, without a line end after the last one.
+impl Display for RatedFit {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for parameter in &self.parameters {
+            parameter.fmt(f)?;
+            f.write_str("\n")?;
+        }
+        let (misfit, degrees) = (numbers(f)(self.misfit), self.degrees_of_freedom);
+        write!(f, "sum of weighted squares {misfit} for {degrees} degrees of freedom")?;
+        for direction in &self.undetermined {
+            f.write_str("\nnot determined: ")?;
+            direction.fmt(f)?;
+        }
+        if !self.settled {
+            f.write_str("\nmore evaluations, or more impacts of each, would narrow these ranges")?;
         }
         Ok(())
     }
@@ -125,7 +161,7 @@ mod tests {
              phase_lag  0.5 rad  not determined\n\
              sum of weighted squares 17.3 for 16 degrees of freedom\n\
              not determined: a change of ln(friction) by -0.0521 and ln(amplitude) by 0 and phase_lag by 1 rad \
-             hardly changes the transients: the standard error is 2.13 such changes"
+             hardly changes what was measured: the standard error is 2.13 such changes"
         );
         assert_eq!(fit.parameters[1].to_string(), "amplitude: 1.1e-8 [9e-9, 1.25e-8] m, nominally 1e-8 m");
         assert_eq!(fit.parameters[2].to_string(), "phase_lag: not determined, nominally 0.5 rad");
@@ -133,7 +169,10 @@ mod tests {
             direction: vec![(FitParameter::Restitution, 1.0)],
             standard_error: f64::INFINITY,
         };
-        assert_eq!(blind.to_string(), "a change of restitution by 1 does not change the transients at all");
+        assert_eq!(
+            blind.to_string(),
+            "a change of restitution by 1 does not change what was measured at all"
+        );
     }
 
     #[test]

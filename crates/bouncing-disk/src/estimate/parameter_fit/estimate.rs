@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::display::numbers;
 use crate::estimate::interval::IntervalEstimate;
+use crate::estimate::parameter_fit::display::behind;
 use crate::estimate::parameter_fit::parameter::FitParameter;
 
 /// A parameter and its estimate from the transients.
@@ -19,24 +20,34 @@ pub struct ParameterEstimate {
     pub estimate: Option<IntervalEstimate>,
 }
 
-/// Contact times that a fit of the contact time does not exclude with 95 % confidence.
+/// A range of a parameter that a fit does not exclude with 95 % confidence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct ContactTimes {
-    /// The shortest (s); `None` where they reach the lower end of the range that was scanned, or times below a
-    /// tenth of a period, which transients hardly tell from rigid impacts.
+pub struct AcceptedRange {
+    /// The parameter.
+    pub parameter: FitParameter,
+    /// The lowest value (SI); `None` where the range reaches the lower end of what was searched, or contact times below
+    /// a tenth of a period, which can hardly be told from rigid impacts.
     pub low: Option<f64>,
-    /// The longest (s); `None` where they reach the upper end of the range.
+    /// The highest value (SI); `None` where it reaches the upper end.
     pub high: Option<f64>,
 }
 
-impl Display for ContactTimes {
+impl AcceptedRange {
+    /// Whether it holds a value, which lies in what was searched.
+    #[must_use]
+    pub fn contains(&self, value: f64) -> bool {
+        self.low.is_none_or(|low| low <= value) && self.high.is_none_or(|high| value <= high)
+    }
+}
+
+impl Display for AcceptedRange {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let n = numbers(f);
+        let (n, unit) = (numbers(f), behind(self.parameter.unit()));
         match (self.low, self.high) {
-            (Some(low), Some(high)) => write!(f, "{} to {} s", n(low), n(high)),
-            (None, Some(high)) => write!(f, "at most {} s", n(high)),
-            (Some(low), None) => write!(f, "at least {} s", n(low)),
+            (Some(low), Some(high)) => write!(f, "{} to {}{unit}", n(low), n(high)),
+            (None, Some(high)) => write!(f, "at most {}{unit}", n(high)),
+            (Some(low), None) => write!(f, "at least {}{unit}", n(low)),
             (None, None) => f.write_str("anywhere in the range"),
         }
     }

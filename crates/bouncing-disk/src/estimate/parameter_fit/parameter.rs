@@ -9,10 +9,9 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::motor::data_sheet::parameters::MotorParameters;
 
-/// A parameter of a motor that its transients may determine.
+/// A parameter of a motor that its transients, or the points that its maker prints, may determine.
 ///
-/// Its coordinate is its natural logarithm where it is a size, and itself where it is an angle or a ratio in
-/// [0, 1).
+/// Its coordinate is its natural logarithm where it is a size, and itself where it may be zero or negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
@@ -30,21 +29,31 @@ pub enum FitParameter {
     TwistAmplitude,
     /// How long an isolated impact lasts (s); zero where impacts are rigid. Coordinate: its logarithm.
     ContactTime,
+    /// Effective mass M of a stator that yields (kg). Coordinate: its logarithm. This one and the next two: not from
+    /// transients.
+    StatorMass,
+    /// Its quality factor Q, at least 1/2. Coordinate: its logarithm.
+    StatorQuality,
+    /// Twist over height kappa of its mode (rad/m). Coordinate: itself.
+    TwistPerHeight,
 }
 
 impl FitParameter {
     /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 9] = [
         Self::Friction,
         Self::Restitution,
         Self::PhaseLag,
         Self::Amplitude,
         Self::TwistAmplitude,
         Self::ContactTime,
+        Self::StatorMass,
+        Self::StatorQuality,
+        Self::TwistPerHeight,
     ];
 
     /// The field of the data sheet.
-    const fn field(self) -> MotorField {
+    pub(crate) const fn field(self) -> MotorField {
         match self {
             Self::Friction => MotorField::Friction,
             Self::Restitution => MotorField::Restitution,
@@ -52,6 +61,9 @@ impl FitParameter {
             Self::Amplitude => MotorField::Amplitude,
             Self::TwistAmplitude => MotorField::TwistAmplitude,
             Self::ContactTime => MotorField::ContactTime,
+            Self::StatorMass => MotorField::StatorMass,
+            Self::StatorQuality => MotorField::StatorQuality,
+            Self::TwistPerHeight => MotorField::StatorTwistPerHeight,
         }
     }
 
@@ -67,7 +79,7 @@ impl FitParameter {
         self.field().unit()
     }
 
-    /// Its value for a motor (SI).
+    /// Its value for a motor (SI); NaN for a field of a stator that the motor does not have.
     #[must_use]
     pub fn of(self, motor: &Motor) -> f64 {
         let (stator, rotor) = (motor.system().platform(), motor.system().disk());
@@ -78,6 +90,7 @@ impl FitParameter {
             Self::Amplitude => stator.amplitude(),
             Self::TwistAmplitude => stator.twist_amplitude(),
             Self::ContactTime => motor.system().soft_contact().map_or(0.0, |(_, time)| time),
+            _ => self.field().value(&motor.parameters()).unwrap_or(f64::NAN),
         }
     }
 
@@ -87,7 +100,7 @@ impl FitParameter {
     }
 
     pub(crate) const fn is_size(self) -> bool {
-        matches!(self, Self::Friction | Self::Amplitude | Self::TwistAmplitude | Self::ContactTime)
+        !matches!(self, Self::Restitution | Self::PhaseLag | Self::TwistPerHeight)
     }
 
     pub(crate) fn coordinate(self, value: f64) -> f64 {
@@ -191,4 +204,15 @@ impl FitRange {
     pub(crate) fn place_of(&self, value: f64) -> f64 {
         (self.parameter.coordinate(value) - self.middle()) / self.half_width()
     }
+}
+
+/// Checks that there are ranges, each of a parameter that the motor has, and none twice.
+pub(crate) fn check_ranges(motor: &Motor, ranges: &[FitRange]) -> Result<(), Error> {
+    check(!ranges.is_empty(), "number of fitted parameters", 0.0, "[1, 9]")?;
+    for (k, range) in ranges.iter().enumerate() {
+        range.check_for(motor)?;
+        let again = ranges[..k].iter().filter(|before| before.parameter == range.parameter).count();
+        check(again == 0, range.parameter.name(), (again + 1) as f64, "fitted once")?;
+    }
+    Ok(())
 }

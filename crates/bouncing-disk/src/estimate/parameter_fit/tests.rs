@@ -454,7 +454,7 @@ fn intervals_of_the_contact_time_hold_the_truth() {
         scan.refine(&measured, &watch).expect("no failure");
         let accepted = scan.accepted(&measured, sample_widening(&model), &watch).expect("goes on");
         let times = scan.times(&accepted);
-        let [ContactTimes { low: Some(low), high: Some(high) }] = times[..] else { panic!("{times:?}") };
+        let [AcceptedRange { low: Some(low), high: Some(high), .. }] = times[..] else { panic!("{times:?}") };
         assert!(high < 1.1 * low, "{times:?}");
         (low..=high).contains(&(1.0 / 70e3))
     });
@@ -487,7 +487,10 @@ fn a_time_at_which_the_search_does_not_converge_is_not_excluded() {
         ParameterFit::new(&soft(0.0, 0.0), &run, &ranges, &settings, &Unobserved)
     };
     let open = fit(6).expect("fitted");
-    assert_eq!(open.contact_times, [ContactTimes { low: None, high: None }]);
+    assert_eq!(
+        open.contact_times,
+        [AcceptedRange { parameter: FitParameter::ContactTime, low: None, high: None }]
+    );
     assert_eq!(ranges.map(|range| open.estimate(range.parameter)), [None; 2]);
     let error = fit(3).expect_err("too few");
     assert!(matches!(error, FitError::Refused(FitRefusal::NotConverged { evaluations: 6 })), "{error}");

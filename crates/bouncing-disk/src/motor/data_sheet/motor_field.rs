@@ -205,6 +205,8 @@ motor_fields! {
     StatorResonance, stator.resonance: optional, "Hz", Some(FREQUENCIES), &[
         reading("a frequency in kHz", 1.0e3, FREQUENCIES),
     ], &["f_r", "omega_1"];
+    /// [`StatorParameters::twist_per_height`] kappa (rad/m).
+    StatorTwistPerHeight, stator.twist_per_height: optional, "rad/m", None, &[], &["kappa"];
     /// [`StatorParameters::force`] (N); takes the place of amplitude and volts.
     StatorForce, stator.force: optional, "N", None, &[], &[];
     /// [`StatorParameters::volts`] (V); takes the place of amplitude and force.

@@ -110,6 +110,7 @@ fn suffix(unit: &str) -> &'static str {
         "m" => "m",
         "rad" => "rad",
         "rad/s" => "rad_s",
+        "rad/m" => "rad_per_m",
         "kg" => "kg",
         "kg/m^3" => "kg_m3",
         "N" => "n",
@@ -128,7 +129,7 @@ mod tests {
     use super::*;
     use crate::Motor;
     use crate::motor::{MotorSweep, OperatingSettings, SweepAxis};
-    use crate::parameters::StatorParameters;
+    use crate::parameters::{StatorKind, StatorParameters};
     use bouncing_disk_core::Unobserved;
 
     fn result() -> MotorSweepResult {
@@ -213,6 +214,10 @@ mod tests {
                     MotorField::StatorForce => (motor.amplitude, table.force) = (None, Some(20.0)),
                     MotorField::StatorVolts => {
                         (motor.amplitude, table.volts, table.force_per_volt) = (None, Some(20.0), Some(1.0));
+                    }
+                    MotorField::StatorTwistPerHeight => {
+                        motor.peak_angular_speed = None;
+                        (table.kind, table.twist_per_height) = (StatorKind::AxialTwist, Some(680.0));
                     }
                     MotorField::StatorResonance => table.resonance = Some(motor.drive_frequency),
                     _ => {}

@@ -1,0 +1,236 @@
+//! A smooth response that is known with errors at some places, everywhere: a Gaussian process with a linear trend.
+//! Where no place is near, it says by how much it may be wrong.
+
+use bouncing_disk_core::numerics::elementary::{exp, ln};
+use bouncing_disk_core::numerics::statistics::NORMAL_975;
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use crate::statistics::student_quantile;
+
+/// The variance of the trend's coefficients over that of the values: any trend is possible.
+const TREND: f64 = 10.0;
+
+/// Bounds of the lengths, and of the variances over that of the values.
+const LENGTHS: [f64; 2] = [0.15, 20.0];
+const VARIANCES: [f64; 2] = [1e-8, 100.0];
+
+/// Before any value is known: the response bends over about this length, within a factor of [`SPREAD`] either way.
+const LENGTH: f64 = 1.5;
+const SPREAD: f64 = 3.0;
+
+/// How far values speak for the roughness, as a share of half the ranges.
+const NEAR: f64 = 0.3;
+
+/// A response that was computed at a place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Response {
+    pub(crate) value: f64,
+    /// Its standard error, independent of those of other places.
+    pub(crate) error: f64,
+    /// By how much it may be off, perhaps in the same direction as at other places.
+    pub(crate) bias: f64,
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct Emulator {
+    places: Vec<DVector<f64>>,
+    values: DVector<f64>,
+    /// Variance of each value, and the square of its bias.
+    errors: Vec<f64>,
+    biases: Vec<f64>,
+    mean: f64,
+    /// Logarithms: a length along each coordinate, the variance of the smooth part, that of what no smooth response
+    /// has (motions that lock on a cycle).
+    scales: Vec<f64>,
+    /// Their inverse squares along each coordinate, and both variances.
+    rates: Vec<f64>,
+    signal: f64,
+    roughness: f64,
+    trend: f64,
+    root: Cholesky<f64, Dyn>,
+    weights: DVector<f64>,
+    /// The square of the error of each value, by what all others say of it, over its expectation.
+    surprises: Vec<f64>,
+}
+
+impl Emulator {
+    /// With the scales of the largest likelihood, searched from those of an earlier one.
+    pub(crate) fn of(places: Vec<DVector<f64>>, values: &[Response], earlier: Option<&Self>) -> Option<Self> {
+        let count = values.len() as f64;
+        let mean = values.iter().map(|own| own.value).sum::<f64>() / count;
+        let errors: Vec<f64> = values.iter().map(|own| own.error * own.error).collect();
+        let biases: Vec<f64> = values.iter().map(|own| own.bias * own.bias).collect();
+        let values = DVector::from_iterator(values.len(), values.iter().map(|own| own.value - mean));
+        let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+        let size = (values.norm_squared() / count).max(least).max(f64::MIN_POSITIVE);
+        let coordinates = places.first()?.len();
+        let mut scales = vec![ln(LENGTH); coordinates];
+        scales.extend([ln(size), ln(1e-4 * size)]);
+        let scales = earlier.map_or(scales, |earlier| earlier.scales.clone());
+        let build = |scales: Vec<f64>| {
+            let (places, values) = (places.clone(), values.clone());
+            Self::with(places, values, [errors.clone(), biases.clone()], (mean, TREND * size), scales)
+        };
+        let mut best = build(scales)?;
+        let mut likelihood = best.likelihood(size);
+        let mut step = 1.2;
+        while step > 0.2 {
+            let mut found = false;
+            for index in 0..best.scales.len() {
+                for change in [step, -step] {
+                    let mut scales = best.scales.clone();
+                    let [low, high] = if index < coordinates { LENGTHS } else { VARIANCES.map(|v| v * size) };
+                    scales[index] = (scales[index] + change).clamp(ln(low), ln(high));
+                    let Some(other) = build(scales) else { continue };
+                    let own = other.likelihood(size);
+                    if own > likelihood + 1e-3 {
+                        (best, likelihood, found) = (other, own, true);
+                        break;
+                    }
+                }
+            }
+            if !found {
+                step *= 0.5;
+            }
+        }
+        let inverse = best.root.inverse();
+        let surprise = |(weight, own): (&f64, &f64)| weight * weight / own;
+        best.surprises = best.weights.iter().zip(inverse.diagonal().iter()).map(surprise).collect();
+        Some(best)
+    }
+
+    /// The factor of the variances at a place: where values near it surprise, a response is rougher than elsewhere
+    /// (motions that lock on a cycle are in some part of the ranges only). A few values alone tell no scales.
+    fn inflation(&self, place: &DVector<f64>) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (node, surprise) in self.places.iter().zip(&self.surprises) {
+            let weight = 1e-3 + exp(-(node - place).norm_squared() / (2.0 * NEAR * NEAR));
+            (sum, weights) = (sum + weight * surprise, weights + weight);
+        }
+        let degrees = self.surprises.len() as f64 - place.len() as f64 - 1.0;
+        let few = student_quantile(degrees) / NORMAL_975;
+        few * few * (sum / weights).max(1.0)
+    }
+
+    fn with(
+        places: Vec<DVector<f64>>,
+        values: DVector<f64>,
+        [errors, biases]: [Vec<f64>; 2],
+        (mean, trend): (f64, f64),
+        scales: Vec<f64>,
+    ) -> Option<Self> {
+        let none = DMatrix::identity(0, 0);
+        let variances = &scales[scales.len() - 2..];
+        let (signal, roughness) = (exp(variances[0]), exp(variances[1]));
+        let mut own = Self {
+            rates: scales[..scales.len() - 2].iter().map(|scale| exp(-2.0 * scale)).collect(),
+            signal,
+            roughness,
+            places,
+            values,
+            errors,
+            biases,
+            mean,
+            scales,
+            trend,
+            root: Cholesky::new(none)?,
+            weights: DVector::zeros(0),
+            surprises: Vec::new(),
+        };
+        let count = own.places.len();
+        let mut covariance = DMatrix::zeros(count, count);
+        for i in 0..count {
+            for j in 0..=i {
+                let value = own.covariance(&own.places[i], &own.places[j]);
+                (covariance[(i, j)], covariance[(j, i)]) = (value, value);
+            }
+            // A share of the trend's size bounds the condition of the matrix.
+            covariance[(i, i)] += own.errors[i] + own.roughness + 1e-10 * own.trend;
+        }
+        own.root = Cholesky::new(covariance)?;
+        own.weights = own.root.solve(&own.values);
+        Some(own)
+    }
+
+    /// Of the smooth part, between two places (Matern's of order 5/2).
+    fn covariance(&self, one: &DVector<f64>, other: &DVector<f64>) -> f64 {
+        let root = 5.0_f64.sqrt() * self.distance(one, other);
+        self.signal * (1.0 + root + root * root / 3.0) * exp(-root) + self.trend * (1.0 + one.dot(other))
+    }
+
+    fn distance(&self, one: &DVector<f64>, other: &DVector<f64>) -> f64 {
+        let terms = one.iter().zip(other.iter()).zip(&self.rates);
+        terms.map(|((a, b), rate)| (a - b) * (a - b) * rate).sum::<f64>().sqrt()
+    }
+
+    /// The variance at a place of what no smooth response has.
+    pub(crate) fn roughness(&self, place: &DVector<f64>) -> f64 {
+        self.roughness * self.inflation(place)
+    }
+
+    /// The logarithm of the likelihood, and of what is known of lengths before.
+    fn likelihood(&self, size: f64) -> f64 {
+        let determinant = self.root.l_dirty().diagonal().iter().map(|root| ln(*root)).sum::<f64>();
+        let coordinates = self.scales.len() - 2;
+        let off = |scale: f64, expected: f64| {
+            ((scale - ln(expected)) / ln(SPREAD)) * ((scale - ln(expected)) / ln(SPREAD))
+        };
+        let before: f64 = self.scales[..coordinates].iter().map(|scale| off(*scale, LENGTH)).sum();
+        let signal = 0.1 * off(self.scales[coordinates], size);
+        -0.5 * (self.values.dot(&self.weights) + before + signal) - determinant
+    }
+
+    /// The smooth response at a place, and the variance of its error but for the bias.
+    pub(crate) fn at(&self, place: &DVector<f64>) -> (f64, f64) {
+        let mut covariances = self.covariances(place);
+        let value = self.mean + covariances.dot(&self.weights);
+        let own = self.covariance(place, place);
+        // The diagonal of a root is positive.
+        let _ = self.root.l_dirty().solve_lower_triangular_mut(&mut covariances);
+        (value, (own - covariances.norm_squared()).max(0.0) * self.inflation(place))
+    }
+
+    /// The square of the bias, as it is at the nearest places.
+    pub(crate) fn bias(&self, place: &DVector<f64>) -> f64 {
+        let (mut sum, mut weights) = (0.0, 0.0);
+        for (node, bias) in self.places.iter().zip(&self.biases) {
+            let distance = self.distance(place, node);
+            let weight = 1.0 / (1e-6 + distance * distance * distance * distance);
+            (sum, weights) = (sum + weight * bias, weights + weight);
+        }
+        sum / weights
+    }
+
+    fn covariances(&self, place: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(self.places.len(), self.places.iter().map(|node| self.covariance(place, node)))
+    }
+
+    /// Its derivatives.
+    pub(crate) fn slopes(&self, place: &DVector<f64>) -> DVector<f64> {
+        let mut slopes = DVector::zeros(place.len());
+        for (node, weight) in self.places.iter().zip(self.weights.iter()) {
+            let root = 5.0_f64.sqrt() * self.distance(place, node);
+            let factor = -5.0 / 3.0 * self.signal * (1.0 + root) * exp(-root);
+            for (index, slope) in slopes.iter_mut().enumerate() {
+                let along = (place[index] - node[index]) * self.rates[index];
+                *slope += weight * (factor * along + self.trend * node[index]);
+            }
+        }
+        slopes
+    }
+
+    /// As if the response were known at one more place, where it is what it seems to be.
+    pub(crate) fn believing(&self, place: &DVector<f64>) -> Option<Self> {
+        let (value, _) = self.at(place);
+        let (mut places, mut errors, mut biases) =
+            (self.places.clone(), self.errors.clone(), self.biases.clone());
+        biases.push(self.bias(place));
+        errors.push(errors.iter().sum::<f64>() / errors.len() as f64);
+        places.push(place.clone());
+        let values = self.values.push(value - self.mean);
+        let scales = self.scales.clone();
+        let mut own = Self::with(places, values, [errors, biases], (self.mean, self.trend), scales)?;
+        own.surprises.clone_from(&self.surprises);
+        Some(own)
+    }
+}

@@ -1,0 +1,331 @@
+//! All points over the ranges by their stand-ins, and what the measured ones exclude.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::estimate::parameter_fit::determined::{Open, split};
+use crate::estimate::rated_fit::emulator::{Emulator, Response};
+use crate::estimate::rated_fit::{ERRORS, SETTLED};
+
+/// The 95 % quantile of chi-squared with one degree of freedom.
+pub(crate) const THRESHOLD: f64 = 3.841_458_820_694_124;
+
+/// Evenly spaced places of a profile, and halvings of the distance from the best place.
+const EVEN: usize = 21;
+const HALVINGS: i32 = 9;
+
+/// Most steps to a minimum.
+const STEPS: usize = 30;
+
+/// Along one parameter: its places, and the least deviance of all else there.
+pub(crate) struct Profile {
+    pub(crate) nodes: Vec<(f64, f64, DVector<f64>)>,
+    /// The accepted ranges of its places; an end at -1 or 1 is that of the range.
+    pub(crate) accepted: Vec<[f64; 2]>,
+}
+
+pub(crate) struct Surface {
+    parameters: usize,
+    coordinates: usize,
+    /// Value and variance of each point.
+    measured: Vec<(f64, f64)>,
+    /// The coordinates on which each point depends.
+    own: Vec<Vec<usize>>,
+    emulators: Vec<Emulator>,
+    nodes: Vec<DVector<f64>>,
+    /// The place of the least deviance.
+    pub(crate) best: DVector<f64>,
+}
+
+impl Surface {
+    /// `None` where the values are not finite.
+    pub(crate) fn new(
+        parameters: usize,
+        measured: Vec<(f64, f64)>,
+        own: Vec<Vec<usize>>,
+        nodes: &[DVector<f64>],
+        values: &[Vec<Response>],
+        earlier: Option<&Self>,
+    ) -> Option<Self> {
+        let of_point = |point: usize| {
+            let places = nodes.iter().map(|node| selected(node, &own[point])).collect();
+            let values: Vec<Response> = values.iter().map(|values| values[point]).collect();
+            Emulator::of(places, &values, earlier.map(|earlier| &earlier.emulators[point]))
+        };
+        let emulators = bouncing_disk_core::run::in_parallel(measured.len(), of_point);
+        let emulators = emulators.into_iter().collect::<Option<Vec<_>>>()?;
+        let coordinates = nodes.first()?.len();
+        let best = DVector::zeros(coordinates);
+        let mut surface =
+            Self { parameters, coordinates, measured, own, emulators, nodes: nodes.to_vec(), best };
+        surface.best = surface.minimum(&surface.starts(None), None).1;
+        Some(surface)
+    }
+
+    /// Value and variance of each point at a place: of what was measured, of the stand-in, and of what is not smooth.
+    pub(crate) fn fitted(&self, place: &DVector<f64>) -> Vec<(f64, f64)> {
+        let points = self.emulators.iter().zip(&self.own).zip(&self.measured);
+        points
+            .map(|((emulator, own), (_, variance))| {
+                let place = selected(place, own);
+                let (value, doubt) = emulator.at(&place);
+                (value, variance + doubt + emulator.bias(&place) + emulator.roughness(&place))
+            })
+            .collect()
+    }
+
+    /// Weighted differences from what was measured, and those of the conditions from what was given.
+    fn residuals(&self, place: &DVector<f64>) -> (DVector<f64>, Vec<f64>) {
+        let fitted = self.fitted(place);
+        let weights: Vec<f64> = fitted.iter().map(|(_, variance)| 1.0 / variance.sqrt()).collect();
+        let points = fitted.iter().zip(&self.measured).zip(&weights);
+        let points = points.map(|(((value, _), (measured, _)), weight)| (value - measured) * weight);
+        let conditions = place.iter().skip(self.parameters).map(|place| ERRORS * place);
+        let count = fitted.len() + self.coordinates - self.parameters;
+        (DVector::from_iterator(count, points.chain(conditions)), weights)
+    }
+
+    pub(crate) fn deviance(&self, place: &DVector<f64>) -> f64 {
+        self.residuals(place).0.norm_squared()
+    }
+
+    fn jacobian(&self, place: &DVector<f64>, weights: &[f64]) -> DMatrix<f64> {
+        let points = self.emulators.len();
+        let mut jacobian = DMatrix::zeros(points + self.coordinates - self.parameters, self.coordinates);
+        for (point, (emulator, own)) in self.emulators.iter().zip(&self.own).enumerate() {
+            let slopes = emulator.slopes(&selected(place, own));
+            for (slope, coordinate) in slopes.iter().zip(own) {
+                jacobian[(point, *coordinate)] = slope * weights[point];
+            }
+        }
+        for condition in 0..self.coordinates - self.parameters {
+            jacobian[(points + condition, self.parameters + condition)] = ERRORS;
+        }
+        jacobian
+    }
+
+    /// Nodes at which the deviance is small, with one coordinate moved to a place.
+    fn starts(&self, fixed: Option<(usize, f64)>) -> Vec<DVector<f64>> {
+        let away = |node: &DVector<f64>| fixed.map_or(0.0, |(index, at)| 10.0 * (node[index] - at).abs());
+        let mut all: Vec<(f64, &DVector<f64>)> =
+            self.nodes.iter().map(|node| (self.deviance(node).min(1e3) + away(node), node)).collect();
+        all.sort_by(|one, other| one.0.total_cmp(&other.0));
+        let count = if fixed.is_some() { 2 } else { 8 };
+        all.iter().take(count).map(|(_, node)| (*node).clone()).collect()
+    }
+
+    /// The least deviance from some starts, with one coordinate held: damped Gauss-Newton steps within the ranges.
+    fn minimum(&self, starts: &[DVector<f64>], held: Option<usize>) -> (f64, DVector<f64>) {
+        let mut best = (f64::INFINITY, self.best.clone());
+        for start in starts {
+            let (mut place, mut damping) = (start.clone(), 1e-2);
+            let (mut rest, mut weights) = self.residuals(&place);
+            for _ in 0..STEPS {
+                let jacobian = self.jacobian(&place, &weights);
+                let mut gradient = jacobian.transpose() * &rest;
+                let mut curvature = jacobian.transpose() * &jacobian;
+                for index in 0..self.coordinates {
+                    let is_at_end = place[index].abs() >= 1.0 && gradient[index] * place[index] < 0.0;
+                    if held == Some(index) || is_at_end {
+                        gradient[index] = 0.0;
+                        curvature.row_mut(index).fill(0.0);
+                        curvature.column_mut(index).fill(0.0);
+                        curvature[(index, index)] = 1.0;
+                    }
+                    curvature[(index, index)] += damping * (1.0 + curvature[(index, index)]);
+                }
+                let Some(step) = curvature.cholesky().map(|root| root.solve(&gradient)) else { break };
+                let next = (&place - step).map(|place| place.clamp(-1.0, 1.0));
+                let (next_rest, next_weights) = self.residuals(&next);
+                let gain = rest.norm_squared() - next_rest.norm_squared();
+                if gain > 0.0 {
+                    (place, rest, weights, damping) = (next, next_rest, next_weights, 0.2 * damping);
+                    if gain < 1e-4 {
+                        break;
+                    }
+                } else {
+                    damping *= 8.0;
+                    if damping > 1e4 {
+                        break;
+                    }
+                }
+            }
+            if rest.norm_squared() < best.0 {
+                best = (rest.norm_squared(), place);
+            }
+        }
+        best
+    }
+
+    pub(crate) fn profiles(&mut self) -> Vec<Profile> {
+        let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index));
+        // A profile may find a smaller minimum.
+        let better =
+            all.iter().flat_map(|profile| &profile.nodes).min_by(|one, other| one.1.total_cmp(&other.1));
+        if let Some((_, deviance, place)) = better
+            && *deviance < self.deviance(&self.best)
+        {
+            self.best = place.clone();
+        }
+        let least = self.deviance(&self.best);
+        all.into_iter()
+            .enumerate()
+            .map(|(index, profile)| self.accepted(index, profile, least + THRESHOLD))
+            .collect()
+    }
+
+    fn profile(&self, index: usize) -> Profile {
+        let mut places: Vec<f64> = (0..EVEN).map(|k| 2.0 * k as f64 / (EVEN - 1) as f64 - 1.0).collect();
+        let best = self.best[index];
+        for halving in 2..=HALVINGS {
+            let distance = 1.0 / f64::from(1 << halving);
+            places.extend([best - distance, best + distance].iter().filter(|place| place.abs() < 1.0));
+        }
+        places.push(best);
+        places.sort_by(f64::total_cmp);
+        places.dedup();
+        let mut nodes: Vec<_> =
+            places.iter().map(|place| (*place, f64::INFINITY, self.best.clone())).collect();
+        // From the best place outwards, each from its neighbour, and back.
+        let middle = places.iter().position(|place| *place >= best).unwrap_or(0);
+        let out = (middle..nodes.len()).chain((0..middle).rev());
+        let back = (middle..nodes.len()).rev().chain(0..middle);
+        for (pass, order) in [out.collect::<Vec<_>>(), back.collect()].into_iter().enumerate() {
+            let mut start = self.best.clone();
+            for node in order {
+                if node + 1 == middle && pass == 0 {
+                    start = self.best.clone();
+                }
+                start[index] = nodes[node].0;
+                let mut starts = vec![start];
+                if pass == 0 {
+                    starts.extend(self.starts(Some((index, nodes[node].0))));
+                    starts.iter_mut().for_each(|start| start[index] = nodes[node].0);
+                }
+                let found = self.minimum(&starts, Some(index));
+                if found.0 < nodes[node].1 {
+                    (nodes[node].1, nodes[node].2) = found;
+                }
+                start = nodes[node].2.clone();
+            }
+        }
+        Profile { nodes, accepted: Vec::new() }
+    }
+
+    /// The ranges below a deviance, their ends on the way from one node to the next.
+    fn accepted(&self, index: usize, mut profile: Profile, most: f64) -> Profile {
+        let nodes = &profile.nodes;
+        let mut open = None;
+        let mut accepted = Vec::new();
+        for (k, (place, deviance, _)) in nodes.iter().enumerate() {
+            let is_in = *deviance <= most;
+            if is_in && open.is_none() {
+                open = Some(if k == 0 {
+                    *place
+                } else {
+                    self.crossing(index, [&nodes[k], &nodes[k - 1]], most)
+                });
+            }
+            if let (false, Some(from)) = (is_in, open) {
+                accepted.push([from, self.crossing(index, [&nodes[k - 1], &nodes[k]], most)]);
+                open = None;
+            }
+        }
+        if let (Some(from), Some((last, ..))) = (open, nodes.last()) {
+            accepted.push([from, *last]);
+        }
+        profile.accepted = accepted;
+        profile
+    }
+
+    /// Where the least deviance crosses a value between an accepted node and one that is not.
+    fn crossing(&self, index: usize, [inside, outside]: [&(f64, f64, DVector<f64>); 2], most: f64) -> f64 {
+        let (mut near, mut far, mut start) = (inside.0, outside.0, inside.2.clone());
+        for _ in 0..5 {
+            let middle = 0.5 * (near + far);
+            start[index] = middle;
+            let (deviance, place) = self.minimum(std::slice::from_ref(&start), Some(index));
+            if deviance <= most {
+                (near, start) = (middle, place);
+            } else {
+                far = middle;
+            }
+        }
+        far
+    }
+
+    /// Whether the accepted places are hardly in doubt by what was computed of them.
+    pub(crate) fn is_settled(&self, profiles: &[Profile]) -> bool {
+        let is_known = |place: &DVector<f64>| {
+            self.emulators.iter().zip(&self.own).zip(&self.measured).all(
+                |((emulator, own), (_, variance))| {
+                    let place = selected(place, own);
+                    emulator.at(&place).1 + emulator.bias(&place)
+                        <= 2.0 * SETTLED * (variance + emulator.roughness(&place))
+                },
+            )
+        };
+        let least = self.deviance(&self.best);
+        let nodes = profiles.iter().flat_map(|profile| &profile.nodes);
+        nodes.filter(|node| node.1 <= least + THRESHOLD).all(|node| is_known(&node.2))
+    }
+
+    /// Places, at most so many, that are accepted or nearly so and where the stand-ins are in doubt.
+    pub(crate) fn doubtful(&self, profiles: &[Profile], most: usize) -> Vec<DVector<f64>> {
+        let least = self.deviance(&self.best);
+        let plausible = |node: &&(f64, f64, DVector<f64>)| node.1 <= least + 1.5 * THRESHOLD;
+        let candidates: Vec<&DVector<f64>> = profiles
+            .iter()
+            .flat_map(|profile| profile.nodes.iter().filter(plausible))
+            .map(|node| &node.2)
+            .collect();
+        let mut emulators = self.emulators.clone();
+        let mut chosen = Vec::new();
+        while chosen.len() < most {
+            let doubt = |place: &DVector<f64>| {
+                let points = emulators.iter().zip(&self.own).zip(&self.measured);
+                let share = points.map(|((emulator, own), (_, variance))| {
+                    let place = selected(place, own);
+                    emulator.at(&place).1 / (variance + emulator.roughness(&place))
+                });
+                share.fold(0.0, f64::max)
+            };
+            let Some((share, place)) = candidates
+                .iter()
+                .map(|place| (doubt(place), *place))
+                .max_by(|one, other| one.0.total_cmp(&other.0))
+            else {
+                break;
+            };
+            if share <= SETTLED {
+                break;
+            }
+            chosen.push(place.clone());
+            let believing = emulators
+                .iter()
+                .zip(&self.own)
+                .map(|(emulator, own)| emulator.believing(&selected(place, own)));
+            let Some(next) = believing.collect() else { break };
+            emulators = next;
+        }
+        chosen
+    }
+
+    /// Directions of the parameters that are not determined near the best place, with their standard errors.
+    pub(crate) fn directions(&self) -> Vec<Open> {
+        let (_, weights) = self.residuals(&self.best);
+        let jacobian = self.jacobian(&self.best, &weights);
+        let all = jacobian.transpose() * &jacobian;
+        let (p, q) = (self.parameters, self.coordinates - self.parameters);
+        let mut information = all.view((0, 0), (p, p)).into_owned();
+        // The conditions follow whatever is best for them.
+        if let Some(inverse) = all.view((p, p), (q, q)).into_owned().try_inverse() {
+            let mixed = all.view((0, p), (p, q));
+            information -= mixed * inverse * mixed.transpose();
+        }
+        split(information).1
+    }
+}
+
+fn selected(place: &DVector<f64>, coordinates: &[usize]) -> DVector<f64> {
+    DVector::from_iterator(coordinates.len(), coordinates.iter().map(|index| place[*index]))
+}

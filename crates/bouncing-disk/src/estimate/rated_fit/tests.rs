@@ -1,0 +1,259 @@
+use bouncing_disk_core::Unobserved;
+
+use super::emulator::Emulator;
+use super::point::RatedCondition;
+use super::*;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::parameters::stator::StatorParameters;
+use crate::testing::{Noise, golden_spread, refused_field};
+
+const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.03, high: 0.4 };
+const TWIST: FitRange = FitRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
+const RESTITUTION: FitRange = FitRange { parameter: FitParameter::Restitution, low: 0.1, high: 0.9 };
+const MASS: FitRange = FitRange { parameter: FitParameter::StatorMass, low: 0.01, high: 0.3 };
+const QUALITY: FitRange = FitRange { parameter: FitParameter::StatorQuality, low: 50.0, high: 1500.0 };
+
+/// Table III with 0.11 um without a rotor, on a stator of 50 g in volts; a larger contact radius settles it sooner.
+fn in_volts() -> Motor {
+    let table = StatorParameters {
+        mass: Some(0.05),
+        quality: Some(300.0),
+        resonance: Some(70e3),
+        anti_resonance: Some(70.4e3),
+        capacitance: Some(1.2e-9),
+        volts: Some(10.0),
+        ..StatorParameters::default()
+    };
+    let motor = Motor::paper_70_khz().with(|sheet| {
+        (sheet.amplitude, sheet.stator) = (None, Some(table));
+        (sheet.mass, sheet.preload_acceleration, sheet.preload_force) = (Some(0.033), None, Some(0.3));
+        (sheet.peak_angular_speed, sheet.contact_radius) = (Some(30.0), 5e-3);
+    });
+    motor.expect("legal")
+}
+
+fn under(load: f64, load_error: f64, speed_error: f64) -> RatedPoint {
+    RatedPoint::under_load([load, load_error], [0.0, speed_error])
+}
+
+/// No load, a rated one and nearly the stall of the prescribed motor.
+fn prescribed_points() -> Vec<RatedPoint> {
+    vec![under(0.0, 0.0, 0.3), under(1e-5, 1e-7, 0.3), under(2e-5, 4e-7, 0.5)]
+}
+
+/// Points as a maker would print them of this motor: of other starts, with errors of speeds and loads.
+fn printed(motor: &Motor, points: &[RatedPoint], seed: u64) -> Vec<RatedPoint> {
+    let mut noise = Noise::new(seed.wrapping_mul(7919));
+    let of = |(index, point): (usize, &RatedPoint)| {
+        let off: Vec<f64> = point.conditions.iter().map(|own| own.error * noise.normal()).collect();
+        let settings = OperatingSettings {
+            members: 4,
+            most_impacts: 1_000_000,
+            seed: SplitMix64::seed_of_stream(seed, index as u64),
+            ..OperatingSettings::default()
+        };
+        let motor = point.motor(motor, &off).expect("legal");
+        let known = operations(&[motor], &settings, &Unobserved).expect("no failure");
+        let speed = known[0].point().expect("it does not run away").speed.value;
+        RatedPoint { speed: speed + point.speed_error * noise.normal(), ..point.clone() }
+    };
+    points.iter().enumerate().map(of).collect()
+}
+
+fn settings(seed: u64) -> RatedFitSettings {
+    let operating = OperatingSettings { seed, ..RatedFitSettings::default().operating };
+    RatedFitSettings { operating, ..RatedFitSettings::default() }
+}
+
+fn fit(motor: &Motor, points: &[RatedPoint], ranges: &[FitRange], seed: u64) -> Result<RatedFit, FitError> {
+    RatedFit::new(motor, points, ranges, &settings(seed), &Unobserved)
+}
+
+/// How many of the accepted ranges of each parameter hold the truth, and how many exclude anything; a refused fit is a
+/// miss.
+fn covered(
+    motor: &Motor,
+    points: &[RatedPoint],
+    ranges: &[FitRange],
+    seeds: std::ops::Range<u64>,
+) -> Vec<[usize; 2]> {
+    let mut counts = vec![[0; 2]; ranges.len()];
+    for seed in seeds {
+        let Ok(fit) = fit(motor, &printed(motor, points, seed), ranges, seed) else { continue };
+        for (count, own) in counts.iter_mut().zip(&fit.parameters) {
+            count[0] += usize::from(own.accepted.iter().any(|range| range.contains(own.nominal)));
+            count[1] += usize::from(own.accepted.iter().any(|range| range.low.or(range.high).is_some()));
+        }
+    }
+    counts
+}
+
+#[test]
+fn ranges_hold_the_truth() {
+    let counts = covered(&Motor::paper_70_khz(), &prescribed_points(), &[FRICTION, TWIST], 0..5);
+    assert!(counts.iter().all(|count| count[0] >= 4 && count[1] == 5), "{counts:?}");
+}
+
+/// Hours on one core; the figures, and what has not been run to its end, are in docs/numerics/motors.md, "Parameters from
+/// rated points".
+#[test]
+#[ignore = "takes hours"]
+fn ninety_of_a_hundred_ranges_hold_the_truth() {
+    let (prescribed, volts) = (Motor::paper_70_khz(), in_volts());
+    let loads = [under(0.0, 0.0, 0.5), under(8e-5, 8e-7, 0.5), under(1.4e-4, 4e-6, 0.5)];
+    let preloads = [0.3, 2.0, 3.0].map(|force| under(0.0, 0.0, 0.5).at(MotorField::PreloadForce, force));
+    let typical = covered(&prescribed, &prescribed_points(), &[FRICTION, TWIST], 0..100);
+    let rough = covered(&prescribed, &prescribed_points()[..1], &[RESTITUTION], 0..100);
+    let yielding = covered(&volts, &loads, &[FRICTION, RESTITUTION], 0..100);
+    // The rotor takes nearly all of the amplitude.
+    let marginal = covered(&volts, &preloads, &[MASS, QUALITY], 0..100);
+    for counts in [typical, rough, yielding, marginal] {
+        println!("{counts:?}");
+        assert!(counts.iter().all(|count| count[0] >= 90), "{counts:?}");
+    }
+}
+
+/// A stator of ten times the mass changes the speed without load by 4 rad/s: a speed with an error of 3 says nothing.
+#[test]
+fn a_speed_that_is_badly_known_leaves_the_mass_of_a_stator_open() {
+    let motor = in_volts().with(|sheet| {
+        MotorField::Amplitude.set(sheet, 1.1e-7);
+        sheet.stator.iter_mut().for_each(|table| (table.anti_resonance, table.capacitance) = (None, None));
+    });
+    let motor = motor.expect("legal");
+    let points = printed(&motor, &[under(0.0, 0.0, 3.0)], 3);
+    let ranges = [FitRange { low: 0.03, ..MASS }];
+    let settings = RatedFitSettings { most_evaluations: 16, ..settings(3) };
+    let fit = RatedFit::new(&motor, &points, &ranges, &settings, &Unobserved).expect("fits");
+    let own = fit.estimate(FitParameter::StatorMass).expect("fitted");
+    assert!(own.value.is_none() && own.accepted.iter().any(|range| range.contains(0.05)), "{fit}");
+    assert_eq!(fit.undetermined.len(), 1, "{fit}");
+    assert!(fit.to_string().contains("not determined: a change of ln(stator.mass)"), "{fit}");
+}
+
+/// A load that overpowers a motor with less friction bounds the friction from below.
+#[test]
+fn a_load_that_a_motor_holds_bounds_the_friction() {
+    let motor = Motor::paper_70_khz();
+    let load = 0.5 * motor.largest_torque();
+    let points = printed(&motor, &[under(load, 0.0, 0.3)], 1);
+    let fit = fit(&motor, &points, &[FRICTION, RESTITUTION], 1).expect("fits");
+    let friction = &fit.estimate(FitParameter::Friction).expect("fitted").accepted[0];
+    // At half of the friction nothing holds the load; the emulator is smooth across that.
+    assert!(friction.low.is_some_and(|low| low > FRICTION.low), "{fit}");
+    assert!(friction.contains(0.1) && !fit.undetermined.is_empty(), "{fit}");
+    // And a speed beyond the stator's no parameter explains.
+    let beyond =
+        RatedPoint { speed: 2.0 * motor.system().platform().peak_angular_speed(), ..points[0].clone() };
+    let error =
+        RatedFit::new(&motor, &[beyond], &[FRICTION], &settings(1), &Unobserved).expect_err("too fast");
+    assert!(matches!(error, FitError::Refused(FitRefusal::Misfit { .. })), "{error}");
+}
+
+#[test]
+fn illegal_points_are_refused_by_name() {
+    let (motor, volts) = (Motor::paper_70_khz(), in_volts());
+    let good = under(1e-6, 0.0, 0.3);
+    let model = |motor: &Motor, points: &[RatedPoint], ranges: &[FitRange]| {
+        let settings = settings(1);
+        Model::new(motor, points, ranges, &settings).map(|_| ())
+    };
+    let refused = |points: &[RatedPoint], ranges: &[FitRange]| refused_field(model(&motor, points, ranges));
+    assert_eq!(model(&motor, std::slice::from_ref(&good), &[FRICTION]), Ok(()));
+    assert_eq!(refused(&[RatedPoint { speed_error: -0.1, ..good.clone() }], &[FRICTION]), "speed_error");
+    assert_eq!(refused(&[RatedPoint { speed: f64::NAN, ..good.clone() }], &[FRICTION]), "speed");
+    assert_eq!(refused(&[under(1e-6, -1e-8, 0.3)], &[FRICTION]), "error of a condition");
+    assert_eq!(refused(&[good.clone(), good.clone()], &[FRICTION]), "points under the same conditions");
+    assert_eq!(refused(&[], &[FRICTION]), "number of points");
+    assert_eq!(refused(std::slice::from_ref(&good), &[]), "number of fitted parameters");
+    assert_eq!(refused(std::slice::from_ref(&good), &[MASS]), "stator.mass");
+    let volts_alone = model(&motor, &[good.clone().at(MotorField::StatorVolts, 5.0)], &[FRICTION]);
+    assert_eq!(volts_alone, Err(Error::NotGiven { field: "stator.mass" }));
+    let both = |point: RatedPoint, ranges: &[FitRange]| {
+        matches!(model(&volts, &[point], ranges), Err(Error::BothGiven { .. }))
+    };
+    let amplitude = FitRange { parameter: FitParameter::Amplitude, low: 1e-8, high: 1e-6 };
+    assert!(both(good.clone().at(MotorField::StatorVolts, 5.0), &[amplitude]));
+    assert!(both(good.clone().at(MotorField::Friction, 0.2), &[FRICTION]));
+    assert!(both(good.at(MotorField::LoadTorque, 0.0), &[FRICTION]));
+}
+
+/// Against a response that is known, bent like a collapse.
+#[test]
+fn an_emulator_knows_how_well_it_knows() {
+    let response =
+        |place: &DVector<f64>| 5.0 / (1.0 + pow(2.0, 6.0 * (place[0] - 0.2))) + place[1] * place[1];
+    let mut noise = Noise::new(5);
+    let places = design(2, 40, 1);
+    let values: Vec<Response> = places
+        .iter()
+        .map(|place| Response {
+            value: response(place) + 0.05 * noise.normal(),
+            error: 0.05,
+            bias: 0.1 * place[0].abs(),
+        })
+        .collect();
+    let emulator = Emulator::of(places, &values, None).expect("finite");
+    let (mut squares, count) = (0.0, 200);
+    for k in 0..count {
+        let place =
+            DVector::from_vec(vec![2.0 * golden_spread(k) - 1.0, 2.0 * golden_spread(7 * k + 3) - 1.0]);
+        let (value, variance) = emulator.at(&place);
+        squares +=
+            (value - response(&place)) * (value - response(&place)) / (variance + emulator.roughness(&place));
+        assert!(variance < 0.3 && emulator.bias(&place) < 0.0101, "{place} {variance}");
+        for index in 0..2 {
+            let mut ahead = place.clone();
+            ahead[index] += 1e-6;
+            let slope = (emulator.at(&ahead).0 - value) / 1e-6;
+            assert!((slope - emulator.slopes(&place)[index]).abs() < 1e-3 * (1.0 + slope.abs()), "{place}");
+        }
+        let known = emulator.believing(&place).expect("finite");
+        assert!(
+            known.at(&place).1 < variance.max(1e-12) && (known.at(&place).0 - value).abs() < 1e-6,
+            "{place}"
+        );
+    }
+    let share = squares / count as f64;
+    assert!((0.2..1.6).contains(&share), "{share}");
+}
+
+#[cfg(feature = "csv")]
+#[test]
+fn a_table_of_points_is_read_or_its_fault_placed() {
+    let read = |text: &str| {
+        let file = tempfile_with(text);
+        let result = RatedPoint::table_from_csv(&file, None);
+        std::fs::remove_file(file).expect("ours");
+        result
+    };
+    let text = "# as printed\nspeed (rpm);load_torque;load_torque_error;stator.volts;speed_error\n60;0;;10;6\n0;2e-5;1e-6;;\n";
+    let points = read(text).expect("legal").expect("points");
+    assert!((points[0].speed / std::f64::consts::TAU - 1.0).abs() < 1e-15);
+    assert!((points[0].speed_error / std::f64::consts::TAU - 0.1).abs() < 1e-15);
+    let load = RatedCondition { field: MotorField::LoadTorque, value: 2e-5, error: 1e-6 };
+    assert_eq!((points.len(), &points[1].conditions), (2, &vec![load]));
+    assert_eq!(read("time_s,speed_rad_s\n0,1\n").expect("legal"), None);
+    for (text, words) in [
+        (
+            "speed_rad_s,load_torq,load_torque\n1,2,3\n",
+            "line 1, field 2: the column \"load_torq\" is unknown",
+        ),
+        ("speed,load_torque\n1,2\n", "field 1: the column \"speed\" is unknown, or has another unit"),
+        ("load_torque\n1\n", "the column of the speed, or its unit, is missing"),
+        ("speed_rad_s,load_torque,load_torque\n1,2,3\n", "is there twice"),
+        ("speed_rad_s,load_torque\n1,2,3\n", "line 2: it has 3 fields"),
+        ("speed_rad_s,load_torque\n1,x\n", "line 2, field 2: \"x\" is not a number"),
+        ("speed_rad_s,load_torque,load_torque_error\n1,,3\n", "the error of load_torque is without a value"),
+    ] {
+        let error = read(text).expect_err("a fault").to_string();
+        assert!(error.contains(words), "{error}");
+    }
+}
+
+#[cfg(feature = "csv")]
+fn tempfile_with(text: &str) -> std::path::PathBuf {
+    let file = std::env::temp_dir().join(format!("points-{}.csv", std::process::id()));
+    std::fs::write(&file, text).expect("written");
+    file
+}
