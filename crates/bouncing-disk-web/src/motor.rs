@@ -30,10 +30,16 @@ const TRAP_RANGE: f64 = 0.02;
 /// The report of a data sheet before anything turns, with its system and the mass of its rotor (kg). The trap
 /// is the nearest preload at which the motor may be caught in a motion of few impacts: whether it is, the
 /// relative change of the preload or the amplitude that reaches it, and its range of the forcing; none is looked
-/// for where contacts take time.
+/// for where contacts take time. Of a stator that yields regime and forcing are those of its motion without a rotor.
 pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
-    let report = motor.report(&Unobserved)?;
+    let unloaded = match motor.stator() {
+        Some(_) => MotorParameters::of_system(&motor.system().with_stator(None)?, motor.mass()).build()?,
+        None => motor,
+    };
+    let report = unloaded.report(&Unobserved)?;
+    let own = motor.stator_report();
+    let warnings = if own.is_some() { motor.warnings() } else { report.warnings.clone() };
     let rigid = soft(motor)?.is_none();
     let trap = if rigid { motor.nearest_trap(TRAP_RANGE, &Unobserved)? } else { None };
     let trap = trap.map(|trap| {
@@ -50,15 +56,16 @@ pub(crate) fn report(sheet: MotorParameters) -> Result<Reply, Refusal> {
         "regime": report.regime.to_string(),
         "contact": ContactStatement::rows(report.contact.as_ref()),
         "largest_torque": report.largest_torque,
-        "warnings": report.warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "text": report.to_string(),
+        "warnings": warnings.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "text": own.map_or_else(|| report.to_string(), |own| own.to_string()),
+        "yields": motor.stator().is_some(),
         "system": SystemParameters::from(motor.system()),
         "mass": motor.mass(),
         "trap": trap,
     }))
 }
 
-/// The motor whose contacts take time, if they do.
+/// The motor whose contacts take time or whose stator yields, if they do.
 fn soft(motor: Motor) -> Result<Option<DrivenMotor>, Error> {
     DrivenMotor::where_needed(motor, &DriveParameters::default())
 }
@@ -115,7 +122,7 @@ const fn refused_since(reason: &FitRefusal) -> &'static str {
     }
 }
 
-/// What each operation lacks. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and
+/// What each operation lacks, and the amplitude (m) of a stator that yields. Numbers: a row for each with the load (N m), the speed (rad/s), mechanical and
 /// input power (W) and the efficiency, each with its standard error, and 0 if it is steady, 1 unsettled (the
 /// numbers are the best so far), 2 runaway (the load drives the rotor; the numbers are NaN).
 pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
@@ -131,7 +138,14 @@ pub(crate) fn loads(request: &LoadsRequest) -> Result<Reply, Refusal> {
         None => motor.torque_speed_curve(load_torques, &settings, &Unobserved)?,
     };
     let shortfalls: Vec<_> = operations.iter().map(lacking).collect();
-    Reply::new(&json!({ "shortfalls": shortfalls }), operations.iter().flat_map(row).collect(), Vec::new())
+    let amplitude =
+        |own: &Operation| own.point().and_then(|point| point.stator).map(|stator| stator.amplitude.value);
+    let amplitudes: Vec<_> = operations.iter().map(amplitude).collect();
+    Reply::new(
+        &json!({ "shortfalls": shortfalls, "amplitudes": amplitudes }),
+        operations.iter().flat_map(row).collect(),
+        Vec::new(),
+    )
 }
 
 fn settings(relative_error: f64, most_impacts: Option<u64>, seed: u64) -> Result<OperatingSettings, Refusal> {
@@ -181,7 +195,7 @@ fn lacking(operation: &Operation) -> Option<String> {
 pub(crate) fn stall(sheet: MotorParameters, relative_error: f64, seed: u64) -> Result<Reply, Refusal> {
     let motor = sheet.build()?;
     if soft(motor)?.is_some() {
-        let message = "with a contact time the search takes minutes: use bouncing-disk motor stall";
+        let message = "with a contact time or a stator that yields the search takes minutes: use bouncing-disk motor stall";
         return Err(Refusal::new("computation", message.to_owned()));
     }
     let (torque, speed) = match motor.stall_load(&settings(relative_error, None, seed)?, &Unobserved) {
@@ -204,11 +218,11 @@ pub(crate) fn write(sheet: MotorParameters) -> Result<Reply, Refusal> {
     Reply::short(&json!({ "text": sheet.build()?.to_json() }))
 }
 
-/// The page has one law of contacts that take time, and no stator that yields.
+/// The page has one law of contacts that take time, and constant loads.
 pub(crate) fn read(text: &str) -> Result<Reply, Refusal> {
     let motor = Motor::from_json(text).map_err(|error| Refusal::new("text", error.to_string()))?;
-    if motor.system().prescribed().is_err() {
-        let message = "a stator that yields and a load that varies are for the command line and Python";
+    if motor.load().is_some() {
+        let message = "a load that varies is for the command line and Python";
         return Err(Refusal::new("text", message.to_owned()));
     }
     if let Some((ContactLaw::Hysteresis, _)) = motor.system().soft_contact() {

@@ -14,8 +14,19 @@ export const SYSTEM_NAMES = [
 ] as const; // prettier-ignore
 export type SystemParameters = Record<(typeof SYSTEM_NAMES)[number], number>;
 
+/** One mode of a stator that yields: effective mass (kg), and whether it also twists. */
+export interface StatorSheet {
+  readonly kind: "axial" | "axial_twist" | "axial_and_torsional";
+  readonly mass?: number;
+  readonly quality?: number;
+}
+
 /** A motor's data sheet, with one of each pair of alternatives; the library's `MotorParameters`. */
-export type MotorSheet = { readonly load_torque: number; readonly contact?: { readonly time?: number } | null };
+export type MotorSheet = {
+  readonly load_torque: number;
+  readonly contact?: { readonly time?: number } | null;
+  readonly stator?: StatorSheet | null;
+};
 
 /** An impact that an orbit begins with: its phase (rad), and its normalised speed |w_A| Gamma/(A omega), positive. */
 export interface ImpactStart {
@@ -138,6 +149,8 @@ export interface ReportJson {
   readonly largest_torque: number;
   readonly warnings: readonly string[];
   readonly text: string;
+  /** Whether the stator yields: regime and forcing are then those of its motion without a rotor. */
+  readonly yields: boolean;
   readonly system: SystemParameters;
   readonly trap: TrapJson | null;
 }

@@ -57,6 +57,7 @@ class MotorView implements View {
     this.sheetPanel = new SheetPanel(context, (imported) => {
       this.imported = imported;
       context.change({ system: imported.system, mass: imported.mass });
+      this.show(context.state());
     });
     const [runUp, speed, power, efficiency] = [this.runUpChart, ...this.curveCharts].map(({ root }) => root);
     const charts = [
@@ -68,7 +69,7 @@ class MotorView implements View {
   }
 
   show(state: State): void {
-    const key = keyOf(state);
+    const key = this.keyOf(state);
     // What is known of one motor never stands under another one, however long that one takes.
     if (key !== this.shown) {
       this.shown = key;
@@ -110,7 +111,7 @@ class MotorView implements View {
   private async fetch(): Promise<void> {
     const state = this.context.state();
     try {
-      await this.all.get(keyOf(state), () => this.computeAll(state, (this.known = new Known())));
+      await this.all.get(this.keyOf(state), () => this.computeAll(state, (this.known = new Known())));
     } catch (error) {
       tellFailure(this.context, error);
     }
@@ -125,6 +126,7 @@ class MotorView implements View {
     known.sheet = sheet;
     known.text = json.text;
     this.sheetPanel.show(known.text);
+    this.sheetPanel.stator(sheet.stator ?? null);
     const report = await reportOf(context, sheet);
     known.report = report;
     reportPanel.report(report);
@@ -203,6 +205,10 @@ class MotorView implements View {
     return names.every((name) => imported.system[name] === state.system[name]) ? imported.sheet : null;
   }
 
+  private keyOf(state: State): string {
+    return JSON.stringify([state.system, state.mass, state.motor, this.sheetKnown(state)?.stator ?? null]);
+  }
+
   private paint(): void {
     const { report, transient, problems, own, operations, stall } = this.known;
     const still = report === null ? null : whyNothingTurns(report);
@@ -229,8 +235,6 @@ function summaryOf(operations: readonly Operation[]): string {
   if (runaway > 0) words.push(runaway === 1 ? "one of them drives the rotor" : `${runaway} of them drive the rotor`);
   return `${words.join("; ")}.`;
 }
-
-const keyOf = ({ system, mass, motor }: State): string => JSON.stringify([system, mass, motor]);
 
 export const motor: ViewKind = {
   name: "motor",

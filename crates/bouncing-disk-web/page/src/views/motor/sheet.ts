@@ -4,7 +4,7 @@ import type { Context, State } from "../../contract";
 import { save } from "../../drawing/files";
 import { button, div, element, section } from "../../elements";
 import {
-  OPERATION_COLUMNS, type MotorSheet, type ReportJson, type SheetJson, type StallJson,
+  OPERATION_COLUMNS, type MotorSheet, type ReportJson, type SheetJson, type StallJson, type StatorSheet,
   type TransientJson,
 } from "../../protocol"; // prettier-ignore
 import { tellFailure } from "../asking";
@@ -13,8 +13,9 @@ import { tellFailure } from "../asking";
 export const SLOT = "motor";
 /** The seed of all random numbers, so that everybody gets the same ones. */
 export const SEED = 1;
-/** Motors of a run-up; those whose contacts take time are nearly alike, and take longer. */
-export const membersOf = (sheet: MotorSheet | null): number => (sheet?.contact?.time === undefined ? 16 : 5);
+/** Motors of a run-up; those whose contacts take time are nearly alike, and take longer, as those on a stator that yields. */
+export const membersOf = (sheet: MotorSheet | null): number =>
+  sheet?.contact?.time === undefined && !sheet?.stator ? 16 : 5;
 const TRANSIENT_POINTS = 160;
 /** The curve is there soon, roughly, and then sharpens: a motor that settles late takes more impacts. */
 export const PASSES = [
@@ -28,6 +29,8 @@ const WIDTH = OPERATION_COLUMNS.length;
 /** One load: a row by the names of `OPERATION_COLUMNS`. */
 export type Operation = Record<(typeof OPERATION_COLUMNS)[number], number> & {
   readonly shortfall: string | null;
+  /** Of a stator that yields (m). */
+  readonly amplitude: number | null;
   /** The relative error that was asked for. */
   readonly wanted: number;
 };
@@ -60,11 +63,13 @@ export async function operate(
   pass: (typeof PASSES)[number],
 ): Promise<Operation[]> {
   const request = { call: "motor_loads", sheet, load_torques, ...pass, seed: SEED } as const;
-  const { json, numbers } = await client.series<{ shortfalls: (string | null)[] }>(SLOT, [request]);
+  type Known = { shortfalls: (string | null)[]; amplitudes: (number | null)[] };
+  const { json, numbers } = await client.series<Known>(SLOT, [request]);
   return load_torques.map((_, row) => {
     const columns = OPERATION_COLUMNS.map((name, column) => [name, numbers[row * WIDTH + column]]);
     const shortfall = json.shortfalls[row] ?? null;
-    return { ...Object.fromEntries(columns), shortfall, wanted: pass.relative_error } as Operation;
+    const amplitude = json.amplitudes[row] ?? null;
+    return { ...Object.fromEntries(columns), shortfall, amplitude, wanted: pass.relative_error } as Operation;
   });
 }
 
@@ -75,8 +80,16 @@ export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<S
 
 /** A data sheet has some dozen numbers. */
 const LONGEST_SHEET = 100_000;
+const YIELDS =
+  "Amplitude and twist of the system are then those without a rotor, at resonance. They are in the sheet, not in the " +
+  "link, and the other views do not have them.";
 const REMARK =
   "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it.";
+
+const numberField = (name: string, placeholder: string, onchange: () => void): HTMLInputElement =>
+  element("input", { type: "text", inputmode: "decimal", size: 8, placeholder, "aria-label": name, onchange });
+
+const label = (words: string, field: HTMLElement): HTMLElement => element("label", { class: "field" }, `${words} `, field);
 
 /** The data sheet: imported by pasting or from a file, shown and exported as JSON. */
 export class SheetPanel {
@@ -89,6 +102,9 @@ export class SheetPanel {
     type: "file", accept: ".json,application/json", hidden: true, onchange: () => void this.readFile(),
   }); // prettier-ignore
   private typed = false;
+  private readonly mass = numberField("Effective mass (g)", "does not yield", () => this.yield());
+  private readonly quality = numberField("Quality factor", "300", () => this.yield());
+  private readonly twists = element("input", { type: "checkbox", onchange: () => void this.yield() });
 
   constructor(
     private readonly context: Context,
@@ -101,13 +117,44 @@ export class SheetPanel {
       button("Save as JSON", () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
       this.file,
     );
-    const parts = [element("h3", {}, "Data sheet"), this.text, bar, element("p", { class: "remark" }, REMARK)];
+    const stator = element(
+      "fieldset", {}, element("legend", {}, "Stator that yields"), label("Effective mass (g)", this.mass),
+      label("Quality factor", this.quality), label("The mode also twists", this.twists),
+      element("p", { class: "remark" }, YIELDS),
+    ); // prettier-ignore
+    const remark = element("p", { class: "remark" }, REMARK);
+    const parts = [element("h3", {}, "Data sheet"), stator, this.text, bar, remark];
     this.root = section("Data sheet", "panel", ...parts);
   }
 
   /** Shows a text, unless somebody is about to write another one. */
   show(text: string): void {
     if (!this.typed) this.text.value = text;
+  }
+
+  /** Shows the stator of a sheet. */
+  stator(stator: StatorSheet | null): void {
+    if (this.root.contains(document.activeElement)) return;
+    this.mass.value = stator?.mass === undefined ? "" : String(Number((1e3 * stator.mass).toPrecision(12)));
+    this.quality.value = stator?.quality === undefined ? "" : String(stator.quality);
+    this.twists.checked = stator?.kind === "axial_twist";
+  }
+
+  /** Puts the mode of the fields into the sheet. */
+  private yield(): void {
+    let sheet: { stator?: StatorSheet };
+    try {
+      sheet = JSON.parse(this.text.value) as typeof sheet;
+    } catch {
+      this.context.status("The data sheet is no JSON.", "error");
+      return;
+    }
+    if (this.mass.value === "") delete sheet.stator;
+    else {
+      const kind = this.twists.checked ? "axial_twist" : "axial";
+      sheet.stator = { kind, mass: 1e-3 * Number(this.mass.value), quality: Number(this.quality.value || "300") };
+    }
+    void this.read(JSON.stringify(sheet));
   }
 
   private async read(text: string): Promise<void> {

@@ -6,7 +6,7 @@ import type { IntervalJson, ReportJson, StallJson, TrapJson } from "../../protoc
 import type { Operation, Transient } from "./sheet";
 
 const NAMES = [
-  "Regime", "Forcing Γ", "Contact time over the period", "Static indentation over A", "Largest torque of friction", "Steady speed", "Time constant", "Stall load",
+  "Regime", "Forcing Γ", "Contact time over the period", "Static indentation over A", "Largest torque of friction", "Steady speed", "Amplitude", "Time constant", "Stall load",
 ] as const; // prettier-ignore
 
 export class ReportPanel {
@@ -33,7 +33,7 @@ export class ReportPanel {
   }
 
   report(report: ReportJson): void {
-    this.facts.set("Regime", `${report.system.contact_time > 0 ? "of rigid impacts: " : ""}${report.regime}`);
+    this.facts.set("Regime", `${regimeOf(report)}${report.regime}`);
     this.facts.set("Forcing Γ", plain(report.axial_forcing, 5));
     const [[, time], [, depth]] = report.contact;
     this.facts.set("Contact time over the period", time);
@@ -50,7 +50,7 @@ export class ReportPanel {
 
   /** Of a motor that nothing turns. */
   still(): void {
-    for (const name of ["Steady speed", "Time constant", "Stall load"]) this.facts.set(name, "–");
+    for (const name of ["Steady speed", "Amplitude", "Time constant", "Stall load"]) this.facts.set(name, "–");
   }
 
   runUp(transient: Transient | null, own: Operation | null, problem = ""): void {
@@ -60,12 +60,19 @@ export class ReportPanel {
 
   operation(own: Operation, report: ReportJson): void {
     this.facts.set("Steady speed", steadySpeed(own, report.largest_torque));
+    const known = own.amplitude === null ? "as the system says" : `${quantity(own.amplitude, "m")} ${under(own.load_torque)}`;
+    this.facts.set("Amplitude", known);
   }
 
   stall(stall: StallJson | null, problem = ""): void {
     this.facts.set("Stall load", stall === null ? problem || "–" : describeStall(stall));
   }
 }
+
+/** What a regime leaves out. */
+const regimeOf = ({ system, yields }: ReportJson): string =>
+  `${yields ? "without a rotor" : ""}${yields && system.contact_time > 0 ? ", " : ""}` +
+  `${system.contact_time > 0 ? "of rigid impacts" : ""}${yields || system.contact_time > 0 ? ": " : ""}`;
 
 /** What turns nothing, or null for a motor that may turn. */
 export function whyNothingTurns(report: ReportJson): string | null {
