@@ -4,7 +4,7 @@ use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven::single_toss;
 use bouncing_disk::motor::{DrivenMotor, OperatingSettings};
-use bouncing_disk::parameters::{ContactLaw, DriveParameters, DrivenPlatform, Stroke};
+use bouncing_disk::parameters::{ContactLaw, DriveParameters, DrivenPlatform, Stroke, Waveform};
 use bouncing_disk::toss::{InitialSpin, TOSS_START};
 use bouncing_disk::{Motor, System};
 use bouncing_disk_web::{Explorer, Reply};
@@ -533,10 +533,41 @@ fn a_sheet_that_is_written_is_read_again() {
     assert_eq!(of_system["sheet"]["friction"], 0.1);
     assert_eq!(of_system["sheet"]["contact"]["time"], 2e-5);
     let hysteretic = with(soft, json!({ "contact": { "time": 2e-5, "law": "hysteresis" } })).to_string();
-    for text in ["", "{}", "[]", "{\"friction\": 1}", &hysteretic] {
+    let varies = with(sheet(), json!({ "load": { "speeds": [0.0], "torques": [1e-6] } })).to_string();
+    for text in ["", "{}", "[]", "{\"friction\": 1}", &hysteretic, &varies] {
         refused(&json!({ "call": "sheet_read", "text": text }));
     }
     refused(&json!({ "call": "sheet_of_system", "system": pizza(), "mass": 0.0 }));
+}
+
+/// A motor on a stator that yields, by its sheet: the library's numbers.
+#[test]
+fn a_stator_yields_as_in_the_library() {
+    let stator = json!({ "kind": "axial", "mass": 0.05, "quality": 300.0 });
+    let text = with(sheet(), json!({ "amplitude": 1e-7, "stator": stator })).to_string();
+    let (read, _) = answered(&json!({ "call": "sheet_read", "text": text }));
+    assert_eq!(read["sheet"]["stator"]["mass"], 0.05);
+    let (report, _) = answered(&json!({ "call": "motor_report", "sheet": read["sheet"] }));
+    assert_eq!(report["yields"], true);
+    let motor = Motor::from_json(&text).expect("legal");
+    assert_eq!(report["text"], motor.stator_report().expect("it yields").to_string());
+    let request = json!({
+        "call": "motor_loads", "sheet": read["sheet"], "load_torques": [0.0], "relative_error": 0.2,
+        "most_impacts": 1000, "seed": 1
+    });
+    let (json, reply) = answered(&request);
+    let settings = OperatingSettings {
+        relative_error: 0.2,
+        members: 4,
+        most_impacts: 250,
+        seed: 1,
+        ..OperatingSettings::default()
+    };
+    let driven = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine).expect("legal");
+    let known = driven.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("runs");
+    let point = known[0].point().expect("no load drives it");
+    assert_eq!(reply.numbers[1].to_bits(), point.speed.value.to_bits());
+    assert_eq!(number(&json, "/amplitudes/0"), point.stator.expect("it yields").amplitude.value);
 }
 
 /// Soft hands by the engine against the single toss of Sec. III, and the motor by its sheet: the library's numbers.
