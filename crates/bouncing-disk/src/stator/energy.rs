@@ -1,6 +1,5 @@
 //! The energy balances of a motion between two events.
 
-use bouncing_disk_core::numerics::elementary::sin_cos;
 use bouncing_disk_core::numerics::linear_flow::dot;
 
 use super::LoadLine;
@@ -49,6 +48,15 @@ impl StatorEngine {
         self.record_modes(&mut stator, &self.state, state);
         match self.stage {
             Stage::Contact { .. } => self.record_contact(span, &mut ledger, &mut stator),
+            // In a short flight the closed forms are differences of two works of almost a whole period.
+            _ if span < self.regime().flow.step() => {
+                let expanded = self.regime().flow.expand(&self.state);
+                for (time, part) in nodes(span) {
+                    let mut at = expanded.at(time);
+                    (at[SIN], at[COS]) = self.phase_after(time);
+                    self.record_mode_works(&at, part, [0.0; 2], &mut stator);
+                }
+            }
             _ => self.record_flight(span, state, &mut stator),
         }
         if let Contact::Soft { stiffness, .. } = self.system.contact {
@@ -91,6 +99,18 @@ impl StatorEngine {
         }
     }
 
+    /// Works and losses of the modes in an instant of so long `part`.
+    fn record_mode_works(&self, at: &State, part: f64, [force, torque]: [f64; 2], stator: &mut StatorLedger) {
+        for (index, mode) in self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0) {
+            let [_, speed] = self.mode_state(index, at);
+            let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
+            let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
+            let taken = mode.height * force + self.system.arm * mode.angle * torque;
+            let loss = mode.weight * mode.damping * speed * speed;
+            stator.record(index, part * drive * speed, part * loss, part * taken * speed);
+        }
+    }
+
     /// Works and losses over a contact, by quadrature of the state on each step.
     fn record_contact(&self, span: f64, ledger: &mut EnergyLedger, stator: &mut StatorLedger) {
         let regime = self.regime();
@@ -101,13 +121,9 @@ impl StatorEngine {
         while passed < span {
             let length = (span - passed).min(flow.step());
             let expanded = flow.expand(&state);
-            for (node, weight) in
-                GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)])
-            {
-                let time = 0.5 * length * (1.0 + node);
-                let part = 0.5 * length * weight;
+            for (time, part) in nodes(length) {
                 let mut at = expanded.at(time);
-                (at[SIN], at[COS]) = sin_cos(self.now.phase.angle() + (passed + time));
+                (at[SIN], at[COS]) = self.phase_after(passed + time);
                 let (force, torque) = (dot(regime.force.now(), &at), dot(&regime.torque, &at));
                 let ([_, tip], [_, turn]) = (self.system.tip(&at), self.system.twist(&at));
                 let damper = match self.system.contact {
@@ -126,25 +142,18 @@ impl StatorEngine {
                 // The speed of the tip is a small sum of its steady motion and the ringing where the disk is heavy.
                 let terms = size(&regime.torque, &at) * size(regime.slip.now(), &at);
                 ledger.record_friction(part * torque * turn, part * lost, part * (terms + lost));
-                for (index, mode) in
-                    self.system.modes.iter().enumerate().filter(|(_, mode)| mode.weight > 0.0)
-                {
-                    let [_, speed] = self.mode_state(index, &at);
-                    let [u, v] = self.system.steady(index, (at[SIN], at[COS]));
-                    let drive = mode.weight * ((mode.stiffness - 1.0) * u + mode.damping * v);
-                    let taken = mode.height * force + self.system.arm * mode.angle * torque;
-                    stator.record(
-                        index,
-                        part * drive * speed,
-                        part * mode.weight * mode.damping * speed * speed,
-                        part * taken * speed,
-                    );
-                }
+                self.record_mode_works(&at, part, [force, torque], stator);
             }
             state = if length < flow.step() { state } else { flow.advance(&state) };
             passed += flow.step();
         }
     }
+}
+
+/// Times and weights of the rule on an interval of this length.
+fn nodes(length: f64) -> impl Iterator<Item = (f64, f64)> {
+    let all = GAUSS.into_iter().flat_map(|(node, weight)| [(node, weight), (-node, weight)]);
+    all.map(move |(node, weight)| (0.5 * length * (1.0 + node), 0.5 * length * weight))
 }
 
 /// The integrals of cos(tau) r' and sin(tau) r' of a ringing x = (r, r') but for a constant: the second component of

@@ -147,6 +147,13 @@ impl Regime {
         }
         (matrix[SIN][COS], matrix[COS][SIN]) = (1.0, -1.0);
         (matrix[ANGLE], matrix[SPEED]) = (unit(SPEED), sum(&torque, &load, -1.0));
+        if grip == Some(Grip::Stick) {
+            // The same without the load, whose rounding would let the disk drift from a stator that hardly turns.
+            let modes = system.modes.iter().zip(&solution);
+            matrix[SPEED] = modes.fold(steady_acceleration(system.angle), |turns, (mode, acceleration)| {
+                sum(&turns, acceleration, mode.angle)
+            });
+        }
         if grip.is_none() || system.contact != Contact::Rigid {
             // w' = N - 1 - s''.
             let fall = sum(&force, &unit(ONE), -1.0);

@@ -244,6 +244,28 @@ fn a_stator_rings_down_and_up_as_its_circuit() {
     assert!(place.abs() < 1e-9 && (speed - 5.0).abs() < 1e-9, "{place} {speed}");
 }
 
+/// Where a mode of much energy turns back little moves: ledgers and gaps of short flights keep their digits.
+#[test]
+fn short_flights_keep_their_digits() {
+    let base = base(3.0, 0.5, 3.0, 0.001, 0.5, 0.001);
+    let system = StatorSystem::new(&base, &[YieldingMode::axial(1e6, 1e-3, 3.0)]).expect("legal");
+    for (phase, span) in [(4.7027, 2.6e-7), (4.7123889, 1e-9), (1.5708, 1e-5), (4.7, 0.3)] {
+        let start = DrivenStart::Flight {
+            phase: Phase::new(phase).expect("finite"),
+            gap: 1e-3,
+            relative_velocity: 0.0,
+            angular_speed: 0.1,
+        };
+        let mut engine = StatorEngine::new(system.clone(), start).expect("legal");
+        let ledger = engine.ledgers_after(span).1;
+        assert!(ledger.closure().abs() < 1e-14 * ledger.magnitude, "{phase} {span} {ledger:?}");
+        engine.state[regime::DISPLACEMENTS[0]] = -1e4;
+        let change = engine.carried(span)[regime::GAP] - engine.state[regime::GAP];
+        let falls = change - engine.state[regime::CLOSING] * span;
+        assert!(falls.abs() < 5.0 * span * span + 1e-18, "{phase} {span} {change} {falls}");
+    }
+}
+
 /// Between two events the gap stays open, the contact pressed, the slip in its direction and the grip within friction: so no
 /// event is missed, of seams and of systems in between.
 fn attack_seams(count: usize, events: usize) -> usize {
@@ -290,15 +312,16 @@ fn attack_seams(count: usize, events: usize) -> usize {
                 before.state,
                 system.base.parameters()
             );
-            // Where a rotor hardly turns its energy is rounding beside the rest.
             let (disk, modes) = (&record.ledger, &record.stator);
             // A stiff contact that lasts is followed in many steps, each of which is rounded.
-            let rounding = 4.0 * f64::EPSILON * span / before.regime().flow.step();
-            let left = disk.axial_closure().abs() + 0.5 * disk.rotary_closure().abs() + modes.closure().abs();
-            let size = disk.axial_magnitude + 0.5 * disk.rotary_magnitude + modes.magnitude;
+            let allowed = 1e-12 + 4.0 * f64::EPSILON * span / before.regime().flow.step();
+            let (axial, size) = (disk.axial_closure().abs(), disk.axial_magnitude);
+            // What moves a mode may be the small difference of the weight and the inertia: it is judged beside these.
             assert!(
-                left <= (1e-12 + rounding) * size,
-                "{trial} {left} {size} {record:#?} {:?} {:?}",
+                axial <= allowed * size
+                    && disk.rotary_closure().abs() <= allowed * disk.rotary_magnitude
+                    && axial + modes.closure().abs() <= allowed * (size + modes.magnitude),
+                "{trial} {record:#?} {:?} {:?}",
                 before.stage,
                 before.state
             );
