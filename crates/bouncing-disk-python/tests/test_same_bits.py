@@ -123,6 +123,18 @@ def operations(digest: Digest) -> None:
     digest.numbers(*bd.elementary_effects(MOTOR, **sample).mean)
 
 
+def stators(digest: Digest) -> None:
+    modes: dict[str, float | str] = {"mass": 0.05, "quality": 300.0}
+    twisting = modes | {"kind": "axial_twist", "twist_per_height": 700.0}
+    two = modes | {"kind": "axial_and_torsional", "inertia": 1e-6, "torsional_quality": 100.0, "resonance": 70.1e3}
+    for stator, speed, contact_time in [(twisting, None, None), (two, 30.0, 1e-5)]:
+        motor = bd.Motor.paper_70_khz().replace(stator=stator, amplitude=1e-7, peak_angular_speed=speed)
+        loose: dict[str, Any] = {"relative_error": 0.3, "members": 4, "most_impacts": 2_000}
+        loads = [0.0, 1e-5]
+        found = bd.torque_speed_curve(motor, load_torques=loads, contact_time=contact_time, **loose)
+        digest.numbers(*found.speed, *found.stator_amplitude, *found.electrical_efficiency)
+
+
 CALLS: dict[str, Callable[[Digest], None]] = {
     "diagram": diagram,
     "diagram with the paper's cut": lambda digest: diagram(digest, bd.ChatterCut.paper()),
@@ -134,6 +146,7 @@ CALLS: dict[str, Callable[[Digest], None]] = {
     "manifolds": manifolds,
     "crisis": crisis,
     "operations": operations,
+    "stators": stators,
 }
 
 

@@ -17,9 +17,10 @@ use bouncing_disk::core::{
 use bouncing_disk::estimate::TransientEnsemble;
 use bouncing_disk::motion::PAPER_CHATTER;
 use bouncing_disk::motor::{
-    MotorField, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter, SensitivityQuantity,
-    SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
+    DrivenMotor, MotorField, MotorSweep, OperatingSettings, SamplingSettings, SensitivityParameter,
+    SensitivityQuantity, SensitivitySettings, SweepAxis, SweepQuantity, TransientSettings,
 };
+use bouncing_disk::parameters::{StatorKind, StatorParameters, Waveform};
 use bouncing_disk::toss::{InitialSpin, single_toss};
 use bouncing_disk::{Error, Motor, System};
 #[cfg(target_arch = "wasm32")]
@@ -63,6 +64,7 @@ fn all() -> Result<Vec<(&'static str, Digest)>, Error> {
         ("manifolds", manifolds()?),
         ("crisis", crisis()?),
         ("operations", operations()?),
+        ("stators", stators()?),
     ])
 }
 
@@ -222,6 +224,41 @@ fn operations() -> Result<Digest, Error> {
     numbers.extend(indices.iter().map(|one| one.total.value));
     let effects = motor.elementary_effects(quantity, &ranges, sampling, &settings, &Unobserved)?;
     numbers.extend(effects.iter().map(|one| one.mean.value));
+    Ok(digest_of(numbers))
+}
+
+/// Operating points on stators that yield: one mode with rigid impacts, and two with contacts that take time.
+fn stators() -> Result<Digest, Error> {
+    let settings = OperatingSettings {
+        relative_error: 0.3,
+        members: 4,
+        most_impacts: 2_000,
+        ..OperatingSettings::default()
+    };
+    let modes = StatorParameters { mass: Some(0.05), quality: Some(300.0), ..StatorParameters::default() };
+    let twisting = StatorParameters { kind: StatorKind::AxialTwist, twist_per_height: Some(700.0), ..modes };
+    let two = StatorParameters {
+        kind: StatorKind::AxialAndTorsional,
+        inertia: Some(1e-6),
+        torsional_quality: Some(100.0),
+        resonance: Some(70.1e3),
+        ..modes
+    };
+    let mut numbers = Vec::new();
+    for (stator, speed, contact_time) in [(twisting, None, None), (two, Some(30.0), Some(1e-5))] {
+        let motor = Motor::paper_70_khz().with(|sheet| {
+            (sheet.stator, sheet.amplitude, sheet.peak_angular_speed) = (Some(stator), Some(1e-7), speed);
+        })?;
+        let motor = DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)?;
+        let motor = if let Some(time) = contact_time { motor.with_contact_time(time)? } else { motor };
+        let curve = motor.torque_speed_curve(&[0.0, 1e-5], &settings, &Unobserved)?;
+        let quantities =
+            [SweepQuantity::Speed, SweepQuantity::StatorAmplitude, SweepQuantity::ElectricalEfficiency];
+        let number =
+            |(quantity, point): (SweepQuantity, &_)| quantity.of(point).map_or(f64::NAN, |one| one.value);
+        numbers
+            .extend(quantities.into_iter().flat_map(|of| curve.iter().map(move |point| number((of, point)))));
+    }
     Ok(digest_of(numbers))
 }
 
