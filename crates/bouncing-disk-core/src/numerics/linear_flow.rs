@@ -190,6 +190,15 @@ impl TaylorStep {
         self
     }
 
+    /// This function, which starts with so many zeros, over that power of the share of the step: near the start it keeps
+    /// the digits of its roots, which are the same.
+    #[must_use]
+    pub fn deflated(mut self, zeros: usize) -> Self {
+        self.coefficients[..zeros].fill(0.0);
+        self.coefficients.rotate_left(zeros);
+        self.bounded()
+    }
+
     /// The function with the opposite sign.
     #[must_use]
     pub fn negated(mut self) -> Self {

@@ -501,8 +501,14 @@ impl StatorEngine {
                     }
                     continue;
                 }
-            } else if let Some([at, slope]) = gap.first_fall(left)?
-                && (slope < 0.0 || passed + at > 0.0)
+            } else if let Some([at, slope]) = match launch {
+                Launch::Release(_) if passed == 0.0 && !soft => {
+                    let cubed =
+                        |[at, slope]: [f64; 2]| [at, slope * ((at / step) * (at / step) * (at / step))];
+                    gap.deflated(3).first_fall(left)?.map(cubed)
+                }
+                _ => gap.first_fall(left)?,
+            } && (slope < 0.0 || passed + at > 0.0)
             {
                 return Ok(Some((passed + at, Crossing::Touch(slope.min(0.0)))));
             }
@@ -632,6 +638,11 @@ impl StatorEngine {
                 let (mut along, mut from) = (functional.along(&state, error), 0.0);
                 if passed == 0.0 {
                     match first_sign(&regime.flow, functional.now(), &self.state) {
+                        Some((order, false))
+                            if order > 0 && *crossing == Crossing::Release && self.touches(&self.state) =>
+                        {
+                            from = TIE;
+                        }
                         Some((_, false)) if self.ties < 2 || !crossing.is_of_friction() => {
                             return Ok(Some((0.0, *crossing)));
                         }
@@ -646,7 +657,14 @@ impl StatorEngine {
                     }
                 }
                 let until = first.map_or(left, |(at, _)| at);
-                if let Some([at, _]) = along.first_fall_from(from, until)?
+                let mut fall = along.first_fall_from(from, until)?;
+                if *crossing == Crossing::Release
+                    && let Some([at, _]) = fall
+                    && self.touches(&regime.flow.expand(&state).at(at))
+                {
+                    fall = along.first_fall_from(at + TIE, until)?;
+                }
+                if let Some([at, _]) = fall
                     && at < until
                 {
                     first = Some((at, *crossing));
@@ -678,6 +696,15 @@ impl StatorEngine {
                 return Err(Error::SlipTooLong { duration: passed, limit: MAX_FLIGHT_DURATION });
             }
         }
+    }
+
+    /// Whether the force of a rigid contact falls below zero for less than a chatter that is cut: a flight that is no
+    /// higher than its rounding.
+    fn touches(&self, state: &State) -> bool {
+        let flow = &self.regime().flow;
+        let slope = flow.derivative(self.regime().force.now());
+        let bend = dot(&flow.derivative(&slope), state);
+        self.system.contact == Contact::Rigid && bend > 0.0 && dot(&slope, state) > -0.5 * CHATTER * bend
     }
 
     /// Disk and modes so long after the last event, if no event comes before.
@@ -875,6 +902,7 @@ impl StatorEngine {
             end[SPEED] = self.system.twist(&end)[1];
         }
         self.state = end;
+        self.line = self.line_at(end[SPEED]);
         if self.with_energy {
             let after = self.stated(&end, Mode::Flight);
             let changed = [before.disk.axial_velocity, before.disk.axial_velocity + done.normal];

@@ -189,6 +189,8 @@ fn a_load_of_lines_brakes_as_exponentials_and_balances_its_energy() {
             assert!(record.relative_closure() < 1e-12, "{record:#?}");
             events += 1;
             if record.event == Event::Joint {
+                let [before, after] = [record.before, record.after].map(|state| state.disk.angular_speed);
+                assert!((before - after).abs() < 1e-12, "{record:#?}");
                 lines.push((record.span.radians(), record.after.disk.angular_speed));
             }
             if events % 50 == 0 {
@@ -249,7 +251,7 @@ fn a_stator_rings_down_and_up_as_its_circuit() {
 fn short_flights_keep_their_digits() {
     let base = base(3.0, 0.5, 3.0, 0.001, 0.5, 0.001);
     let system = StatorSystem::new(&base, &[YieldingMode::axial(1e6, 1e-3, 3.0)]).expect("legal");
-    for (phase, span) in [(4.7027, 2.6e-7), (4.7123889, 1e-9), (1.5708, 1e-5), (4.7, 0.3)] {
+    for (phase, span) in [(4.7027, 2.6e-7), (4.7123889, 1e-9), (1.5709, 1e-5), (4.7, 0.3)] {
         let start = DrivenStart::Flight {
             phase: Phase::new(phase).expect("finite"),
             gap: 1e-3,
@@ -263,6 +265,36 @@ fn short_flights_keep_their_digits() {
         let change = engine.carried(span)[regime::GAP] - engine.state[regime::GAP];
         let falls = change - engine.state[regime::CLOSING] * span;
         assert!(falls.abs() < 5.0 * span * span + 1e-18, "{phase} {span} {change} {falls}");
+    }
+}
+
+/// At P = 1 exactly the force touches zero at the crest, with the phase rounded: a flight of 1e-10 rad that is none. At
+/// P = 1 + 1e-11 one of 1.8e-5 rad ends when it does.
+#[test]
+fn a_release_at_the_crest_ends_at_once() {
+    let disk = |mode: crate::motion::state::Mode| crate::motion::state::DiskState {
+        mode,
+        height: 1.0,
+        axial_velocity: 0.0,
+        angle: 0.0,
+        angular_speed: 1e-10,
+    };
+    for (beyond, before, leaves) in [(0.0, 1.5e-10, false), (1e-11, 1e-3, true)] {
+        let base = base(1.0 + beyond, 0.5, 0.0, 0.9, 0.001, 0.0);
+        let system = StatorSystem::new(&base, &[]).expect("legal");
+        let phase = Phase::new(0.25 * TAU - before).expect("finite");
+        let time = crate::motion::phase_time::PhaseTime::in_first_period(phase);
+        let from = StatorState { disk: disk(crate::motion::state::Mode::Sticking), modes: [[0.0; 2]; 2] };
+        let mut engine = StatorEngine::of_state(system, time, from).expect("legal");
+        let mut left = 0;
+        for _ in 0..6 {
+            let launched = engine.launches();
+            left += usize::from(launched);
+            let Some(record) = engine.advance_within(1.0).expect("no failure") else { break };
+            assert!(record.relative_closure() < 1e-12, "{record:#?}");
+            assert!(!launched || record.span.radians() < 2e-5, "{record:#?}");
+        }
+        assert_eq!(left > 0, leaves, "{before}");
     }
 }
 
