@@ -80,6 +80,7 @@ impl From<bouncing_disk::Error> for Failure {
             | Error::SoftContact
             | Error::YieldingStator
             | Error::LoadLaw
+            | Error::LoadInTime
             | Error::ScheduledDrive
             | Error::Segment { .. }
             | Error::ScheduleJump { .. }

@@ -23,7 +23,7 @@ fn raise<'py>(py: Python<'py>, class: &str, arguments: impl PyCallArgs<'py>) -> 
 }
 
 /// The errors that arguments are the reason of which do not fit together.
-const INVALID: [&str; 17] = [
+const INVALID: [&str; 18] = [
     "not-of-kind",
     "no-closed-form",
     "no-decimal",
@@ -41,6 +41,7 @@ const INVALID: [&str; 17] = [
     "scheduled-drive",
     "yielding-stator",
     "load-law",
+    "load-in-time",
 ];
 
 /// The kind of an error, which is the library's name of it in small letters, and the numbers that it carries: as

@@ -66,7 +66,7 @@ pub(crate) fn stator_report(a: Arguments<'_>) -> PyResult<Option<Bound<'_, PyDic
 }
 
 /// How many doubles an operation has.
-const COLUMNS: usize = 6 + 2 * SweepQuantity::WITH_STATOR.len();
+const COLUMNS: usize = 7 + 2 * SweepQuantity::WITH_STATOR.len();
 
 /// The numbers of an operation in the order of the fields of `OperatingPoints`, NaN where there are none; its
 /// impacts, and the place in `OperatingPoints.STATUSES`.
@@ -80,8 +80,9 @@ fn of_point(operation: &Operation, point: &OperatingPoint) -> [f64; COLUMNS] {
         let estimate = quantity.of(operation).unwrap_or(none);
         (values[1 + 2 * index], values[2 + 2 * index]) = (estimate.value, estimate.standard_error);
     }
-    let rest = [point.perturbation_power, point.energy_residual, point.averaged_time, point.start_up];
-    values[COLUMNS - 5..COLUMNS - 1].copy_from_slice(&rest);
+    let power = point.perturbation_power;
+    let rest = [point.load_torque_error, power, point.energy_residual, point.averaged_time, point.start_up];
+    values[COLUMNS - 6..COLUMNS - 1].copy_from_slice(&rest);
     values
 }
 
@@ -223,7 +224,10 @@ pub(crate) fn motor_map(a: Arguments<'_>) -> Made<'_> {
         axes.push(axis);
     }
     let shape = PyTuple::new(py, axes.iter().map(|axis| axis.values.len()))?;
-    let sweep = MotorSweep::new(motor, axes, settings).map_err(|error| a.refused(error))?;
+    let continued: bool = a.of("continued")?;
+    let sweep = MotorSweep::new(motor, axes, settings);
+    let sweep = sweep.and_then(|sweep| if continued { sweep.continued() } else { Ok(sweep) });
+    let sweep = sweep.map_err(|error| a.refused(error))?;
     let found = a.run(|observer| sweep.run(observer))?;
     let columns = columns(py, found.cells()).into_iter();
     let shaped = columns.map(|column| column.call_method1("reshape", (&shape,)));

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bouncing_disk::core::{ChatterCut as Cut, ChatterPolicy, ImpactMap, ImpactState, Phase, Vibration};
 use bouncing_disk::motion::PAPER_CUT;
 use bouncing_disk::motor::{DrivenMotor, MotorField, MotorParameters};
-use bouncing_disk::parameters::{DriveParameters, StatorParameters, Waveform};
+use bouncing_disk::parameters::{DriveParameters, Waveform};
 use bouncing_disk::{DiskParameters, Error, Motor as MotorModel, PlatformParameters, System as SystemModel};
 use numpy::PyArray2;
 use pyo3::exceptions::PyTypeError;
@@ -291,17 +291,17 @@ pub(crate) fn motor(a: Arguments<'_>) -> PyResult<Motor> {
         restitution: a.real("restitution")?,
         load_torque: a.real("load_torque")?,
         contact: None,
-        stator: stator(&a)?,
-        load: None,
+        stator: table(&a, "stator")?,
+        load: table(&a, "load")?,
     };
     sheet.build().map(Motor).map_err(|error| a.refused(error))
 }
 
-/// The table of a stator, as files have it.
-fn stator(a: &Arguments<'_>) -> PyResult<Option<StatorParameters>> {
-    let Some(table) = a.given("stator")? else { return Ok(None) };
+/// A table of a data sheet, as files have it.
+fn table<T: serde::de::DeserializeOwned>(a: &Arguments<'_>, name: &str) -> PyResult<Option<T>> {
+    let Some(table) = a.given(name)? else { return Ok(None) };
     let text: String = a.py().import("json")?.call_method1("dumps", (table,))?.extract()?;
-    let wrong = |error| errors::of_text(a.py(), format!("the stator cannot be read: {error}"), None);
+    let wrong = |error| errors::of_text(a.py(), format!("the {name} cannot be read: {error}"), None);
     serde_json::from_str(&text).map(Some).map_err(wrong)
 }
 

@@ -166,6 +166,12 @@ pub enum Error {
     /// A load that varies where only a constant torque can be computed.
     #[error("this analysis holds for a constant load only: replace the table [load] by load_torque")]
     LoadLaw,
+    /// A load that varies in time where only a steady operation is computed.
+    #[error(
+        "a steady operation knows no time, and the table [load] has times, on or off: leave them out, or compute a run-up \
+         (`motor transient`)"
+    )]
+    LoadInTime,
     /// A schedule in place of a periodic motion.
     #[error(
         "the drive is a schedule (segments, start_phase or then), and this needs a periodic motion: leave these out, or run it by `bouncing-disk toss` or a `ScheduledEngine`"

@@ -301,9 +301,15 @@ impl StatorSystem {
         Self::build(base, &self.given, self.arm, self.contact_time)?.with_load(&lines)
     }
 
-    /// Whether the load depends on the speed.
-    pub(crate) fn load_varies(&self) -> bool {
-        self.lines.iter().any(|line| line.slope != 0.0)
+    /// The load besides the constant one, if it does not depend on the speed.
+    pub(crate) fn constant_law(&self) -> Option<f64> {
+        let varies = self.lines.iter().any(|line| line.slope != 0.0);
+        (!varies).then(|| self.lines[0].torque - self.base.load())
+    }
+
+    /// Whether it has modes.
+    pub(crate) const fn yields(&self) -> bool {
+        !self.given.is_empty()
     }
 
     /// Whether contacts take time.

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 from bouncing_disk import _native as native
 from bouncing_disk._base import *
@@ -109,6 +109,8 @@ class Motor(Parameters):
         stator: the table ``[stator]`` of a file, by the names of its fields (SI), of a stator that yields: ``mass`` and
             ``quality``, and, in place of ``amplitude``, ``force``, or ``volts`` with ``force_per_volt`` or with
             ``anti_resonance`` and ``capacitance``; docs/designing-a-motor.md has them all.
+        load: the table ``[load]`` of a file, of a load that varies: ``torques`` (N m) at ``speeds`` (rad/s), lists, and
+            ``inertia`` (kg m^2).
 
     Attributes:
         inertia: moment of inertia m a_g^2 of the rotor (kg m^2).
@@ -164,10 +166,11 @@ class Motor(Parameters):
         restitution: Float,
         load_torque: Float = 0.0,
         stator: Mapping[str, float | str] | None = None,
+        load: Mapping[str, float | list[float]] | None = None,
     ) -> None:
         self.__dict__["_native"] = native.motor(locals())
 
-    def replace(self, **changes: Float | Mapping[str, float | str] | None) -> Motor:
+    def replace(self, **changes: Float | Mapping[str, Any] | None) -> Motor:
         """The same motor with other values in its data sheet.
 
         Args:
@@ -250,7 +253,7 @@ class OperatingPoints(Result):
     ``..._error`` are standard errors, and undefined numbers are NaN.
 
     Attributes:
-        load_torque: load torque (N m).
+        load_torque: load torque (N m); under a ``load`` the mean of the torque that it took.
         speed, speed_error: mean angular speed (rad/s).
         mechanical_power, mechanical_power_error: load torque times mean speed (W).
         input_power, input_power_error: power that the stator puts in (W).
@@ -262,6 +265,7 @@ class OperatingPoints(Result):
         drive_power, drive_power_error: power that the drive puts into such a stator (W).
         damping_loss, damping_loss_error: power lost in the damping of its modes (W).
         electrical_efficiency, electrical_efficiency_error: mechanical power over the power of the drive.
+        load_torque_error: standard error of the load torque; 0 of a constant one.
         perturbation_power: power that the perturbations of the relaunches put in (W).
         energy_residual: relative residual of the energy balance.
         averaged_time, start_up: averaged time, of all members together, and omitted time, of each (s).
@@ -293,6 +297,7 @@ class OperatingPoints(Result):
     damping_loss_error: FloatArray
     electrical_efficiency: FloatArray
     electrical_efficiency_error: FloatArray
+    load_torque_error: FloatArray
     perturbation_power: FloatArray
     energy_residual: FloatArray
     averaged_time: FloatArray
@@ -327,7 +332,7 @@ def torque_speed_curve(
     """Speed, power and efficiency of a motor against its load.
 
     Args:
-        load_torques: load torques (N m) in place of that of the data sheet, shape (n,).
+        load_torques: load torques (N m) in place of that of the data sheet, and on top of its ``load``, shape (n,).
         relative_error: requested standard error of the mean speed, relative to the speed without load,
             in [1e-6, 0.5].
         members: vertical motions to average over, in [4, 4096].
@@ -498,6 +503,7 @@ def motor_map(
     motor: Motor,
     *,
     axes: Mapping[str, ArrayLike],
+    continued: bool = False,
     relative_error: Float = 0.01,
     members: Int = 16,
     most_impacts: Int = 20_000_000,
@@ -513,6 +519,8 @@ def motor_map(
     Args:
         axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
             rows, shape (n,).
+        continued: whether each cell of one axis starts from where the one before was left, in place of from rest: of a
+            ``stator`` that yields, whose state may depend on what was before.
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     >>> import bouncing_disk as bd

@@ -13,7 +13,7 @@ use crate::motor::batch::members::TransientMember;
 use crate::motor::data_sheet::Motor;
 use crate::motor::operation::best_phase_lag::{BestPhaseLag, best_phase_lag};
 use crate::motor::operation::carrier::{CarriedEngine, Carrier};
-use crate::motor::operation::ensemble::LoadedMotor;
+use crate::motor::operation::ensemble::{Ends, LoadedMotor, continued};
 use crate::motor::operation::of_motor::curve_of;
 use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
@@ -175,18 +175,21 @@ impl DrivenMotor {
         &self.stator
     }
 
-    /// For a steady operation, which is under a constant load.
+    /// For a steady operation, which knows no time.
     fn loaded(&self) -> Result<LoadedMotor<'_>, Error> {
-        self.motor.load().map_or(Ok(()), |_| Err(Error::LoadLaw))?;
+        if self.motor.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
+            return Err(Error::LoadInTime);
+        }
         let (mass, load_torque) = (self.motor.mass(), self.motor.load_torque());
         Ok(LoadedMotor { system: self.bound, stator: Some((&self.stator, &self.carrier)), mass, load_torque })
     }
 
     /// As [`Motor::torque_speed_curve`]; a curve takes as long as its points together, except on sines with a
-    /// contact time, where one vertical motion carries all rotors.
+    /// contact time, where one vertical motion carries all rotors. Under a table `[load]` the torques come on top
+    /// of its law: no torque at all is the motor with its fan.
     ///
     /// # Errors
-    /// As [`Motor::torque_speed_curve`]; [`Error::LoadLaw`] for a load that varies, as by the next two.
+    /// As [`Motor::torque_speed_curve`]; [`Error::LoadInTime`] for a load that varies in time, as by the next two.
     pub fn torque_speed_curve(
         &self,
         load_torques: &[f64],
@@ -194,6 +197,18 @@ impl DrivenMotor {
         observer: &dyn Observer,
     ) -> Result<Vec<Operation>, Error> {
         curve_of(self.loaded()?, load_torques, settings, observer)
+    }
+
+    /// Under the load of its sheet, from where another motor was left, and where it is left.
+    pub(crate) fn continued(
+        &self,
+        from: Option<&Ends>,
+        settings: &OperatingSettings,
+        observer: &dyn Observer,
+    ) -> Result<(Operation, Option<Ends>), Error> {
+        let (mut found, ends) = continued(self.loaded()?, from, settings, observer)?;
+        // As many as motors.
+        Ok((found.operations.swap_remove(0), ends))
     }
 
     /// As [`Motor::stall_load`].
@@ -589,6 +604,47 @@ mod tests {
         let weighed = *weighed[0].point().expect("it does not run away");
         assert!(weighed.impacts > 0 && weighed.energy_residual < 1e-9, "{weighed:?}");
         assert!(weighed.stator.expect("yields").amplitude.value < 1e-9, "{weighed:?}");
+    }
+
+    /// A load over the speed: its mean torque is that of its mean speed on a line, with a node on it or not, and the torque
+    /// that is asked for comes on top. What varies in time is refused.
+    #[test]
+    fn operating_points_are_under_the_law_of_the_load() {
+        let motor = |load: LoadLaw| {
+            let sheet = Motor::paper_70_khz().with(|sheet| sheet.load = Some(load)).expect("legal");
+            DrivenMotor::of_drive(sheet, &DriveParameters::default()).expect("legal")
+        };
+        let point = |load: Result<LoadLaw, Error>, torque: f64| {
+            let motor = motor(load.expect("legal"));
+            motor.torque_speed_curve(&[torque], &settings(), &Unobserved).expect("no failure").swap_remove(0)
+        };
+        let lines = [(&[0.0, 20.0][..], &[0.0, 14e-6][..]), (&[0.0, 10.0, 20.0], &[0.0, 7e-6, 14e-6])];
+        let [line, bent] = lines.map(|(speeds, torques)| {
+            let law = LoadLaw::new(speeds, torques).and_then(|law| law.with_inertia(1e-7));
+            let found = *point(law, 3e-6).steady().expect("known");
+            let mean = 3e-6 + 0.7e-6 * found.speed.value;
+            assert!((found.load_torque / mean - 1.0).abs() < 1e-9, "{found:?}");
+            let error = 0.7e-6 * found.speed.standard_error;
+            assert!((found.load_torque_error / error - 1.0).abs() < 1e-6, "{found:?}");
+            assert!(found.energy_residual < 1e-9 && found.stator.is_none(), "{found:?}");
+            found
+        });
+        let error = line.speed.standard_error + bent.speed.standard_error;
+        assert!((line.speed.value - bent.speed.value).abs() < error, "{line:?} {bent:?}");
+        let constant = point(LoadLaw::constant(4e-6), 6e-6);
+        let known =
+            Motor::paper_70_khz().operating_point(10e-6, &settings(), &Unobserved).expect("no failure");
+        let (own, known) = (constant.steady().expect("known"), known.steady().expect("known"));
+        let error = own.speed.standard_error + known.speed.standard_error;
+        assert!((own.load_torque / 10e-6 - 1.0).abs() < 1e-9 && own.load_torque_error < 1e-15);
+        assert!((own.speed.value - known.speed.value).abs() < 3.0 * error, "{own:?} {known:?}");
+        let Operation::Runaway { load_torque, .. } = point(LoadLaw::constant(38e-6), 4e-6) else {
+            panic!("friction holds {}", Motor::paper_70_khz().largest_torque())
+        };
+        assert!((load_torque / 42e-6 - 1.0).abs() < 1e-9, "{load_torque}");
+        let stops = LoadLaw::constant(1e-6).and_then(|law| law.with_factors(&[1.0], &[0.0])).expect("legal");
+        let refused = motor(stops).torque_speed_curve(&[0.0], &settings(), &Unobserved);
+        assert_eq!(refused, Err(Error::LoadInTime));
     }
 
     /// The drive is switched off at half of a run-up: the modes ring down within 2 Q/omega, and the rotor stops.

@@ -14,11 +14,17 @@ pub(crate) mod quantity;
 pub(crate) mod result;
 pub(crate) mod run;
 
-use crate::error::Error;
+use bouncing_disk_core::Observer;
+
+use crate::error::{Error, check};
 use crate::motor::data_sheet::Motor;
 use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::driven_motor::DrivenMotor;
+use crate::motor::operation::of_motor::operations;
+use crate::motor::operation::point::Operation;
 use crate::motor::operation::settings::OperatingSettings;
 use crate::motor::sweep::axis::{SweepAxis, cells, check_axes, sheet_of_cell};
+use crate::parameters::driven_platform::DriveParameters;
 
 /// A motor in steady operation over one or two parameters: curves and maps of speed, power and efficiency.
 ///
@@ -64,6 +70,8 @@ pub struct MotorSweep {
     motor: Motor,
     axes: Vec<SweepAxis>,
     settings: OperatingSettings,
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "std::ops::Not::not"))]
+    continued: bool,
     #[cfg_attr(feature = "serde", serde(skip_serializing))]
     groups: Vec<Vec<usize>>,
 }
@@ -85,7 +93,40 @@ impl MotorSweep {
         let sheet = motor.parameters();
         let motors = (0..cells(&axes)).map(|cell| sheet_of_cell(sheet, &axes, cell).build());
         let groups = groups::of(motors, groups::most_cells(&settings))?;
-        Ok(Self { motor, axes, settings, groups })
+        Ok(Self { motor, axes, settings, continued: false, groups })
+    }
+
+    /// This sweep over one axis with each cell from where the one before was left, in place of from rest, and the
+    /// first from rest: amplitude and motion of a rotor on a stator that yields may depend on what was before. Let the values go up and
+    /// down again. The cells are one group.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for two axes; [`Error::NotGiven`] for a motor without a table `[stator]`.
+    pub fn continued(self) -> Result<Self, Error> {
+        check(self.axes.len() == 1, "number of axes of a continued sweep", self.axes.len() as f64, "1")?;
+        self.motor.stator().ok_or(Error::NotGiven { field: "the table stator of a continued sweep" })?;
+        let groups = vec![(0..self.cells()).collect()];
+        Ok(Self { continued: true, groups, ..self })
+    }
+
+    /// The operations of a group, in its order.
+    ///
+    /// # Errors
+    /// Those of [`Self::motor_of`] and of [`operations`], for no motor where the group does not exist.
+    pub fn operations(&self, group: usize, observer: &dyn Observer) -> Result<Vec<Operation>, Error> {
+        let cells = self.groups.get(group).map_or(&[][..], |cells| cells);
+        let motors = cells.iter().map(|cell| self.motor_of(*cell)).collect::<Result<Vec<_>, Error>>()?;
+        if !self.continued {
+            return operations(&motors, &self.settings, observer);
+        }
+        let mut ends = None;
+        let each = motors.into_iter().map(|motor| {
+            let motor = DrivenMotor::of_drive(motor, &DriveParameters::default())?;
+            let (operation, left) = motor.continued(ends.as_ref(), &self.settings, observer)?;
+            ends = left.or(ends.take());
+            Ok(operation)
+        });
+        each.collect()
     }
 
     /// The motor that is varied.

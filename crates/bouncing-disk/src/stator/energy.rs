@@ -36,6 +36,7 @@ impl StatorEngine {
         ledger.record_rounding(self.highest(&self.state) + span, end.axial_velocity);
         let turned = end.angle - start.angle;
         let LoadLine { torque, slope, .. } = self.system.lines[self.line];
+        stator.load_impulse = torque * span + slope * (state[ANGLE] - self.state[ANGLE]);
         if slope == 0.0 {
             let load = torque * (state[ANGLE] - self.state[ANGLE]);
             ledger.record_load(load, load.abs() + (torque * turned).abs());

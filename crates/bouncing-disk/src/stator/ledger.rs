@@ -19,6 +19,8 @@ pub struct StatorLedger {
     pub energy_change: f64,
     /// Sum of the sizes of the terms that were added up, energy levels included.
     pub magnitude: f64,
+    /// Angular impulse that the load took from the disk, per moment of inertia: its mean torque times the time.
+    pub load_impulse: f64,
 }
 
 impl StatorLedger {
@@ -45,6 +47,7 @@ impl AddAssign for StatorLedger {
         self.disk_work += other.disk_work;
         self.energy_change += other.energy_change;
         self.magnitude += other.magnitude;
+        self.load_impulse += other.load_impulse;
     }
 }
 
@@ -58,6 +61,7 @@ impl Sub for StatorLedger {
             disk_work: self.disk_work - other.disk_work,
             energy_change: self.energy_change - other.energy_change,
             magnitude: self.magnitude - other.magnitude,
+            load_impulse: self.load_impulse - other.load_impulse,
         }
     }
 }

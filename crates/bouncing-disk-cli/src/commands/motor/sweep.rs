@@ -3,7 +3,7 @@
 use bouncing_disk::core::sweep::PartialResults;
 use bouncing_disk::motor::{
     MotorField, MotorSweep, MotorSweepResult, MotorSweepRun, OperatingSettings, Operation, SweepAxis,
-    SweepQuantity, operations,
+    SweepQuantity,
 };
 use bouncing_disk::{Motor, Observer};
 use bouncing_disk_plot::{Figure, SINGLE_COLUMN};
@@ -32,6 +32,10 @@ pub(crate) struct SweepArgs {
     /// A field of the data sheet and its values, FIELD=FIRST:LAST:POINTS; one or two of them
     #[arg(help_heading = OWN, long, value_name = "FIELD=RANGE", required_unless_present = "template", value_parser = over)]
     over: Vec<Over>,
+    /// The values go up and down again, each cell from where the one before was left: for a [stator] that yields, over
+    /// one field
+    #[arg(help_heading = OWN, long)]
+    up_and_down: bool,
     /// The quantity of a picture
     #[arg(help_heading = OWN, long, value_name = "QUANTITY", default_value = "speed", value_parser = one_of(PICTURES))]
     picture: SweepQuantity,
@@ -74,6 +78,7 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
     let job = SweepJob {
         motor,
         axes: args.over.clone(),
+        up_and_down: args.up_and_down,
         settings: args.settings.settings(),
         picture: args.picture.name().to_owned(),
         groups: 0,
@@ -90,6 +95,8 @@ pub(super) fn run(args: &SweepArgs, context: Context) -> Result<()> {
 pub(crate) struct SweepJob {
     motor: Motor,
     axes: Vec<Over>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    up_and_down: bool,
     settings: OperatingSettings,
     picture: String,
     /// Number of vertical motions, which are the rows.
@@ -98,8 +105,16 @@ pub(crate) struct SweepJob {
 
 impl SweepJob {
     fn sweep(&self) -> Result<MotorSweep> {
-        let axis = |over: &Over| SweepAxis::new(over.field, over.values.values().collect());
-        Ok(MotorSweep::new(self.motor, self.axes.iter().map(axis).collect(), self.settings)?)
+        let axis = |over: &Over| {
+            let mut values: Vec<f64> = over.values.values().collect();
+            if self.up_and_down {
+                values.extend_from_within(..values.len() - 1);
+                values[over.values.values().count()..].reverse();
+            }
+            SweepAxis::new(over.field, values)
+        };
+        let sweep = MotorSweep::new(self.motor, self.axes.iter().map(axis).collect(), self.settings)?;
+        Ok(if self.up_and_down { sweep.continued()? } else { sweep })
     }
 }
 
@@ -120,11 +135,7 @@ impl GridJob for SweepJob {
     }
 
     fn compute(&self, sweep: &MotorSweep, rows: Rows, observer: &dyn Observer) -> Result<Vec<Self::Row>> {
-        let group = |row: usize| {
-            let cells = sweep.groups()[row].iter();
-            let motors = cells.map(|cell| sweep.motor_of(*cell)).collect::<Result<Vec<_>, _>>()?;
-            operations(&motors, sweep.settings(), observer)
-        };
+        let group = |row: usize| sweep.operations(row, observer);
         Ok(rows.into_par_iter().map(group).collect::<Result<_, bouncing_disk::Error>>()?)
     }
 

@@ -9,8 +9,34 @@ use crate::motion::event::Event;
 use crate::motion::phase_time::PhaseTime;
 use crate::motion::state::DiskState;
 use crate::parameters::driven_platform::DrivenPlatform;
+use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
-use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
+use crate::stator::{MODES, StatorEngine, StatorLedger, StatorState, StatorSystem};
+
+/// Where a rotor on a stator that yields was left.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Left {
+    pub(crate) time: PhaseTime,
+    pub(crate) state: StatorState,
+    /// Whether the coordinate of a mode is a height.
+    rises: [bool; MODES],
+}
+
+impl Left {
+    /// In SI units, or from them by `f64::recip` of each unit; time and angle begin anew.
+    pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
+        let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
+        state.disk.height *= of(unit.length);
+        state.disk.axial_velocity *= of(unit.velocity);
+        state.disk.angular_speed *= of(unit.angular_speed);
+        state.disk.angle = 0.0;
+        for ([place, speed], rises) in state.modes.iter_mut().zip(self.rises) {
+            *place *= of(if rises { unit.length } else { unit.angle });
+            *speed *= of(if rises { unit.velocity } else { unit.angular_speed });
+        }
+        Self { time, state, ..self }
+    }
+}
 
 /// The system of a motor.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,6 +73,13 @@ impl Carrier {
             Self::Driven(system) => system.compliance.is_some(),
             Self::Yielding(system) => system.takes_time(),
         }
+    }
+
+    /// A rotor that goes on from where it was left on another stator that yields; elsewhere one that starts anew.
+    pub(crate) fn resume(&self, from: &Left) -> Result<Option<CarriedEngine>, Error> {
+        let Self::Yielding(system) = self else { return Ok(None) };
+        let engine = StatorEngine::of_state((**system).clone(), from.time, from.state)?;
+        Ok(Some(CarriedEngine::Yielding(Box::new(engine))))
     }
 
     /// A rotor that lies on it.
@@ -149,6 +182,13 @@ impl CarriedEngine {
             Self::Driven(engine) => engine.spring_energy(span, state),
             Self::Yielding(engine) => engine.spring_energy(span),
         }
+    }
+
+    /// Disk and modes of a stator that yields at a time before the next event.
+    pub(crate) fn left_at(&self, time: PhaseTime) -> Option<Left> {
+        let Self::Yielding(engine) = self else { return None };
+        let state = engine.state_after(time.since(&engine.time()).radians()).1;
+        Some(Left { time, state, rises: engine.system().modes.map(|mode| mode.height != 0.0) })
     }
 
     /// The engine of a stator that does not yield.

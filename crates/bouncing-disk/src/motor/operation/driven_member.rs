@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::motion::energy::EnergyLedger;
 use crate::motion::event::Event;
 use crate::motion::phase_time::{PhaseSpan, PhaseTime};
-use crate::motor::operation::carrier::{CarriedEngine, Carrier};
+use crate::motor::operation::carrier::{CarriedEngine, Carrier, Left};
 use crate::motor::operation::tapped::Tapped;
 use crate::motor::operation::window::{AxialWindow, RotorWindow, Window};
 use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
@@ -86,6 +86,22 @@ impl Driven {
             Ok(rotor)
         });
         Ok(Self { rotors: rotors.collect::<Result<_, Error>>()?, reached, tapped })
+    }
+
+    /// A rotor goes on from where another one was left, as all that do at the same time.
+    pub(crate) fn resume(&mut self, place: usize, carrier: &Carrier, left: &Left) -> Result<(), Error> {
+        if let Some(engine) = carrier.resume(left)? {
+            self.reached = left.time;
+            let rotor = &mut self.rotors[place];
+            rotor.engine = engine;
+            rotor.before = rotor.totals(&self.reached);
+        }
+        Ok(())
+    }
+
+    /// Where a rotor is at the end of the last window, on a stator that yields.
+    pub(crate) fn left(&self, place: usize) -> Option<Left> {
+        self.rotors[place].engine.left_at(self.reached)
     }
 
     /// Whether the stator never throws the rotors up.

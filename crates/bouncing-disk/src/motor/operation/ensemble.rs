@@ -7,7 +7,7 @@ use bouncing_disk_core::run::Watch;
 
 use crate::error::{Error, positive, within_limit};
 use crate::motor::batch::shared_orbit::shared_by;
-use crate::motor::operation::carrier::Carrier;
+use crate::motor::operation::carrier::{Carrier, Left};
 use crate::motor::operation::member::{Member, far_above};
 use crate::motor::operation::point::{Estimate, OperatingPoint, Operation, Shortfall, StatorPoint};
 use crate::motor::operation::settings::OperatingSettings;
@@ -92,24 +92,35 @@ impl LoadedMotor<'_> {
         disk.friction() * self.mass * disk.preload_acceleration() * disk.contact_radius()
     }
 
+    /// Its stator, if it yields or the load has a law.
+    fn yielding(&self) -> Option<&StatorSystem> {
+        self.stator.and_then(|(_, carrier)| carrier.yielding())
+    }
+
+    /// What the law of the load adds to the load torque; infinite where it depends on the speed.
+    fn law(&self) -> f64 {
+        self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
+    }
+
     /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
     /// equal to it but for the rounding of the torques in other units. On average the normal force is the
-    /// weight under preload, so that friction gives no more, whatever the motion.
+    /// weight under preload, so that friction gives no more, whatever the motion. Of a load that depends on the speed this
+    /// is not known.
     fn runs_away(&self) -> bool {
         let system = self.system.dimensionless();
-        let varies =
-            self.stator.and_then(|(_, carrier)| carrier.yielding()).is_some_and(StatorSystem::load_varies);
-        !varies && system.load() != 0.0 && system.load().abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
+        let load = system.load() + self.law();
+        load.is_finite() && load != 0.0 && load.abs() >= system.friction() * (1.0 - LOAD_ROUNDING)
     }
 
     fn runaway(&self) -> Operation {
         let system = self.system.dimensionless();
-        let beyond = (system.load().abs() - system.friction()).max(0.0);
+        let load = system.load() + self.law();
+        let beyond = (load.abs() - system.friction()).max(0.0);
         let scale = self.system.scales().angular_acceleration;
         Operation::Runaway {
-            load_torque: self.load_torque,
+            load_torque: self.load_torque + self.law() * Units::of(self).torque,
             largest_torque: self.largest_torque(),
-            acceleration: -beyond.copysign(system.load()) * scale,
+            acceleration: -beyond.copysign(load) * scale,
         }
     }
 }
@@ -139,6 +150,21 @@ pub(crate) fn operate(
     operate_for(None, motors, settings, observer)
 }
 
+/// Where the two rotors of each member of an ensemble of one motor were left (SI).
+pub(crate) type Ends = Vec<[Left; 2]>;
+
+/// The steady operation of a motor from where another one was left, and where it is left; none of a runaway, and
+/// of a stator that does not yield.
+pub(crate) fn continued(
+    motor: LoadedMotor<'_>,
+    from: Option<&Ends>,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<(Operations, Option<Ends>), Error> {
+    settings.check()?;
+    operate_from(None, &[motor], from, settings, observer)
+}
+
 /// [`operate`] with members that are followed for exactly this length, however well the speeds are then
 /// known; the settings may have fewer members than is legal elsewhere.
 pub(crate) fn operate_for(
@@ -147,6 +173,16 @@ pub(crate) fn operate_for(
     settings: &OperatingSettings,
     observer: &dyn Observer,
 ) -> Result<Operations, Error> {
+    Ok(operate_from(length, motors, None, settings, observer)?.0)
+}
+
+fn operate_from(
+    length: Option<f64>,
+    motors: &[LoadedMotor<'_>],
+    from: Option<&Ends>,
+    settings: &OperatingSettings,
+    observer: &dyn Observer,
+) -> Result<(Operations, Option<Ends>), Error> {
     let rotors = motors.len().saturating_mul(settings.members);
     within_limit("rotors of all members", rotors, MAX_OPERATED_ROTORS)?;
     let systems: Vec<System> = motors.iter().map(|motor| motor.system).collect();
@@ -168,9 +204,10 @@ pub(crate) fn operate_for(
         speeds_from_above: Vec::new(),
         length: length.unwrap_or(1.0),
     };
+    let mut ends = None;
     let mut known = if asked > 0 {
         let watch = Watch::begin(observer, 0, settings.most_impacts)?;
-        let mut run = Run::new(length.unwrap_or(1.0), carried, asked, settings)?;
+        let mut run = Run::new(length.unwrap_or(1.0), carried, asked, from, settings)?;
         let first = run.duration;
         match length {
             Some(_) => run.extend(FIRST_WINDOWS, &watch)?,
@@ -178,6 +215,7 @@ pub(crate) fn operate_for(
         }
         results.length *= run.duration / first * run.windows() as f64 / FIRST_WINDOWS as f64;
         watch.end();
+        ends = run.ends();
         run.results()?
     } else {
         Vec::new()
@@ -191,7 +229,7 @@ pub(crate) fn operate_for(
         results.speeds.push(speeds);
         results.speeds_from_above.push(above);
     }
-    Ok(results)
+    Ok((results, ends))
 }
 
 /// An operation, and the speeds of its members as in [`Operations`].
@@ -219,6 +257,7 @@ impl<'a> Run<'a> {
         length: f64,
         motors: Vec<LoadedMotor<'a>>,
         asked: usize,
+        from: Option<&Ends>,
         settings: &OperatingSettings,
     ) -> Result<Self, Error> {
         let systems: Vec<_> = motors.iter().map(|motor| *motor.system.dimensionless()).collect();
@@ -226,9 +265,17 @@ impl<'a> Run<'a> {
             .iter()
             .filter_map(|motor| motor.stator.map(|(stator, own)| own.for_motor(stator, &motor.system)))
             .collect::<Result<Vec<_>, Error>>()?;
-        let members = (0..settings.members)
+        let mut members = (0..settings.members)
             .map(|index| Ok((Member::new(&systems, &driven, asked, index, settings)?, Vec::new())))
             .collect::<Result<Vec<_>, Error>>()?;
+        for ((member, _), ends) in members.iter_mut().zip(from.into_iter().flatten()) {
+            if let (Member::Driven(member), [carrier, ..]) = (member, &driven[..]) {
+                let scales = motors[0].system.scales();
+                for (place, left) in [0, motors.len()].into_iter().zip(ends) {
+                    member.resume(place, carrier, &left.scaled(&scales, f64::recip))?;
+                }
+            }
+        }
         // The time in which friction gives the platform's largest speed, in radians; that of the slowest
         // rotor.
         let rise = systems.iter().filter(|system| system.friction() > 0.0);
@@ -239,6 +286,20 @@ impl<'a> Run<'a> {
         let least_impacts = ((length * LEAST_IMPACTS as f64) as u64).min(most_impacts);
         let shortfalls = vec![None; asked];
         Ok(Self { motors, asked, members, duration, least_impacts, most_impacts, shortfalls, wanted: 0.0 })
+    }
+
+    /// Where the rotors of the first motor are.
+    fn ends(&self) -> Option<Ends> {
+        let scales = self.motors[0].system.scales();
+        let left = |member: &Member, place: usize| match member {
+            Member::Driven(member) => Some(member.left(place)?.scaled(&scales, |unit| unit)),
+            _ => None,
+        };
+        let places = [0, self.rotor_from_above(0)];
+        self.members
+            .iter()
+            .map(|(member, _)| Some([left(member, places[0])?, left(member, places[1])?]))
+            .collect()
     }
 
     /// Windows so far.
@@ -424,8 +485,13 @@ impl<'a> Run<'a> {
         let mechanical_power = estimate(&mechanical)?;
         let braked = mechanical_power.value >= 0.0;
         let efficiency = pairs.ratio(&mechanical, &input).filter(|_| braked);
-        let yielding = motor.stator.and_then(|(_, carrier)| carrier.yielding());
-        let stator = yielding.map(|system| {
+        let torque = |sum: &Sum| sum.stator().load_impulse / sum.axial.duration * units.torque;
+        let load_torque = if motor.law() == 0.0 {
+            Estimate { value: motor.load_torque, standard_error: 0.0 }
+        } else {
+            estimate(&torque)?
+        };
+        let stator = motor.yielding().filter(|system| system.yields()).map(|system| {
             // What no mode gives the disk a prescribed twist does.
             let drive = |sum: &Sum| {
                 let ledger = sum.stator();
@@ -447,7 +513,8 @@ impl<'a> Run<'a> {
             .map(|(_, windows)| windows[..after].iter().map(|window| window.axial.duration).sum::<f64>());
         let whole = self.total(index, 0..self.windows());
         let point = OperatingPoint {
-            load_torque: motor.load_torque,
+            load_torque: load_torque.value,
+            load_torque_error: load_torque.standard_error,
             speed: estimate(&speed)?,
             mechanical_power,
             input_power: estimate(&input)?,
@@ -501,6 +568,8 @@ struct Units {
     time: f64,
     length: f64,
     speed: f64,
+    /// m g a_e (N m).
+    torque: f64,
     /// Power (W) for one unit of axial, and of rotary energy in a radian.
     axial: f64,
     rotary: f64,
@@ -513,6 +582,9 @@ impl Units {
             time,
             length,
             speed: angular_speed,
+            torque: motor.mass
+                * motor.system.disk().preload_acceleration()
+                * motor.system.disk().contact_radius(),
             axial: motor.mass * axial_energy / time,
             rotary: motor.mass * rotary_energy / time,
         }

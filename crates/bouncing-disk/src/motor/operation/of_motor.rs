@@ -149,7 +149,7 @@ impl Motor {
 /// The items of `observer` are the motors.
 ///
 /// # Errors
-/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadLaw`] for a load that varies.
+/// Those of [`Motor::operating_point`]; [`Error::OutOfRange`] for no motor; [`Error::LoadInTime`] for a load that varies in time.
 pub fn operations(
     motors: &[Motor],
     settings: &OperatingSettings,

@@ -52,6 +52,11 @@ pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
     standard_deviation(values) / size.sqrt() * (student_quantile(size - 1.0) / NORMAL_975)
 }
 
+#[cfg(feature = "serde")]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 /// A motor in steady operation. All numbers are means over time and over the members of one ensemble of runs.
 ///
 /// Energy is balanced: the input of the platform and the perturbation equals the mechanical power, the two
@@ -60,11 +65,15 @@ pub(crate) fn error_of_mean(values: &[f64]) -> f64 {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct OperatingPoint {
-    /// Load torque T_L (N m); a positive one decelerates a positive rotation.
+    /// Load torque T_L (N m); a positive one decelerates a positive rotation. Under a law of the load that depends on the
+    /// speed it is the mean of the torque that the load took.
     pub load_torque: f64,
+    /// Its standard error; none of a constant torque.
+    #[cfg_attr(feature = "serde", serde(default, skip_serializing_if = "is_zero"))]
+    pub load_torque_error: f64,
     /// Mean angular speed (rad/s).
     pub speed: Estimate,
-    /// Mechanical power, load torque times mean speed (W); negative where the load drives the motor.
+    /// Mechanical power, the mean of load torque times speed (W); negative where the load drives the motor.
     pub mechanical_power: Estimate,
     /// Power that the platform puts in by normal forces and by friction (W).
     pub input_power: Estimate,

@@ -57,7 +57,9 @@ impl MotorSweepResult {
 type OfPoint = fn(&OperatingPoint) -> String;
 
 /// The numbers of an operating point that have no standard error.
-const OF_POINT: [(&str, OfPoint); 5] = [
+const OF_POINT: [(&str, OfPoint); 7] = [
+    ("mean_load_torque_n_m", |point| written(point.load_torque)),
+    ("mean_load_torque_error_n_m", |point| written(point.load_torque_error)),
     ("perturbation_power_w", |point| written(point.perturbation_power)),
     ("energy_residual", |point| written(point.energy_residual)),
     ("averaged_time_s", |point| written(point.averaged_time)),

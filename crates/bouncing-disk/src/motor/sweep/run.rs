@@ -8,10 +8,8 @@ use bouncing_disk_core::sweep::PartialResults;
 use bouncing_disk_core::{Observer, Progress};
 
 use crate::error::Error;
-use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::Operation;
 use crate::motor::sweep::MotorSweep;
-use crate::motor::sweep::axis::sheet_of_cell;
 use crate::motor::sweep::result::MotorSweepResult;
 
 /// A [`MotorSweep`] in progress: the groups of cells that are finished.
@@ -207,16 +205,11 @@ impl MotorSweep {
 }
 
 fn operations_of(sweep: &MotorSweep, group: usize, watch: &Watch<'_>) -> Result<Vec<Operation>, Error> {
-    let sheet = sweep.motor().parameters();
-    let cells = sweep.groups()[group].iter();
-    let motors = cells
-        .map(|&cell| sheet_of_cell(sheet, sweep.axes(), cell).build())
-        .collect::<Result<Vec<_>, Error>>()?;
     let ask = |_: Progress| match watch.ask() {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
     };
-    operations(&motors, sweep.settings(), &ask)
+    sweep.operations(group, &ask)
 }
 
 /// Groups under way for each thread that their members alone would leave idle: members end at different

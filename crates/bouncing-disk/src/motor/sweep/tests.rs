@@ -269,3 +269,76 @@ fn a_run_of_another_sweep_is_refused() {
     assert_eq!(run.advance(&other, &Unobserved), Err(wrong));
     assert_eq!(run.into_result(&other), Err(wrong));
 }
+
+/// Up and down the preload a hard rotor on a heavy stator keeps what it does: tapped once a period, or at rest, where both are
+/// steady. From rest a point by itself is that on the way down; from a launch the engine keeps the taps.
+#[test]
+fn a_continued_sweep_keeps_what_the_rotor_does() {
+    use crate::driven::DrivenStart;
+    use crate::motor::DrivenMotor;
+    use crate::parameters::{DriveParameters, StatorParameters};
+    use crate::stator::{StatorEngine, StatorSystem};
+    use bouncing_disk_core::Phase;
+
+    let plain = Motor::paper_70_khz();
+    let quality = 30.0;
+    let table = StatorParameters {
+        mass: Some(5.0 * quality * plain.mass()),
+        quality: Some(quality),
+        ..StatorParameters::default()
+    };
+    let motor = plain.with(|sheet| (sheet.stator, sheet.restitution) = (Some(table), 0.9)).expect("legal");
+    let omega = plain.system().platform().angular_frequency();
+    let preloads = [2.0, 1.5, 1.2, 0.95, 0.85, 0.7, 0.5, 0.7, 0.95].map(|peak| 1e-8 * omega * omega / peak);
+    let settings = OperatingSettings {
+        relative_error: 0.02,
+        members: 8,
+        most_impacts: 40_000,
+        ..OperatingSettings::default()
+    };
+    let field = MotorField::PreloadAcceleration;
+    let sweep = MotorSweep::new(motor, vec![SweepAxis::new(field, preloads.to_vec())], settings);
+    let sweep = sweep.and_then(MotorSweep::continued).expect("legal");
+    assert_eq!(sweep.groups(), [[0, 1, 2, 3, 4, 5, 6, 7, 8]]);
+    let found = sweep.run(&Unobserved).expect("no failure");
+    let point = |cell: usize| *found.cells()[cell].point().expect("no runaway");
+    for (up, down) in [(3, 8), (5, 7)] {
+        let (up, down) = (point(up), point(down));
+        let apart = up.speed.value - down.speed.value;
+        assert!(apart > 4.0 * (up.speed.standard_error + down.speed.standard_error), "{up:?} {down:?}");
+        let amplitudes = [up, down].map(|point| point.stator.expect("it yields").amplitude.value / 1e-8);
+        assert!(amplitudes[0] < 0.9 && amplitudes[1] > 0.95, "{amplitudes:?}");
+        assert!(up.energy_residual < 1e-9 && down.energy_residual < 1e-9);
+    }
+    // From rest.
+    let pressed = sweep.motor_of(5).expect("legal");
+    let alone = DrivenMotor::of_drive(pressed, &DriveParameters::default()).expect("legal");
+    let alone = alone.torque_speed_curve(&[0.0], &settings, &Unobserved).expect("no failure")[0];
+    let (alone, down) = (alone.point().expect("no runaway").speed, point(7).speed);
+    assert!((alone.value - down.value).abs() < 0.02 * down.value, "{alone:?} {down:?}");
+    // From a launch at the speed with which a rotor comes back after a period.
+    let system = StatorSystem::of_system(pressed.system(), pressed.mass()).expect("legal");
+    let start = |phase: f64| DrivenStart::Launch {
+        phase: Phase::new(phase).expect("finite"),
+        relative_speed: std::f64::consts::TAU * 0.9 / 1.9,
+        angular_speed: 0.0,
+    };
+    let taps = (0..20).any(|k| {
+        let mut engine = StatorEngine::new(system.clone(), start(0.1 * f64::from(k))).expect("legal");
+        let mut last = 0.0;
+        for _ in 0..3_000 {
+            let Some(record) = engine.advance_within(100.0).expect("no failure") else { return false };
+            last = record.span.radians();
+        }
+        let amplitude =
+            engine.amplitude_after(0.0).expect("it moves in height") * pressed.system().scales().length;
+        let known = point(5).stator.expect("it yields").amplitude.value;
+        (last / std::f64::consts::TAU - 1.0).abs() < 1e-3 && (amplitude / known - 1.0).abs() < 0.1
+    });
+    assert!(taps, "no launch leads to taps");
+    // Two axes, and a stator that does not yield.
+    let two = vec![SweepAxis::new(field, vec![1.0]), SweepAxis::new(MotorField::Friction, vec![0.1])];
+    assert!(MotorSweep::new(motor, two, settings).and_then(MotorSweep::continued).is_err());
+    let prescribed = MotorSweep::new(plain, vec![SweepAxis::new(field, vec![1.0])], settings);
+    assert!(matches!(prescribed.and_then(MotorSweep::continued), Err(Error::NotGiven { .. })));
+}
