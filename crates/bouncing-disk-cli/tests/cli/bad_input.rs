@@ -209,6 +209,7 @@ fn stators() {
     }
     let load = folder.done("motor report --template") + "\n[load]\nspeeds = [0]\ntorques = [1e-6]\n";
     folder.write("load.toml", &load);
+    folder.write("times.toml", &format!("{load}times = [1]\nfactors = [0]\n"));
     folder.done("motor transient load.toml --members 1 --duration 0.01 --intervals 3");
     let stator = "motor report --set stator.mass=0.01 --set stator.quality=300";
     let loose = |command: &str| stator.replace("report", command) + " --relative-error 0.5 --most-impacts 1";
@@ -240,14 +241,15 @@ fn stators() {
         ("motor transient drive.toml", "both drive and stator are given"),
         ("motor report --set stator.mass=0.01 --set stator.quality=0.4", "stator.quality = 0.4 is outside"),
         ("motor curve --set stator.mass=0.01", "stator.quality is not given"),
+        ("motor phase-lag times.toml", "a steady operation knows no time, and the table [load] has times"),
+        ("motor curve times.toml", "a steady operation knows no time"),
+        ("motor stall times.toml", "a steady operation knows no time"),
+        ("motor sweep times.toml --over friction=0.1:0.2:2", "a steady operation knows no time"),
         (
-            "motor phase-lag load.toml",
-            "holds for a constant load only: replace the table [load] by load_torque",
+            "motor sweep --over friction=0.1:0.2:2 --up-and-down",
+            "the table stator of a continued sweep is not given",
         ),
-        ("motor curve load.toml", "holds for a constant load only"),
-        ("motor stall load.toml", "holds for a constant load only"),
-        ("motor sweep load.toml --over friction=0.1:0.2:2", "holds for a constant load only"),
-        ("motor report load.toml", "holds for a constant load only"),
+        ("motor report load.toml", "holds for a constant load only: replace the table [load] by load_torque"),
         ("motor curve load.toml --template", "--template writes no table [load]"),
     ];
     folder.all_refused(2, &lines);
