@@ -347,12 +347,14 @@ fn attack_seams(count: usize, events: usize) -> usize {
             let (disk, modes) = (&record.ledger, &record.stator);
             // A stiff contact that lasts is followed in many steps, each of which is rounded.
             let allowed = 1e-12 + 4.0 * f64::EPSILON * span / before.regime().flow.step();
-            let (axial, size) = (disk.axial_closure().abs(), disk.axial_magnitude);
-            // What moves a mode may be the small difference of the weight and the inertia: it is judged beside these.
+            let axial = (disk.axial_closure().abs(), disk.axial_magnitude);
+            let rotary = (disk.rotary_closure().abs(), disk.rotary_magnitude);
+            // What moves a mode may be a small difference of forces or torques on the disk: it is judged beside these,
+            // in the units of axial energy.
+            let left = axial.0 + 0.5 * rotary.0 + modes.closure().abs();
+            let size = axial.1 + 0.5 * rotary.1 + modes.magnitude;
             assert!(
-                axial <= allowed * size
-                    && disk.rotary_closure().abs() <= allowed * disk.rotary_magnitude
-                    && axial + modes.closure().abs() <= allowed * (size + modes.magnitude),
+                axial.0 <= allowed * axial.1 && rotary.0 <= allowed * rotary.1 && left <= allowed * size,
                 "{trial} {record:#?} {:?} {:?}",
                 before.stage,
                 before.state
