@@ -330,8 +330,11 @@ impl<'a> Model<'a> {
         let determined = self.ranges.len() - directions.len();
         let degrees_of_freedom = self.points.len().saturating_sub(determined);
         let largest = self.settings.largest_misfit * rare_misfit(degrees_of_freedom.max(1) as f64);
-        if misfit > largest {
-            return refused(FitRefusal::Misfit { misfit, degrees_of_freedom, largest });
+        // The likeliest place need not be that of the least misfit.
+        let least =
+            profiles.iter().flat_map(|profile| &profile.nodes).map(|node| node.1).fold(misfit, f64::min);
+        if least > largest {
+            return refused(FitRefusal::Misfit { misfit: least, degrees_of_freedom, largest });
         }
         let rigid = 0.1 / self.nominal.parameters().drive_frequency;
         let parameters = self.ranges.iter().zip(profiles).enumerate().map(|(index, (range, profile))| {

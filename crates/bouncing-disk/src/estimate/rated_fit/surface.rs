@@ -1,5 +1,6 @@
 //! All points over the ranges by their stand-ins, and what the measured ones exclude.
 
+use bouncing_disk_core::numerics::elementary::ln;
 use nalgebra::{DMatrix, DVector};
 
 use crate::estimate::parameter_fit::determined::{Open, split};
@@ -32,7 +33,7 @@ pub(crate) struct Surface {
     own: Vec<Vec<usize>>,
     emulators: Vec<Emulator>,
     nodes: Vec<DVector<f64>>,
-    /// The place of the least deviance.
+    /// The likeliest of the places of a least deviance.
     pub(crate) best: DVector<f64>,
 }
 
@@ -57,7 +58,8 @@ impl Surface {
         let best = DVector::zeros(coordinates);
         let mut surface =
             Self { parameters, coordinates, measured, own, emulators, nodes: nodes.to_vec(), best };
-        surface.best = surface.minimum(&surface.starts(None), None).1;
+        let minimum = |node: usize| surface.minimum(&nodes[node..=node], None).1;
+        surface.best = surface.likeliest(bouncing_disk_core::run::in_parallel(nodes.len(), minimum))?;
         Some(surface)
     }
 
@@ -88,6 +90,29 @@ impl Surface {
         self.residuals(place).0.norm_squared()
     }
 
+    /// Deviance, and the logarithm of the product of the variances, which is large where little is known.
+    fn deviance_and_doubt(&self, place: &DVector<f64>) -> (f64, f64) {
+        let (rest, weights) = self.residuals(place);
+        (rest.norm_squared(), weights.iter().map(|weight| -2.0 * ln(*weight)).sum())
+    }
+
+    /// By how much the deviance exceeds that of the best place; or by how much the likelihood is smaller, if that is
+    /// less: a place is not excluded because another one is less known.
+    pub(crate) fn excess(&self, place: &DVector<f64>) -> f64 {
+        let ((own, doubt), (least, known)) =
+            (self.deviance_and_doubt(place), self.deviance_and_doubt(&self.best));
+        own - least + (doubt - known).min(0.0)
+    }
+
+    /// The likeliest of the places: without the doubt, it would be where the least is known.
+    fn likeliest(&self, places: Vec<DVector<f64>>) -> Option<DVector<f64>> {
+        let all = places.into_iter().map(|place| {
+            let (deviance, doubt) = self.deviance_and_doubt(&place);
+            (deviance + doubt, place)
+        });
+        all.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, place)| place)
+    }
+
     fn jacobian(&self, place: &DVector<f64>, weights: &[f64]) -> DMatrix<f64> {
         let points = self.emulators.len();
         let mut jacobian = DMatrix::zeros(points + self.coordinates - self.parameters, self.coordinates);
@@ -103,14 +128,13 @@ impl Surface {
         jacobian
     }
 
-    /// Nodes at which the deviance is small, with one coordinate moved to a place.
-    fn starts(&self, fixed: Option<(usize, f64)>) -> Vec<DVector<f64>> {
-        let away = |node: &DVector<f64>| fixed.map_or(0.0, |(index, at)| 10.0 * (node[index] - at).abs());
+    /// Nodes near a place of one coordinate at which the deviance is small.
+    fn starts(&self, index: usize, at: f64) -> Vec<DVector<f64>> {
+        let away = |node: &DVector<f64>| 10.0 * (node[index] - at).abs();
         let mut all: Vec<(f64, &DVector<f64>)> =
             self.nodes.iter().map(|node| (self.deviance(node).min(1e3) + away(node), node)).collect();
         all.sort_by(|one, other| one.0.total_cmp(&other.0));
-        let count = if fixed.is_some() { 2 } else { 8 };
-        all.iter().take(count).map(|(_, node)| (*node).clone()).collect()
+        all.iter().take(2).map(|(_, node)| (*node).clone()).collect()
     }
 
     /// The least deviance from some starts, with one coordinate held: damped Gauss-Newton steps within the ranges.
@@ -158,19 +182,13 @@ impl Surface {
 
     pub(crate) fn profiles(&mut self) -> Vec<Profile> {
         let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index));
-        // A profile may find a smaller minimum.
-        let better =
-            all.iter().flat_map(|profile| &profile.nodes).min_by(|one, other| one.1.total_cmp(&other.1));
-        if let Some((_, deviance, place)) = better
-            && *deviance < self.deviance(&self.best)
-        {
-            self.best = place.clone();
+        // A profile may find a likelier one.
+        let nodes = all.iter().flat_map(|profile| &profile.nodes).map(|node| node.2.clone());
+        if let Some(start) = self.likeliest(nodes.collect()) {
+            let found = self.minimum(&[start], None).1;
+            self.best = self.likeliest(vec![self.best.clone(), found]).unwrap_or_else(|| self.best.clone());
         }
-        let least = self.deviance(&self.best);
-        all.into_iter()
-            .enumerate()
-            .map(|(index, profile)| self.accepted(index, profile, least + THRESHOLD))
-            .collect()
+        all.into_iter().enumerate().map(|(index, profile)| self.accepted(index, profile)).collect()
     }
 
     fn profile(&self, index: usize) -> Profile {
@@ -198,7 +216,7 @@ impl Surface {
                 start[index] = nodes[node].0;
                 let mut starts = vec![start];
                 if pass == 0 {
-                    starts.extend(self.starts(Some((index, nodes[node].0))));
+                    starts.extend(self.starts(index, nodes[node].0));
                     starts.iter_mut().for_each(|start| start[index] = nodes[node].0);
                 }
                 let found = self.minimum(&starts, Some(index));
@@ -211,22 +229,18 @@ impl Surface {
         Profile { nodes, accepted: Vec::new() }
     }
 
-    /// The ranges below a deviance, their ends on the way from one node to the next.
-    fn accepted(&self, index: usize, mut profile: Profile, most: f64) -> Profile {
+    /// The ranges that are not excluded, their ends on the way from one node to the next.
+    fn accepted(&self, index: usize, mut profile: Profile) -> Profile {
         let nodes = &profile.nodes;
         let mut open = None;
         let mut accepted = Vec::new();
-        for (k, (place, deviance, _)) in nodes.iter().enumerate() {
-            let is_in = *deviance <= most;
+        for (k, (place, _, all)) in nodes.iter().enumerate() {
+            let is_in = self.excess(all) <= THRESHOLD;
             if is_in && open.is_none() {
-                open = Some(if k == 0 {
-                    *place
-                } else {
-                    self.crossing(index, [&nodes[k], &nodes[k - 1]], most)
-                });
+                open = Some(if k == 0 { *place } else { self.crossing(index, [&nodes[k], &nodes[k - 1]]) });
             }
             if let (false, Some(from)) = (is_in, open) {
-                accepted.push([from, self.crossing(index, [&nodes[k - 1], &nodes[k]], most)]);
+                accepted.push([from, self.crossing(index, [&nodes[k - 1], &nodes[k]])]);
                 open = None;
             }
         }
@@ -237,14 +251,14 @@ impl Surface {
         profile
     }
 
-    /// Where the least deviance crosses a value between an accepted node and one that is not.
-    fn crossing(&self, index: usize, [inside, outside]: [&(f64, f64, DVector<f64>); 2], most: f64) -> f64 {
+    /// Where the least deviance crosses the threshold between an accepted node and one that is not.
+    fn crossing(&self, index: usize, [inside, outside]: [&(f64, f64, DVector<f64>); 2]) -> f64 {
         let (mut near, mut far, mut start) = (inside.0, outside.0, inside.2.clone());
         for _ in 0..5 {
             let middle = 0.5 * (near + far);
             start[index] = middle;
-            let (deviance, place) = self.minimum(std::slice::from_ref(&start), Some(index));
-            if deviance <= most {
+            let (_, place) = self.minimum(std::slice::from_ref(&start), Some(index));
+            if self.excess(&place) <= THRESHOLD {
                 (near, start) = (middle, place);
             } else {
                 far = middle;
@@ -264,15 +278,13 @@ impl Surface {
                 },
             )
         };
-        let least = self.deviance(&self.best);
         let nodes = profiles.iter().flat_map(|profile| &profile.nodes);
-        nodes.filter(|node| node.1 <= least + THRESHOLD).all(|node| is_known(&node.2))
+        nodes.filter(|node| self.excess(&node.2) <= THRESHOLD).all(|node| is_known(&node.2))
     }
 
     /// Places, at most so many, that are accepted or nearly so and where the stand-ins are in doubt.
     pub(crate) fn doubtful(&self, profiles: &[Profile], most: usize) -> Vec<DVector<f64>> {
-        let least = self.deviance(&self.best);
-        let plausible = |node: &&(f64, f64, DVector<f64>)| node.1 <= least + 1.5 * THRESHOLD;
+        let plausible = |node: &&(f64, f64, DVector<f64>)| self.excess(&node.2) <= 1.5 * THRESHOLD;
         let candidates: Vec<&DVector<f64>> = profiles
             .iter()
             .flat_map(|profile| profile.nodes.iter().filter(plausible))

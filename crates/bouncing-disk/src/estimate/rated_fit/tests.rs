@@ -2,6 +2,7 @@ use bouncing_disk_core::Unobserved;
 
 use super::emulator::Emulator;
 use super::point::RatedCondition;
+use super::surface::THRESHOLD;
 use super::*;
 use crate::motor::data_sheet::motor_field::MotorField;
 use crate::parameters::stator::StatorParameters;
@@ -216,6 +217,29 @@ fn an_emulator_knows_how_well_it_knows() {
     }
     let share = squares / count as f64;
     assert!((0.2..1.6).contains(&share), "{share}");
+}
+
+/// Three points of the same response to one parameter; the node at k is off by a bias.
+fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64) -> f64) -> Surface {
+    let nodes = design(1, 30, 1);
+    let value = |place: f64| Response { value: response(place), error: 1e-3, bias: bias(place) };
+    let values: Vec<_> = nodes.iter().map(|node| vec![value(node[0]); 3]).collect();
+    let measured = points.map(|[speed, error]| (speed, error * error)).to_vec();
+    Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None).expect("finite")
+}
+
+/// The deviance at the truth is 8, and less where the speeds may be off: a little, or so much that they say nothing.
+#[test]
+fn a_place_is_not_excluded_because_another_one_is_less_known() {
+    for bias in [0.3, 1.0, 30.0] {
+        let bias = |place: f64| if place > 0.0 { bias } else { 0.0 };
+        let mut surface = surface_of(|x| 10.0 * x * x, [[2.1, 0.2], [2.9, 0.2], [2.5, 0.2]], &bias);
+        let accepted = &surface.profiles()[0].accepted;
+        for place in [-0.5, 0.5] {
+            assert!(accepted.iter().any(|[low, high]| (low..=high).contains(&&place)), "{accepted:?}");
+        }
+        assert!(surface.excess(&DVector::from_element(1, -0.8)) > THRESHOLD, "{accepted:?}");
+    }
 }
 
 #[cfg(feature = "csv")]
