@@ -419,7 +419,7 @@ mod tests {
     use bouncing_disk_core::Unobserved;
 
     use super::*;
-    use crate::motor::Estimate;
+    use crate::motor::{Estimate, Shortfall};
     use crate::parameters::stator::StatorParameters;
 
     fn settings() -> OperatingSettings {
@@ -645,6 +645,34 @@ mod tests {
         let stops = LoadLaw::constant(1e-6).and_then(|law| law.with_factors(&[1.0], &[0.0])).expect("legal");
         let refused = motor(stops).torque_speed_curve(&[0.0], &settings(), &Unobserved);
         assert_eq!(refused, Err(Error::LoadInTime));
+    }
+
+    /// Requested errors are relative to the speed without load or law: of a fan that nearly stalls the motor, and of a
+    /// load that friction alone does not hold.
+    #[test]
+    fn errors_are_relative_to_the_speed_without_the_law_of_the_load() {
+        let wanted = |load: Result<LoadLaw, Error>, torque: f64| {
+            let sheet = Motor::paper_70_khz().with(|sheet| sheet.load = load.ok()).expect("legal");
+            let motor = DrivenMotor::of_drive(sheet, &DriveParameters::default()).expect("legal");
+            // What drifts by chance does not say which error it lacks.
+            let mut seeds = (1..10).filter_map(|seed| {
+                let few =
+                    OperatingSettings { relative_error: 1e-6, most_impacts: 100_000, seed, ..settings() };
+                match motor.torque_speed_curve(&[torque], &few, &Unobserved).expect("no failure")[0] {
+                    Operation::Unsettled(_, Shortfall::Error { wanted, .. }) => {
+                        Some(wanted / few.relative_error)
+                    }
+                    _ => None,
+                }
+            });
+            seeds.next().expect("one that does not drift")
+        };
+        let known = Motor::paper_70_khz().no_load_speed(&settings()).expect("known").value;
+        let loads = [(LoadLaw::constant(60e-6), -50e-6), (LoadLaw::fan(2.0, 30e-6, 3), 0.0)];
+        for (load, torque) in loads {
+            let own = wanted(load, torque);
+            assert!((own / known - 1.0).abs() < 0.2, "{own} {known}");
+        }
     }
 
     /// The drive is switched off at half of a run-up: the modes ring down within 2 Q/omega, and the rotor stops.

@@ -11,7 +11,7 @@ use crate::motion::state::DiskState;
 use crate::parameters::driven_platform::DrivenPlatform;
 use crate::parameters::scales::Scales;
 use crate::parameters::system::System;
-use crate::stator::{MODES, StatorEngine, StatorLedger, StatorState, StatorSystem};
+use crate::stator::{LoadLine, MODES, StatorEngine, StatorLedger, StatorState, StatorSystem};
 
 /// Where a rotor on a stator that yields was left.
 #[derive(Debug, Clone, Copy)]
@@ -51,6 +51,17 @@ impl Carrier {
         Ok(match self {
             Self::Driven(system) => Self::Driven(system.for_motor(stator, motor)?),
             Self::Yielding(system) => Self::Yielding(Box::new(system.with_base(motor.dimensionless())?)),
+        })
+    }
+
+    /// This carrier without the law of the load.
+    pub(crate) fn without_law(&self) -> Result<Self, Error> {
+        Ok(match self {
+            Self::Driven(_) => self.clone(),
+            Self::Yielding(system) => {
+                let line = LoadLine { from: f64::NEG_INFINITY, to: f64::INFINITY, torque: 0.0, slope: 0.0 };
+                Self::Yielding(Box::new((**system).clone().with_load(&[line])?))
+            }
         })
     }
 

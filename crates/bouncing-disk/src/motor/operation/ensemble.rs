@@ -102,6 +102,11 @@ impl LoadedMotor<'_> {
         self.yielding().map_or(0.0, |own| own.constant_law().unwrap_or(f64::INFINITY))
     }
 
+    /// Neither load torque nor law.
+    fn is_unloaded(&self) -> bool {
+        self.load() == 0.0 && self.law() == 0.0
+    }
+
     /// The load accelerates it for ever: in units of m g a_e it is above the coefficient of friction, or
     /// equal to it but for the rounding of the torques in other units. On average the normal force is the
     /// weight under preload, so that friction gives no more, whatever the motion. Of a load that depends on the speed this
@@ -193,9 +198,11 @@ fn operate_from(
     let mut carried: Vec<LoadedMotor<'_>> =
         motors.iter().copied().filter(|motor| !motor.runs_away()).collect();
     let asked = carried.len();
-    if carried.iter().all(|motor| motor.load() != 0.0) {
-        let unloaded = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
-        carried.push(LoadedMotor { system: unloaded, load_torque: 0.0, ..motors[0] });
+    let bare = motors[0].stator.map(|(_, own)| own.without_law()).transpose()?;
+    if !carried.iter().any(LoadedMotor::is_unloaded) {
+        let system = first.with_disk(|disk| disk.load_acceleration = 0.0)?;
+        let stator = motors[0].stator.zip(bare.as_ref()).map(|((stator, _), own)| (stator, own));
+        carried.push(LoadedMotor { system, stator, load_torque: 0.0, ..motors[0] });
     }
 
     let mut results = Operations {
@@ -416,7 +423,7 @@ impl<'a> Run<'a> {
             let count = windows.len() * windows[0].len();
             windows.iter().flatten().sum::<f64>() / count as f64
         };
-        let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.load() == 0.0);
+        let unloaded = self.motors.iter().zip(&speeds).filter(|(motor, _)| motor.is_unloaded());
         let scale = unloaded.map(|(motor, [speeds, _])| {
             // A motor without twist moves only if a load makes it creep.
             let creep = motor.system.dimensionless().friction() * motor.system.scales().angular_speed;

@@ -17,7 +17,8 @@ pub struct OperatingSettings {
     /// [1e-6, 0.5]. Default 0.01.
     ///
     /// Motors that are computed together on one vertical motion have one reference speed: the largest speed
-    /// of those without load, or, if all have a load, the speed of the first one without its load. The
+    /// of those without load, or, if all have a load, the speed of the first one without its load; a law of
+    /// the load (table `[load]`) is a load. The
     /// reference is never below a hundredth of the platform's largest angular speed, nor below a hundredth of
     /// the change of speed that friction makes in a radian of phase; otherwise a motor that hardly turns
     /// would never be finished.
