@@ -211,7 +211,7 @@ impl DrivenMotor {
         Ok((found.operations.swap_remove(0), ends))
     }
 
-    /// As [`Motor::stall_load`].
+    /// As [`Motor::stall_load`], without the law of a table `[load]`: the torque is all that the shaft takes.
     ///
     /// # Errors
     /// As [`Motor::stall_load`].
@@ -220,7 +220,9 @@ impl DrivenMotor {
         settings: &OperatingSettings,
         observer: &dyn Observer,
     ) -> Result<StallLoad, Error> {
-        stall_load(&self.loaded()?, settings, observer)
+        let bare = self.carrier.without_law()?;
+        let motor = LoadedMotor { stator: Some((&self.stator, &bare)), ..self.loaded()? };
+        stall_load(&motor, settings, observer)
     }
 
     /// As [`Motor::best_phase_lag`]; the phase lag shifts the whole waveform of the angle.
@@ -673,6 +675,18 @@ mod tests {
             let own = wanted(load, torque);
             assert!((own / known - 1.0).abs() < 0.2, "{own} {known}");
         }
+    }
+
+    #[test]
+    fn a_stall_is_that_of_the_motor_without_the_law_of_its_load() {
+        let few = OperatingSettings { relative_error: 0.3, most_impacts: 20_000, ..settings() };
+        let stall = |load: Result<LoadLaw, Error>| {
+            let sheet = Motor::paper_70_khz().with(|sheet| sheet.load = load.ok()).expect("legal");
+            let motor = DrivenMotor::of_drive(sheet, &DriveParameters::default()).expect("legal");
+            motor.stall_load(&few, &Unobserved)
+        };
+        // Bit for bit, also where the budget is too small for a stall.
+        assert_eq!(stall(LoadLaw::constant(10e-6)), stall(LoadLaw::constant(0.0)));
     }
 
     /// The drive is switched off at half of a run-up: the modes ring down within 2 Q/omega, and the rotor stops.
