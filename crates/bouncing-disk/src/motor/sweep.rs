@@ -100,6 +100,10 @@ impl MotorSweep {
     /// first from rest: amplitude and motion of a rotor on a stator that yields may depend on what was before. Let the values go up and
     /// down again. The cells are one group.
     ///
+    /// Height and modes go on. The speeds of the rotors begin anew far below and above, as in every cell, which bounds
+    /// what still depends on the start. After a runaway a cell goes on from the last one that had a speed. Members may
+    /// end up in different steady states: the mean is then of no state, and its error is their scatter.
+    ///
     /// # Errors
     /// [`Error::OutOfRange`] for two axes; [`Error::NotGiven`] for a motor without a table `[stator]`.
     pub fn continued(self) -> Result<Self, Error> {

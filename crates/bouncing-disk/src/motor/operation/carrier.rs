@@ -23,13 +23,12 @@ pub(crate) struct Left {
 }
 
 impl Left {
-    /// In SI units, or from them by `f64::recip` of each unit; time and angle begin anew.
+    /// In SI units, or from them by `f64::recip` of each unit; time, angle and angular speed begin anew.
     pub(crate) fn scaled(self, unit: &Scales, of: fn(f64) -> f64) -> Self {
         let (mut state, time) = (self.state, PhaseTime::in_first_period(self.time.phase));
         state.disk.height *= of(unit.length);
         state.disk.axial_velocity *= of(unit.velocity);
-        state.disk.angular_speed *= of(unit.angular_speed);
-        state.disk.angle = 0.0;
+        (state.disk.angle, state.disk.angular_speed) = (0.0, 0.0);
         for ([place, speed], rises) in state.modes.iter_mut().zip(self.rises) {
             *place *= of(if rises { unit.length } else { unit.angle });
             *speed *= of(if rises { unit.velocity } else { unit.angular_speed });

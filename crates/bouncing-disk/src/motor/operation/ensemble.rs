@@ -277,9 +277,12 @@ impl<'a> Run<'a> {
             .collect::<Result<Vec<_>, Error>>()?;
         for ((member, _), ends) in members.iter_mut().zip(from.into_iter().flatten()) {
             if let (Member::Driven(member), [carrier, ..]) = (member, &driven[..]) {
-                let scales = motors[0].system.scales();
-                for (place, left) in [0, motors.len()].into_iter().zip(ends) {
-                    member.resume(place, carrier, &left.scaled(&scales, f64::recip))?;
+                let (scales, speed) = (motors[0].system.scales(), far_above(&systems[0]));
+                for ((place, speed), left) in [(0, -speed), (motors.len(), speed)].into_iter().zip(ends) {
+                    let mut left = left.scaled(&scales, f64::recip);
+                    // That they meet bounds what depends on the start, as of rotors that lie.
+                    left.state.disk.angular_speed = speed;
+                    member.resume(place, carrier, &left)?;
                 }
             }
         }
