@@ -33,6 +33,8 @@ pub(crate) struct Surface {
     own: Vec<Vec<usize>>,
     emulators: Vec<Emulator>,
     nodes: Vec<DVector<f64>>,
+    /// The minima to which the nodes lead.
+    minima: Vec<DVector<f64>>,
     /// The likeliest of the places of a least deviance.
     pub(crate) best: DVector<f64>,
 }
@@ -56,10 +58,19 @@ impl Surface {
         let emulators = emulators.into_iter().collect::<Option<Vec<_>>>()?;
         let coordinates = nodes.first()?.len();
         let best = DVector::zeros(coordinates);
-        let mut surface =
-            Self { parameters, coordinates, measured, own, emulators, nodes: nodes.to_vec(), best };
+        let mut surface = Self {
+            parameters,
+            coordinates,
+            measured,
+            own,
+            emulators,
+            nodes: nodes.to_vec(),
+            minima: Vec::new(),
+            best,
+        };
         let minimum = |node: usize| surface.minimum(&nodes[node..=node], None).1;
-        surface.best = surface.likeliest(bouncing_disk_core::run::in_parallel(nodes.len(), minimum))?;
+        surface.minima = bouncing_disk_core::run::in_parallel(nodes.len(), minimum);
+        surface.best = surface.likeliest(surface.minima.clone())?;
         Some(surface)
     }
 
@@ -188,7 +199,38 @@ impl Surface {
             let found = self.minimum(&[start], None).1;
             self.best = self.likeliest(vec![self.best.clone(), found]).unwrap_or_else(|| self.best.clone());
         }
-        all.into_iter().enumerate().map(|(index, profile)| self.accepted(index, profile)).collect()
+        let own: &Self = self;
+        let of = |(index, mut profile): (usize, Profile)| {
+            for place in std::iter::once(&own.best).chain(&own.minima) {
+                own.add(index, &mut profile.nodes, place);
+            }
+            own.accepted(index, profile)
+        };
+        all.into_iter().enumerate().map(of).collect()
+    }
+
+    /// Adds a place that is not excluded, and halvings of the distance from it, unless both neighbours show it.
+    fn add(&self, index: usize, nodes: &mut Vec<(f64, f64, DVector<f64>)>, place: &DVector<f64>) {
+        let at = place[index];
+        let after = nodes.partition_point(|node| node.0 < at);
+        let near = &nodes[after.saturating_sub(1)..(after + 1).min(nodes.len())];
+        let is_shown = near.iter().all(|node| self.excess(&node.2) <= THRESHOLD);
+        if is_shown || self.excess(place) > THRESHOLD {
+            return;
+        }
+        let [low, high] = [near[0].0, near[near.len() - 1].0];
+        nodes.push((at, self.deviance(place), place.clone()));
+        for halving in 2..=HALVINGS {
+            let distance = 1.0 / f64::from(1 << halving);
+            for beside in [at - distance, at + distance].into_iter().filter(|at| *at > low && *at < high) {
+                let mut start = place.clone();
+                start[index] = beside;
+                let (deviance, place) = self.minimum(&[start], Some(index));
+                nodes.push((beside, deviance, place));
+            }
+        }
+        nodes.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        nodes.dedup_by(|one, other| one.0.total_cmp(&other.0).is_eq());
     }
 
     fn profile(&self, index: usize) -> Profile {

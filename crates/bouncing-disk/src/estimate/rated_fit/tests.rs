@@ -228,6 +228,16 @@ fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64
     Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None).expect("finite")
 }
 
+/// Between two places of the profile the deviance falls from 100 to 0 and rises again, on both sides.
+#[test]
+fn a_second_narrow_solution_is_found() {
+    let mut surface = surface_of(|x| 10.0 * x * x, [[10.0 * 0.53 * 0.53, 0.05]; 3], &|_| 0.0);
+    let accepted = &surface.profiles()[0].accepted;
+    let narrow = |[low, high]: &[f64; 2], place: f64| *low < place && place < *high && high - low < 0.03;
+    assert_eq!(accepted.len(), 2, "{accepted:?}");
+    assert!(narrow(&accepted[0], -0.53) && narrow(&accepted[1], 0.53), "{accepted:?}");
+}
+
 /// The deviance at the truth is 8, and less where the speeds may be off: a little, or so much that they say nothing.
 #[test]
 fn a_place_is_not_excluded_because_another_one_is_less_known() {
