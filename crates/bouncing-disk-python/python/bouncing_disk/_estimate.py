@@ -229,7 +229,7 @@ def fit_rated_points(
             (``load_torque_error``).
         ranges: of each fitted parameter its range: friction, restitution, phase_lag, amplitude, twist_amplitude,
             contact.time, stator.mass, stator.quality, stator.twist_per_height.
-        most_evaluations: most places of the ranges at which all points are computed, in [8, 2000].
+        most_evaluations: most places of the ranges at which all points are computed, in [8, 400].
         most_impacts: most impacts of all members of a computed speed.
         seed: seed of the perturbations.
 

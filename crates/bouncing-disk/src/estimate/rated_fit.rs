@@ -50,7 +50,7 @@ const SETTLED: f64 = 0.25;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct RatedFitSettings {
-    /// Most places of the ranges at which all points are computed, in [8, 2000]. Default 120. Fewer are taken where
+    /// Most places of the ranges at which all points are computed, in [8, 400]. Default 120. Fewer are taken where
     /// these are enough.
     pub most_evaluations: usize,
     /// How a point is computed. Default: 6 members, an error of 0.02, at most 500,000 impacts.
@@ -170,9 +170,10 @@ impl RatedFit {
         let first = (8 + 6 * coordinates).min(settings.most_evaluations);
         let mut nodes = design(coordinates, first, settings.operating.seed);
         let mut values = model.compute(&nodes, 0, &watch)?;
-        let mut surface = model.surface(&nodes, &values, None)?;
+        let mut surface = model.surface(&nodes, &values, None, &watch)?;
         let (profiles, settled) = loop {
-            let profiles = surface.profiles();
+            let profiles = surface.profiles(&|| watch.ask().is_ok());
+            watch.ask()?;
             let left = settings.most_evaluations - nodes.len();
             let more = surface.doubtful(&profiles, threads().max(1 + coordinates / 2).min(left));
             if more.is_empty() {
@@ -181,7 +182,7 @@ impl RatedFit {
             }
             values.extend(model.compute(&more, nodes.len(), &watch)?);
             nodes.extend(more);
-            surface = model.surface(&nodes, &values, Some(&surface))?;
+            surface = model.surface(&nodes, &values, Some(&surface), &watch)?;
         };
         watch.end();
         model.result(&surface, &profiles, (nodes.len(), settled))
@@ -221,7 +222,7 @@ impl<'a> Model<'a> {
         settings: &'a RatedFitSettings,
     ) -> Result<Self, Error> {
         let evaluations = settings.most_evaluations;
-        check((8..=2000).contains(&evaluations), "most_evaluations", evaluations as f64, "[8, 2000]")?;
+        check((8..=400).contains(&evaluations), "most_evaluations", evaluations as f64, "[8, 400]")?;
         settings.operating.check()?;
         let multiple = settings.largest_misfit;
         check(multiple >= 1.0 && multiple.is_finite(), "largest_misfit", multiple, "[1, inf)")?;
@@ -307,6 +308,7 @@ impl<'a> Model<'a> {
         nodes: &[DVector<f64>],
         values: &[Vec<Response>],
         earlier: Option<&Surface>,
+        watch: &Watch<'_>,
     ) -> Result<Surface, Error> {
         let measured = self.points.iter().zip(&self.bends).map(|(point, bend)| {
             let error = point.speed_error * bending(point.speed, *bend);
@@ -314,7 +316,10 @@ impl<'a> Model<'a> {
         });
         let coordinates = (0..self.points.len()).map(|point| self.coordinates_of(point)).collect();
         let surface =
-            Surface::new(self.ranges.len(), measured.collect(), coordinates, nodes, values, earlier);
+            Surface::new(self.ranges.len(), measured.collect(), coordinates, nodes, values, earlier, &|| {
+                watch.ask().is_ok()
+            });
+        watch.ask()?;
         surface.ok_or(Error::OutOfRange { field: "speeds of the points", value: f64::NAN, legal: "finite" })
     }
 

@@ -54,8 +54,13 @@ pub(crate) struct Emulator {
 }
 
 impl Emulator {
-    /// With the scales of the largest likelihood, searched from those of an earlier one.
-    pub(crate) fn of(places: Vec<DVector<f64>>, values: &[Response], earlier: Option<&Self>) -> Option<Self> {
+    /// With the scales of the largest likelihood, searched from those of an earlier one while it goes on.
+    pub(crate) fn of(
+        places: Vec<DVector<f64>>,
+        values: &[Response],
+        earlier: Option<&Self>,
+        goes_on: &(dyn Fn() -> bool + Sync),
+    ) -> Option<Self> {
         let count = values.len() as f64;
         let mean = values.iter().map(|own| own.value).sum::<f64>() / count;
         let errors: Vec<f64> = values.iter().map(|own| own.error * own.error).collect();
@@ -74,7 +79,7 @@ impl Emulator {
         let mut best = build(scales)?;
         let mut likelihood = best.likelihood(size);
         let mut step = 1.2;
-        while step > 0.2 {
+        while step > 0.2 && goes_on() {
             let mut found = false;
             for index in 0..best.scales.len() {
                 for change in [step, -step] {

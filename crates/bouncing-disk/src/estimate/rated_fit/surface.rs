@@ -48,11 +48,12 @@ impl Surface {
         nodes: &[DVector<f64>],
         values: &[Vec<Response>],
         earlier: Option<&Self>,
+        goes_on: &(dyn Fn() -> bool + Sync),
     ) -> Option<Self> {
         let of_point = |point: usize| {
             let places = nodes.iter().map(|node| selected(node, &own[point])).collect();
             let values: Vec<Response> = values.iter().map(|values| values[point]).collect();
-            Emulator::of(places, &values, earlier.map(|earlier| &earlier.emulators[point]))
+            Emulator::of(places, &values, earlier.map(|earlier| &earlier.emulators[point]), goes_on)
         };
         let emulators = bouncing_disk_core::run::in_parallel(measured.len(), of_point);
         let emulators = emulators.into_iter().collect::<Option<Vec<_>>>()?;
@@ -191,8 +192,9 @@ impl Surface {
         best
     }
 
-    pub(crate) fn profiles(&mut self) -> Vec<Profile> {
-        let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index));
+    /// Incomplete where it does not go on.
+    pub(crate) fn profiles(&mut self, goes_on: &(dyn Fn() -> bool + Sync)) -> Vec<Profile> {
+        let all = bouncing_disk_core::run::in_parallel(self.parameters, |index| self.profile(index, goes_on));
         // A profile may find a likelier one.
         let nodes = all.iter().flat_map(|profile| &profile.nodes).map(|node| node.2.clone());
         if let Some(start) = self.likeliest(nodes.collect()) {
@@ -233,7 +235,7 @@ impl Surface {
         nodes.dedup_by(|one, other| one.0.total_cmp(&other.0).is_eq());
     }
 
-    fn profile(&self, index: usize) -> Profile {
+    fn profile(&self, index: usize, goes_on: &(dyn Fn() -> bool + Sync)) -> Profile {
         let mut places: Vec<f64> = (0..EVEN).map(|k| 2.0 * k as f64 / (EVEN - 1) as f64 - 1.0).collect();
         let best = self.best[index];
         for halving in 2..=HALVINGS {
@@ -252,6 +254,9 @@ impl Surface {
         for (pass, order) in [out.collect::<Vec<_>>(), back.collect()].into_iter().enumerate() {
             let mut start = self.best.clone();
             for node in order {
+                if !goes_on() {
+                    break;
+                }
                 if node + 1 == middle && pass == 0 {
                     start = self.best.clone();
                 }

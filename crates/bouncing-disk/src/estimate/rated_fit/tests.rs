@@ -194,7 +194,7 @@ fn an_emulator_knows_how_well_it_knows() {
             bias: 0.1 * place[0].abs(),
         })
         .collect();
-    let emulator = Emulator::of(places, &values, None).expect("finite");
+    let emulator = Emulator::of(places, &values, None, &|| true).expect("finite");
     let (mut squares, count) = (0.0, 200);
     for k in 0..count {
         let place =
@@ -225,14 +225,14 @@ fn surface_of(response: fn(f64) -> f64, points: [[f64; 2]; 3], bias: &dyn Fn(f64
     let value = |place: f64| Response { value: response(place), error: 1e-3, bias: bias(place) };
     let values: Vec<_> = nodes.iter().map(|node| vec![value(node[0]); 3]).collect();
     let measured = points.map(|[speed, error]| (speed, error * error)).to_vec();
-    Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None).expect("finite")
+    Surface::new(1, measured, vec![vec![0]; 3], &nodes, &values, None, &|| true).expect("finite")
 }
 
 /// Between two places of the profile the deviance falls from 100 to 0 and rises again, on both sides.
 #[test]
 fn a_second_narrow_solution_is_found() {
     let mut surface = surface_of(|x| 10.0 * x * x, [[10.0 * 0.53 * 0.53, 0.05]; 3], &|_| 0.0);
-    let accepted = &surface.profiles()[0].accepted;
+    let accepted = &surface.profiles(&|| true)[0].accepted;
     let narrow = |[low, high]: &[f64; 2], place: f64| *low < place && place < *high && high - low < 0.03;
     assert_eq!(accepted.len(), 2, "{accepted:?}");
     assert!(narrow(&accepted[0], -0.53) && narrow(&accepted[1], 0.53), "{accepted:?}");
@@ -244,7 +244,7 @@ fn a_place_is_not_excluded_because_another_one_is_less_known() {
     for bias in [0.3, 1.0, 30.0] {
         let bias = |place: f64| if place > 0.0 { bias } else { 0.0 };
         let mut surface = surface_of(|x| 10.0 * x * x, [[2.1, 0.2], [2.9, 0.2], [2.5, 0.2]], &bias);
-        let accepted = &surface.profiles()[0].accepted;
+        let accepted = &surface.profiles(&|| true)[0].accepted;
         for place in [-0.5, 0.5] {
             assert!(accepted.iter().any(|[low, high]| (low..=high).contains(&&place)), "{accepted:?}");
         }
