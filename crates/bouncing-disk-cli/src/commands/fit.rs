@@ -65,15 +65,15 @@ pub(crate) struct FitArgs {
     /// With --parameter: gives a field of the data sheet another value
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
-    /// With --parameter: most evaluations of all motors that the search may take, 1 to 10000
-    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
-          default_value_t = ParameterFitSettings::default().most_evaluations)]
-    evaluations: usize,
+    /// With --parameter: most evaluations of all motors that the search may take: of run-ups 1 to 10000, default 100, and of points
+    /// 8 to 2000, default 120
+    #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter")]
+    evaluations: Option<usize>,
     /// Of points: most impacts of all members of a computed speed, from 1 on
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter",
           default_value_t = RatedFitSettings::default().operating.most_impacts)]
     most_impacts: u64,
-    /// Resampled fits, 200 to 100000
+    /// Resampled fits of run-ups, 200 to 100000
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", default_value_t = FitSettings::default().resamples)]
     resamples: usize,
     /// Seed of the resampling
@@ -108,7 +108,8 @@ pub(super) fn run(args: &FitArgs, context: Context) -> Result<()> {
         return Err(Failure::Usage(message.to_owned()));
     }
     args.output.check(args.parameter.is_empty(), &inputs, None)?;
-    if !args.parameter.is_empty() {
+    let of_run_ups = args.time_column.is_some() || args.speed_column.is_some() || args.time_unit.is_some();
+    if !args.parameter.is_empty() && !of_run_ups {
         let points = RatedPoint::table_from_csv(&args.file, args.speed_unit);
         if let Some(points) = points.map_err(|error| Failure::Usage(with_causes(error)))? {
             return rated(args, &points, context)?.deliver(&args.output, context);
@@ -195,7 +196,8 @@ fn motor_of(args: &FitArgs) -> Result<Motor> {
 fn rated(args: &FitArgs, points: &[RatedPoint], context: Context) -> Result<Report<'static>> {
     let motor = motor_of(args)?;
     motor.warnings().into_iter().for_each(|warning| context.note(&format!("warning: {warning}")));
-    let mut settings = RatedFitSettings { most_evaluations: args.evaluations, ..RatedFitSettings::default() };
+    let mut settings = RatedFitSettings::default();
+    settings.most_evaluations = args.evaluations.unwrap_or(settings.most_evaluations);
     settings.operating =
         OperatingSettings { seed: args.seed, most_impacts: args.most_impacts, ..settings.operating };
     let fit = RatedFit::new(&motor, points, &args.parameter, &settings, &context.watch("fit"))?;
@@ -224,7 +226,7 @@ fn parameters(args: &FitArgs, speeds: MeasuredSpeeds, context: Context) -> Resul
     let settings = ParameterFitSettings {
         seed: args.seed,
         resamples: args.resamples,
-        most_evaluations: args.evaluations,
+        most_evaluations: args.evaluations.unwrap_or(ParameterFitSettings::default().most_evaluations),
         ..ParameterFitSettings::default()
     };
     let preload = RunPreload::Acceleration(motor.preload_acceleration());

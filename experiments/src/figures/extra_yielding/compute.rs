@@ -64,12 +64,14 @@ impl Case {
             mass: Some(self.mass),
             quality: Some(QUALITY),
             resonance: Some(self.tuning * self.frequency()),
+            // Off resonance the force is the same, and not the amplitude without a rotor.
+            force: self.detuned_force(),
             ..StatorParameters::default()
         };
         // The spring is that of the platform that does not yield; the library's contact time is that on this stator.
         let yields = 1.0 / (1.0 + self.motor.mass() / self.mass).sqrt();
         let motor = self.motor.with(|sheet| {
-            sheet.amplitude = Some(self.amplitude);
+            sheet.amplitude = self.detuned_force().is_none().then_some(self.amplitude);
             sheet.phase_lag = 0.0;
             sheet.gyration_radius = Some(gyration);
             (sheet.preload_force, sheet.preload_acceleration) = (None, Some(preload));
@@ -78,6 +80,12 @@ impl Case {
                 self.contact_time.map(|time| Contact { time: Some(yields * time), ..Contact::default() });
         })?;
         DrivenMotor::new(motor, Waveform::Sine, Waveform::Sine)
+    }
+
+    fn detuned_force(&self) -> Option<f64> {
+        let resonance = self.tuning * self.motor.system().platform().angular_frequency();
+        let force = self.mass * resonance * resonance * self.amplitude / QUALITY;
+        (self.tuning.total_cmp(&1.0).is_ne()).then_some(force)
     }
 
     fn frequency(&self) -> f64 {

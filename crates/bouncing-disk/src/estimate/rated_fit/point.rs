@@ -99,7 +99,7 @@ impl RatedPoint {
     /// The points of a file of separated values: the columns `speed_rad_s` (or another unit, such as `speed (rpm)`),
     /// perhaps `speed_error` in that unit, and fields of the data sheet by their names, in its units, each perhaps with
     /// its standard error (`load_torque_error`). An empty field leaves the value of the data sheet, or no error. `None`
-    /// where no column is a field of the data sheet: not a table of points. Feature `csv`.
+    /// where no column is a field of the data sheet, or one has times: not a table of points. Feature `csv`.
     ///
     /// # Errors
     /// [`MeasuredSpeedsError`] names file, line and field.
@@ -149,7 +149,9 @@ fn table(bytes: &[u8], said: Option<SpeedUnit>) -> Result<Option<Vec<RatedPoint>
     let separator = SEPARATORS.into_iter().find(|separator| header.1.contains(*separator)).unwrap_or(',');
     let names = fields(header, separator)?;
     let columns: Vec<Option<Column>> = names.iter().map(|name| Column::of(name, said)).collect();
-    if !columns.iter().any(|column| matches!(column, Some(Column::Value(_)))) {
+    let of_time = |name: &str| NAMES[0].contains(&name_and_unit(name).0.as_str());
+    let has_value = columns.iter().any(|column| matches!(column, Some(Column::Value(_))));
+    if !has_value || names.iter().any(|name| of_time(name)) {
         return Ok(None);
     }
     let fault = |line: usize, place: usize, what: String| {

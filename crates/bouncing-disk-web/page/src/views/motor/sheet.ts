@@ -151,8 +151,11 @@ export class SheetPanel {
     }
     if (this.mass.value === "") delete sheet.stator;
     else {
-      const kind = this.twists.checked ? "axial_twist" : "axial";
-      sheet.stator = { kind, mass: 1e-3 * Number(this.mass.value), quality: Number(this.quality.value || "300") };
+      // What the fields do not show stays: volts, a resonance, a second mode.
+      const known = sheet.stator;
+      const kind = this.twists.checked ? "axial_twist" : known?.kind === "axial_and_torsional" ? known.kind : "axial";
+      const [mass, quality] = [1e-3 * Number(this.mass.value), Number(this.quality.value || "300")];
+      sheet.stator = { ...known, kind, mass, quality };
     }
     void this.read(JSON.stringify(sheet));
   }
