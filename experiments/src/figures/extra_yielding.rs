@@ -209,6 +209,10 @@ mod tests {
             amplitudes.push(format!("{stator} {cells} |"));
         }
         rows.extend([0, 1, 6].map(|index: usize| amplitudes[index].clone()));
+        // The drive above the resonance, at the same force.
+        let resonant = slow(true, MASS, Some(4.3));
+        let [below, at] = [0.995, 1.0].map(|tuning| Case { tuning, ..resonant }.point(ABOVE, 1).unwrap());
+        rows.push(format!("{:.0} in place of {:.1} rad/s", below.speed, at.speed));
         // A light stator at the largest preload: Γ with the amplitude that is left.
         let light = slow(true, 0.006, None).point(ABOVE, 1).unwrap();
         let still = Motor::paper_70_khz().with(|sheet| {

@@ -66,7 +66,7 @@ pub(crate) struct FitArgs {
     #[arg(help_heading = OWN, long, value_name = "KEY=VALUE", requires = "parameter", value_parser = setting)]
     set: Vec<Setting>,
     /// With --parameter: most evaluations of all motors that the search may take: of run-ups 1 to 10000, default 100, and of points
-    /// 8 to 2000, default 120
+    /// 8 to 400, default 120
     #[arg(help_heading = OWN, long, allow_negative_numbers = true, value_name = "N", requires = "parameter")]
     evaluations: Option<usize>,
     /// Of points: most impacts of all members of a computed speed, from 1 on

@@ -104,14 +104,14 @@ fn detuned(data: &ExtraYieldingData, area: Rect) -> Panel {
         .x(Axis::linear(1e2 * DETUNINGS.0, 1e2 * DETUNINGS.1)
             .label("resonance over drive frequency, less 1 (%)")
             .ticks(Ticks::every(0.5).minor(5)))
-        .y(Axis::linear(0.0, 42.0).label("speed (rad/s)").ticks(Ticks::every(10.0).minor(5)));
+        .y(Axis::linear(0.0, 48.0).label("speed (rad/s)").ticks(Ticks::every(10.0).minor(5)));
     for (index, curve) in data.detuned.iter().enumerate() {
         let points = curve.points.iter().map(|(detuning, point)| (1e2 * detuning, point.speed));
         let line = Line::new(points).colour(Colour::cycle(index % 2)).width(0.9);
         panel =
             panel.layer(if curve.twists { line.name(curve.name.as_str()) } else { line.dash(Dash::Dashed) });
     }
-    panel.legend(Legend::at(Corner::TopLeft))
+    panel.legend(Legend::at(Corner::TopRight))
 }
 
 /// The relative change of the preload over the height of a mean flight.
