@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use bouncing_disk_core::numerics::elementary::pow;
 use bouncing_disk_core::numerics::random::SplitMix64;
 use bouncing_disk_core::numerics::statistics::NORMAL_975;
-use bouncing_disk_core::run::{Watch, in_parallel, threads};
+use bouncing_disk_core::run::{Watch, in_parallel};
 use bouncing_disk_core::{Observer, Progress};
 use nalgebra::DVector;
 
@@ -29,6 +29,9 @@ use crate::motor::data_sheet::Motor;
 use crate::motor::operation::of_motor::operations;
 use crate::motor::operation::point::{Operation, Shortfall};
 use crate::motor::operation::settings::OperatingSettings;
+
+/// Places that are computed at once, on machines with any number of threads: what is found depends on it.
+const BATCH: usize = 2;
 
 /// Most points of a fit.
 const MOST_POINTS: usize = 100;
@@ -175,7 +178,7 @@ impl RatedFit {
             let profiles = surface.profiles(&|| watch.ask().is_ok());
             watch.ask()?;
             let left = settings.most_evaluations - nodes.len();
-            let more = surface.doubtful(&profiles, threads().max(1 + coordinates / 2).min(left));
+            let more = surface.doubtful(&profiles, BATCH.max(1 + coordinates / 2).min(left));
             if more.is_empty() {
                 let settled = surface.is_settled(&profiles);
                 break (profiles, settled);
