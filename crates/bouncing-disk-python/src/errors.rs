@@ -140,7 +140,11 @@ const ARGUMENTS: [(&str, &[&str]); 22] = [
 /// The argument of a call that a quantity of the library is about: `longest period`, `points of a branch` and
 /// `number of ranges` are `longest_period`, `max_points` and `ranges`. `None` if it follows from several.
 fn argument(quantity: &'static str, call: &Bound<'_, PyDict>) -> Option<String> {
-    let is_given = |name: &String| call.contains(name.as_str()).unwrap_or(false);
+    // A table `load` is no number: a load outside its range is that of a torque.
+    let is_given = |name: &String| {
+        let given = call.get_item(name.as_str()).ok().flatten();
+        given.is_some_and(|given| name != "load" || given.extract::<f64>().is_ok())
+    };
     let head = quantity.strip_prefix("number of ").unwrap_or(quantity);
     let marks = [" (", " of ", " from ", " beyond ", " below ", " in periods", " along an axis"];
     let cut = marks.iter().filter_map(|mark| head.find(mark)).min();
