@@ -520,7 +520,8 @@ def motor_map(
         axes: one or two arguments of :class:`Motor` with their values (SI); the first axis is that of the
             rows, shape (n,).
         continued: whether each cell of one axis starts from where the one before was left, in place of from rest: of a
-            ``stator`` that yields, whose state may depend on what was before.
+            ``stator`` that yields, whose state may depend on what was before. Height and modes go on; the speed of
+            the rotor begins anew. Where members are in several states, their mean is that of none.
         relative_error, members, most_impacts, relaunch_perturbation, seed: as of :func:`torque_speed_curve`.
 
     >>> import bouncing_disk as bd
