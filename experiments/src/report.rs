@@ -7,6 +7,7 @@ mod digits;
 pub mod gallery;
 pub mod pages;
 mod table;
+mod verdicts;
 
 use minijinja::{Environment, ErrorKind, UndefinedBehavior, Value, context};
 use serde::Serialize;
@@ -30,6 +31,8 @@ struct Row {
     verdict: Verdict,
     /// With the cause and the verdict of single orbits.
     words: String,
+    /// For how many of the inputs that print alike it holds.
+    share: String,
     note: String,
 }
 
@@ -58,6 +61,7 @@ impl Row {
             },
             verdict: claim.verdict,
             words: verdict_words(claim),
+            share: claim.share.map_or("—".to_owned(), |share| format!("{:.0} %", 100.0 * share)),
             note: claim.note.clone(),
         }
     }

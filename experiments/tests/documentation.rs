@@ -1,11 +1,12 @@
 //! The committed results page and pictures.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::PathBuf;
 
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::report::pages::{
-    DIGESTS_FILE, Digests, LARGEST_PICTURE, LARGEST_VECTOR, Pictures, TEMPLATE, digest,
+    DIGESTS_FILE, Digests, LARGEST_PICTURE, LARGEST_VECTOR, Pictures, digest, templates,
 };
 
 /// All pictures of a folder together may be so large (bytes).
@@ -24,10 +25,11 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
         let folder = docs(pictures.folder());
         let digests = fs::read(folder.join(DIGESTS_FILE)).expect("the digests are committed");
         let digests: Digests = serde_json::from_slice(&digests).expect("written by this version");
+        let templates = BTreeMap::from(templates());
         for (name, expected) in &digests.pages {
-            let path = if name == TEMPLATE { "../experiments/src/report/errata.md" } else { name };
-            let page = fs::read(docs(path)).expect("the page is committed");
-            assert_eq!(digest(&page), *expected, "{name} was edited; to repair: {command}");
+            let own = templates.get(name).cloned();
+            let own = own.unwrap_or_else(|| digest(&fs::read(docs(name)).expect("the page is committed")));
+            assert_eq!(own, *expected, "{name} was edited; to repair: {command}");
         }
         let mut ids: Vec<_> = entries.iter().map(|entry| entry.id).collect();
         ids.sort_unstable();
@@ -47,4 +49,11 @@ fn the_committed_files_are_those_that_were_generated_and_small() {
         }
         assert!(together <= ALL_PICTURES, "the pictures have {together} bytes");
     }
+}
+
+#[test]
+fn the_citation_is_of_this_version() {
+    let citation = fs::read_to_string(docs("../CITATION.cff")).expect("committed");
+    let version = format!("\nversion: {}\n", env!("CARGO_PKG_VERSION"));
+    assert!(citation.contains(&version) && citation.contains("\n    doi: 10.1103/PhysRevE.80.046201\n"));
 }

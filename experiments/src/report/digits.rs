@@ -62,8 +62,11 @@ fn push_rounded(page: &mut String, text: &str) {
     page.push_str(rest);
 }
 
-/// Four digits of a number that has more and is not [`kept`].
+/// Four digits of a number that has more and is not [`kept`]. The number of an article may begin with a zero.
 fn shorter(number: &str) -> Option<String> {
+    if number.starts_with('0') && !number.contains('.') {
+        return None;
+    }
     let significant = number.trim_start_matches(['0', '.']);
     let significant = if number.contains('.') { significant } else { significant.trim_end_matches('0') };
     let digits = significant.bytes().filter(u8::is_ascii_digit).count();
@@ -97,7 +100,7 @@ mod tests {
                 "![](figures/fig01234.png) `0.123456` a0.12345",
                 "![](figures/fig01234.png) `0.123456` a0.12345",
             ),
-            ("12315.04 and 0.00004123456", "12320 and 0.00004123"),
+            ("12315.04 and 0.00004123456, 046201", "12320 and 0.00004123, 046201"),
         ] {
             assert_eq!(rounded(text), short);
         }
