@@ -39,7 +39,7 @@ const MOST_THREADS: i64 = 1024;
 const USAGE: u8 = 2;
 
 /// The options of `cargo xtask figures`.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub(crate) struct Options {
     /// Figures and tables to make, such as fig06 or table2; those of the paper when none is given
     #[arg(value_name = "ID")]
@@ -59,11 +59,11 @@ pub(crate) struct Options {
     /// List the figures and tables and whether they are up to date
     #[arg(long)]
     list: bool,
-    /// Write nothing; fail when an output, docs/results.md, docs/errata.md or a picture in docs/figures, with
+    /// Write nothing; fail when an output, docs/results.md, docs/errata.md, docs/report.md or a picture in docs/figures, with
     /// --extras a picture in docs/extras, is missing or out of date
     #[arg(long, conflicts_with = "force")]
     check: bool,
-    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md and docs/figures
+    /// Make the figures and tables of the paper and write docs/results.md, docs/errata.md, docs/report.md and docs/figures
     /// from it; with --extras make those beyond the paper and write docs/extras
     #[arg(long, conflicts_with_all = ["ids", "list", "check", "quality"])]
     docs: bool,
@@ -165,6 +165,18 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
         return Run { measurements: &Measurements::none(), ..run }.write_docs(&folder);
     }
     run.make(options.quality, &folder)
+}
+
+/// The folder with the figures of the paper, without a user's measurements and made where they are out of date.
+pub(crate) fn of_the_paper() -> anyhow::Result<OutputFolder> {
+    let options = Options::default();
+    let (entries, measurements) = (registry::all(), &Measurements::none());
+    let selected: Vec<_> = entries.iter().filter(|entry| !entry.is_extra()).collect();
+    let folder = OutputFolder::create(options.folder())?;
+    let run = Run { options: &options, entries: &entries, selected: &selected, measurements };
+    let code = run.make(Quality::Paper, &folder)?;
+    anyhow::ensure!(code == ExitCode::SUCCESS, "the figures cannot be made");
+    Ok(folder)
 }
 
 fn threads(options: &Options) -> usize {
@@ -381,18 +393,7 @@ mod tests {
     use super::*;
 
     fn options(quality: Quality, out: Option<&str>) -> Options {
-        Options {
-            ids: Vec::new(),
-            extras: false,
-            quality,
-            out: out.map(PathBuf::from),
-            measured: None,
-            list: false,
-            check: false,
-            docs: false,
-            force: false,
-            threads: None,
-        }
+        Options { quality, out: out.map(PathBuf::from), ..Options::default() }
     }
 
     #[test]

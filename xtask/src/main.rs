@@ -1,14 +1,16 @@
 //! The chores of this repository.
 //!
 //! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer`
-//! builds the page for browsers, and `cargo xtask dependencies` counts what it depends on and checks the
+//! builds the page for browsers, `cargo xtask archive` packs the claims with their data and the report, and `cargo xtask dependencies` counts what it depends on and checks the
 //! licences.
 
+mod archive;
 mod dependencies;
 mod explorer;
 mod figures;
 mod output;
 mod report;
+mod typeset;
 mod work;
 mod workspace;
 
@@ -29,6 +31,8 @@ enum Chore {
     Figures(figures::Options),
     /// Build the page that shows the model in a browser.
     Explorer(explorer::Options),
+    /// Pack the claims, the data of the figures and the report.
+    Archive(archive::Options),
     /// Count the crates that each dependency brings, and check licences and sources.
     Dependencies,
 }
@@ -38,6 +42,7 @@ fn main() -> ExitCode {
     let done = match chore {
         Chore::Figures(options) => figures::run(&options),
         Chore::Explorer(options) => explorer::run(&options),
+        Chore::Archive(options) => archive::run(&options),
         Chore::Dependencies => dependencies::run(),
     };
     match done {
