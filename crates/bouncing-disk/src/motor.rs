@@ -32,6 +32,7 @@ pub(crate) mod impulse;
 pub(crate) mod operation;
 pub(crate) mod rotor;
 pub(crate) mod sensitivity;
+pub(crate) mod simulation;
 pub(crate) mod sweep;
 
 pub use batch::members::{MAX_MEMBERS, MAX_SPEEDS, TransientMember};
@@ -60,6 +61,7 @@ pub use sensitivity::local::{LocalSensitivity, SensitivityMethod, SensitivitySet
 pub use sensitivity::morris::{ElementaryEffects, elementary_effects};
 pub use sensitivity::parameter::{SensitivityParameter, SensitivityQuantity};
 pub use sensitivity::sobol::{SamplingSettings, SobolIndices, sobol_indices};
+pub use simulation::{MotorInputs, MotorOutputs, MotorSimulation, SimulationSettings};
 pub use sweep::MotorSweep;
 pub use sweep::axis::{MAX_SWEEP_CELLS, SweepAxis};
 pub use sweep::quantity::SweepQuantity;

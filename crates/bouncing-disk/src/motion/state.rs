@@ -137,6 +137,11 @@ impl LongSum {
         self.low += lost;
     }
 
+    /// In another unit.
+    pub(crate) fn scale(&mut self, factor: f64) {
+        (self.high, self.low) = (self.high * factor, self.low * factor);
+    }
+
     pub(crate) fn value(&self) -> f64 {
         self.high + self.low
     }

@@ -84,13 +84,7 @@ impl DrivenMotor {
             let other = if motor.stator().is_some() { "stator" } else { "load" };
             return Err(Error::BothGiven { one: "drive", other });
         }
-        let shaft = motor.load().map_or(0.0, |load| load.inertia()) / motor.mass();
-        let system = motor.system().with_disk(|disk| {
-            disk.gyration_radius = (disk.gyration_radius * disk.gyration_radius + shaft).sqrt();
-        })?;
-        let mut bound = system.with_contact(None)?.with_stator(None)?;
-        bound.has_load_law = false;
-        let mut own = StatorSystem::of_system(&system, motor.mass())?;
+        let (mut own, bound) = with_shaft(&motor)?;
         if let Some(load) = motor.load() {
             let stops = !load.drives_at(f64::NEG_INFINITY) || !load.drives_at(f64::MAX);
             let yields = motor.stator().is_some();
@@ -109,17 +103,8 @@ impl DrivenMotor {
     fn carrier_at(&self, time: f64) -> Result<StatorSystem, Error> {
         let Some(own) = self.carrier.yielding() else { return Err(Error::YieldingStator) };
         let Some(load) = self.motor.load() else { return Ok(own.clone()) };
-        let base = if load.drives_at(time) {
-            *own.base()
-        } else {
-            let still = DimensionlessParameters {
-                peak_acceleration: 0.0,
-                twist_speed: 0.0,
-                ..own.base().parameters()
-            };
-            still.build()?
-        };
-        own.with_base(&base)?.with_load(&lines(&load, time, &self.bound, self.motor.mass()))
+        let lines = lines(&load, time, &self.bound, self.motor.mass());
+        if load.drives_at(time) { own.clone().with_load(&lines) } else { still(own)?.with_load(&lines) }
     }
 
     /// The motor with the motion that the table `[drive]` of a file gives.
@@ -389,15 +374,33 @@ impl DrivenMotor {
             watch.set_done(bins.present.index as u64);
         }
         watch.end();
-        if let (Some(last), true) = (engine.amplitude_after(0.0), amplitudes.len() < settings.intervals) {
+        let left = settings.duration / unit.time - engine.time().since(&began).radians();
+        if let (Some(last), true) = (engine.amplitude_after(left), amplitudes.len() < settings.intervals) {
             amplitudes.resize(settings.intervals, last * unit.length);
         }
         Ok((curve(bins, &unit, (impacts, separations))?, amplitudes))
     }
 }
 
+/// A motor with the inertia of its shaft on its stator, and the same with a prescribed motion and rigid impacts.
+pub(crate) fn with_shaft(motor: &Motor) -> Result<(StatorSystem, System), Error> {
+    let shaft = motor.load().map_or(0.0, |load| load.inertia()) / motor.mass();
+    let system = motor.system().with_disk(|disk| {
+        disk.gyration_radius = (disk.gyration_radius * disk.gyration_radius + shaft).sqrt();
+    })?;
+    let mut bound = system.with_contact(None)?.with_stator(None)?;
+    bound.has_load_law = false;
+    Ok((StatorSystem::of_system(&system, motor.mass())?, bound))
+}
+
+/// A stator without its drive.
+pub(crate) fn still(system: &StatorSystem) -> Result<StatorSystem, Error> {
+    let base = system.base().parameters();
+    system.with_base(&DimensionlessParameters { peak_acceleration: 0.0, twist_speed: 0.0, ..base }.build()?)
+}
+
 /// The lines of a load at a time (s), on a disk of this mass.
-fn lines(load: &LoadLaw, time: f64, system: &System, mass: f64) -> Vec<LoadLine> {
+pub(crate) fn lines(load: &LoadLaw, time: f64, system: &System, mass: f64) -> Vec<LoadLine> {
     let disk = system.disk();
     let torque = load.factor_at(time) / (mass * disk.preload_acceleration() * disk.contact_radius());
     let speed = system.scales().angular_speed;

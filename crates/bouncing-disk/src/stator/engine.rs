@@ -327,6 +327,25 @@ impl StatorEngine {
         }
     }
 
+    /// Moves a disk that lies for ever by whole periods, in which all repeats but the angle and a speed that drifts; the
+    /// energies of one of them. `None` where it does not lie for ever, or a load changes with a speed that drifts.
+    pub(crate) fn skip_periods(&mut self, periods: u64) -> Option<StatorRecord> {
+        let Stage::Contact { forever: true, .. } = self.stage else { return None };
+        let mut after = self.clone();
+        let record = after.pause(TAU);
+        let mut gained = after.state[SPEED] - self.state[SPEED];
+        if gained.abs() <= SAME * (1.0 + self.state[SPEED].abs()) {
+            gained = 0.0;
+        } else if self.system.lines[self.line].slope != 0.0 {
+            return None;
+        }
+        let (count, turned) = (periods as f64, record.after.disk.angle - self.angle.value());
+        self.now = self.now.after(PhaseSpan { periods, remainder: 0.0 });
+        self.state[SPEED] += count * gained;
+        self.angle.add(count * (turned + 0.5 * TAU * gained * (count - 1.0)));
+        Some(record)
+    }
+
     /// Stills the modes: the stator is at rest, and the disk as it is relative to it.
     pub(crate) fn calm(&mut self) {
         for index in 0..MODES {
@@ -340,13 +359,25 @@ impl StatorEngine {
     /// system of the same units: the drive is switched, or the load changes. Modes and
     /// disk are continuous; what no mode moves jumps, and the disk keeps its distance.
     pub fn switch(&mut self, span: f64, to: StatorSystem) -> StatorRecord {
+        self.switch_units(span, to, 1.0)
+    }
+
+    /// [`Self::switch`] to a system whose drive is so many times `faster`, in whose units the record says what is after
+    /// it.
+    pub(crate) fn switch_units(&mut self, span: f64, to: StatorSystem, faster: f64) -> StatorRecord {
         let mut record = self.pause(span);
         let phase = (self.state[SIN], self.state[COS]);
+        let longer = faster * faster;
         for index in 0..MODES {
             let (old, new) = (self.system.steady(index, phase), to.steady(index, phase));
-            self.state[DISPLACEMENTS[index]] += old[0] - new[0];
-            self.state[VELOCITIES[index]] += old[1] - new[1];
+            let [place, speed] = [DISPLACEMENTS[index], VELOCITIES[index]];
+            self.state[place] = self.state[place] * longer + (old[0] * longer - new[0]);
+            self.state[speed] = self.state[speed] * faster + (old[1] * faster - new[1]);
         }
+        self.state[GAP] *= longer;
+        self.state[CLOSING] *= faster;
+        self.state[SPEED] *= faster;
+        self.angle.scale(longer);
         self.system = to;
         self.go_on();
         record.after = self.state();

@@ -1,0 +1,365 @@
+//! A motor as a part of a drive train: it goes on from step to step under inputs that may change between them.
+
+use std::f64::consts::TAU;
+
+use bouncing_disk_core::numerics::elementary::{hypot, sin_cos};
+use bouncing_disk_core::numerics::random::SplitMix64;
+use bouncing_disk_core::run::Watch;
+use bouncing_disk_core::{Observer, Phase};
+
+use crate::driven::DrivenStart;
+use crate::error::{Error, check, finite, moderate_not_negative};
+use crate::motion::energy::EnergyLedger;
+use crate::motion::event::Event;
+use crate::motion::phase_time::{PhaseSpan, PhaseTime};
+use crate::motor::data_sheet::Motor;
+use crate::motor::data_sheet::motor_field::MotorField;
+use crate::motor::driven_motor::{lines, still, with_shaft};
+use crate::motor::rotor::transient::FLIGHTS_OF_EVENT;
+use crate::parameters::load::LoadLaw;
+use crate::parameters::scales::Scales;
+use crate::parameters::stator::StatorKind;
+use crate::stator::{StatorEngine, StatorLedger, StatorSystem};
+
+/// A contact is followed anew from here (rad) if nothing has happened: asking for a time in it costs no more than this.
+const REST: f64 = 64.0 * TAU;
+
+/// What drives and loads a motor, until it changes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MotorInputs {
+    /// Torque on the shaft (N m), on top of a table `[load]`; a positive one decelerates a positive rotation.
+    pub load_torque: f64,
+    /// Amplitude of the drive, in the unit of [`MotorInputs::drive_field`]; not negative.
+    pub drive: f64,
+    /// Frequency of the drive (Hz), positive.
+    pub drive_frequency: f64,
+    /// Whether the drive is on.
+    pub on: bool,
+}
+
+impl MotorInputs {
+    /// Those of a data sheet, switched on.
+    #[must_use]
+    pub fn of(motor: &Motor) -> Self {
+        let sheet = motor.parameters();
+        Self {
+            load_torque: motor.load_torque(),
+            drive: Self::drive_field(motor).value(&sheet).unwrap_or_default(),
+            drive_frequency: sheet.drive_frequency,
+            on: true,
+        }
+    }
+
+    /// What drives a motor: the volts or the force of its stator, or the amplitude.
+    #[must_use]
+    pub fn drive_field(motor: &Motor) -> MotorField {
+        let given = |field: &MotorField| field.value(&motor.parameters()).is_some();
+        [MotorField::StatorVolts, MotorField::StatorForce]
+            .into_iter()
+            .find(given)
+            .unwrap_or(MotorField::Amplitude)
+    }
+}
+
+/// How a simulation starts, with a rotor that lies on the stator at rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct SimulationSettings {
+    /// Phase of the stator at the start (rad), finite.
+    pub phase: f64,
+    /// As of [`TransientSettings`](crate::motor::TransientSettings), in units of g/omega. Default 1e-3.
+    pub relaunch_perturbation: f64,
+    /// Seed of the perturbations. Default 1.
+    pub seed: u64,
+}
+
+impl Default for SimulationSettings {
+    fn default() -> Self {
+        Self { phase: 0.0, relaunch_perturbation: 1.0e-3, seed: 1 }
+    }
+}
+
+/// A motor at an instant, and its means since the instant before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+pub struct MotorOutputs {
+    /// Angle of the rotor (rad) since the start.
+    pub angle: f64,
+    /// Its angular speed (rad/s).
+    pub speed: f64,
+    /// Mean torque of the stator on rotor and shaft (N m) since the last call: that of the load, and what accelerates
+    /// their inertia.
+    pub shaft_torque: f64,
+    /// Amplitude of the stator's height (m): how far its mode would swing freely; of a prescribed motion its own.
+    pub amplitude: f64,
+    /// Amplitude of the current (A), as if the modes moved as sines at the frequency of the drive; `None` without volts
+    /// and a capacitance.
+    pub current: Option<f64>,
+    /// Mean power of the drive (W) since the last call; in volts, the real part of voltage times current.
+    pub power: f64,
+    /// Impacts since the start.
+    pub impacts: u64,
+}
+
+/// What has been summed up since the start (SI).
+#[derive(Debug, Clone, Copy, Default)]
+struct Totals {
+    /// Time (s).
+    time: f64,
+    /// Work of the drive (J).
+    work: f64,
+    /// Angular impulse of the load (N m s).
+    load: f64,
+    speed: f64,
+    impacts: u64,
+}
+
+/// The motion just after the next event, found before anybody asks for it: what follows from constant inputs then
+/// does not depend on the times at which one asks.
+#[derive(Debug, Clone)]
+struct Ahead {
+    engine: StatorEngine,
+    generator: SplitMix64,
+    totals: Totals,
+}
+
+/// A motor that goes on from step to step. For inputs that stay the same, its motion does not depend on the steps, to
+/// the last bit; a clone is a stored state.
+///
+/// A change of the inputs takes effect at once. Modes are continuous; a prescribed motion jumps, and the rotor keeps
+/// its distance and its speed from it. A change of the frequency keeps the phase of the motion without a rotor.
+///
+/// ```
+/// use bouncing_disk::Motor;
+/// use bouncing_disk::core::Unobserved;
+/// use bouncing_disk::motor::{MotorInputs, MotorSimulation, SimulationSettings};
+///
+/// let motor = Motor::paper_70_khz();
+/// let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default())?;
+/// let running = simulation.advance(0.1, &Unobserved)?;
+/// assert!(running.speed > 0.0);
+/// let off = MotorInputs { on: false, load_torque: 1e-5, ..MotorInputs::of(&motor) };
+/// simulation.set_inputs(off)?;
+/// assert!(simulation.advance(0.2, &Unobserved)?.speed < running.speed);
+/// # Ok::<(), bouncing_disk::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct MotorSimulation {
+    sheet: Motor,
+    inputs: MotorInputs,
+    /// The sheet under these inputs, its units, and the inertia of rotor and shaft (kg m^2).
+    motor: Motor,
+    unit: Scales,
+    inertia: f64,
+    perturbation: f64,
+    /// When these inputs began (s), and the instant of the engine.
+    began: (f64, PhaseTime),
+    /// Just after the last event.
+    now: Ahead,
+    next: Option<Ahead>,
+    /// At the last call.
+    last: Totals,
+}
+
+impl MotorSimulation {
+    /// A motor whose rotor lies on the stator at rest at the time 0, under the inputs of its sheet.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal settings; [`Error::LoadInTime`] for a table `[load]` that varies in time: the
+    /// inputs do that; [`Error::BothGiven`] for a contact that unloads at less stiffness.
+    pub fn new(motor: &Motor, settings: SimulationSettings) -> Result<Self, Error> {
+        let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
+        if motor.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
+            return Err(Error::LoadInTime);
+        }
+        let inputs = MotorInputs::of(motor);
+        let sheet = motor.with(|sheet| {
+            sheet.load_torque = 0.0;
+            // Otherwise they would follow the frequency of the drive.
+            if let Some(table) = &mut sheet.stator {
+                table.resonance.get_or_insert(sheet.drive_frequency);
+                if table.kind == StatorKind::AxialAndTorsional {
+                    table.torsional_resonance.get_or_insert(sheet.drive_frequency);
+                }
+            }
+        })?;
+        let built = built(&sheet, &inputs)?;
+        let start = DrivenStart::Contact { phase: Phase::new(settings.phase)?, angular_speed: 0.0 };
+        let engine = StatorEngine::new(built.system, start)?;
+        let began = (0.0, engine.time());
+        let generator = SplitMix64::new(settings.seed);
+        let now = Ahead { engine, generator, totals: Totals::default() };
+        let (unit, inertia) = (built.unit, built.inertia);
+        let last = Totals::default();
+        Ok(Self { sheet, inputs, motor: built.motor, unit, inertia, perturbation, began, now, next: None, last })
+    }
+
+    /// The present inputs.
+    #[must_use]
+    pub const fn inputs(&self) -> MotorInputs {
+        self.inputs
+    }
+
+    /// The time of the last call (s).
+    #[must_use]
+    pub const fn time(&self) -> f64 {
+        self.last.time
+    }
+
+    /// Changes the inputs from now on; the same ones change nothing. After an error the inputs are as before.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for illegal inputs, and what [`Motor::with`] refuses.
+    pub fn set_inputs(&mut self, inputs: MotorInputs) -> Result<(), Error> {
+        if inputs == self.inputs {
+            return Ok(());
+        }
+        let built = built(&self.sheet, &inputs)?;
+        self.now = self.at(self.last.time);
+        let faster = self.unit.time / built.unit.time;
+        self.now.engine.switch_units(0.0, built.system, faster);
+        (self.motor, self.unit, self.inertia) = (built.motor, built.unit, built.inertia);
+        (self.inputs, self.next) = (inputs, None);
+        self.began = (self.last.time, self.now.engine.time());
+        Ok(())
+    }
+
+    /// Goes on to a time (s) after the start, not before the last one.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] for a time before the last one; those of [`StatorEngine::advance`]. After an error the time
+    /// is that of the last call.
+    pub fn advance(&mut self, time: f64, observer: &dyn Observer) -> Result<MotorOutputs, Error> {
+        let watch = Watch::begin(observer, 0, 1)?;
+        let mut work = watch.work();
+        check(finite("time", time)? >= self.last.time, "time", time, "at or after the last one (s)")?;
+        let until = (time - self.began.0) / self.unit.time;
+        loop {
+            if self.next.is_none() {
+                work.spend(FLIGHTS_OF_EVENT)?;
+                self.next = self.found()?;
+            }
+            let comes = |next: &mut Ahead| next.engine.time().since(&self.began.1).radians() <= until;
+            match self.next.take_if(comes) {
+                Some(next) => self.now = next,
+                None => break,
+            }
+        }
+        watch.end();
+        let at = self.at(time);
+        let outputs = self.outputs(&at);
+        self.last = at.totals;
+        Ok(outputs)
+    }
+
+    /// The motion after the next event, or after a piece of a contact; `None` for a rotor that lies for ever.
+    fn found(&mut self) -> Result<Option<Ahead>, Error> {
+        let mut next = self.now.clone();
+        let limit = if next.engine.launches() { f64::INFINITY } else { REST };
+        let record = match next.engine.advance_within(limit)? {
+            Some(record) => record,
+            None if next.engine.skip_periods(0).is_some() => {
+                // It knows now that it lies for ever.
+                self.now = next;
+                return Ok(None);
+            }
+            None => next.engine.pause(REST),
+        };
+        self.add(&mut next.totals, &record.ledger, &record.stator, 1.0);
+        match record.event {
+            Event::Impact { .. } | Event::Recontact => next.totals.impacts += 1,
+            Event::Separation => {
+                next.engine.perturb_launch(self.perturbation * next.generator.unit());
+            }
+            _ => {}
+        }
+        Ok(Some(next))
+    }
+
+    /// Adds what happened so many times.
+    fn add(&self, totals: &mut Totals, disk: &EnergyLedger, stator: &StatorLedger, times: f64) {
+        let (mass, unit) = (times * self.motor.mass(), &self.unit);
+        let axial = disk.normal_work + (stator.drive_work - stator.disk_work);
+        totals.work += mass * (axial * unit.axial_energy + disk.friction_work * unit.rotary_energy);
+        totals.load += times * self.inertia * unit.angular_speed * stator.load_impulse;
+    }
+
+    /// The motion at a time before the next event.
+    fn at(&self, time: f64) -> Ahead {
+        let mut at = self.now.clone();
+        let until = self.began.1.after(PhaseSpan::from_radians((time - self.began.0) / self.unit.time));
+        let periods = until.since(&at.engine.time()).periods;
+        if self.next.is_none() && let Some(one) = at.engine.skip_periods(periods) {
+            self.add(&mut at.totals, &one.ledger, &one.stator, periods as f64);
+        }
+        let record = at.engine.pause(until.since(&at.engine.time()).radians());
+        self.add(&mut at.totals, &record.ledger, &record.stator, 1.0);
+        at.totals.time = time;
+        at.totals.speed = record.after.disk.angular_speed * self.unit.angular_speed;
+        at
+    }
+
+    fn outputs(&self, at: &Ahead) -> MotorOutputs {
+        let (unit, totals, state) = (&self.unit, &at.totals, at.engine.state());
+        let passed = totals.time - self.last.time;
+        let mean = |change: f64| if passed > 0.0 { change / passed } else { 0.0 };
+        let gained = self.inertia * (totals.speed - self.last.speed);
+        let prescribed = if self.inputs.on { self.motor.system().platform().amplitude() } else { 0.0 };
+        MotorOutputs {
+            angle: state.disk.angle * unit.angle,
+            speed: totals.speed,
+            shaft_torque: mean(gained + (totals.load - self.last.load)),
+            amplitude: at.engine.amplitude_after(0.0).map_or(prescribed, |amplitude| amplitude * unit.length),
+            current: self.current(at.engine.time().phase.angle(), state.modes),
+            power: mean(totals.work - self.last.work),
+            impacts: totals.impacts,
+        }
+    }
+
+    /// The amplitude of C_0 dV/dt and of each mode's force per volt times its speed.
+    fn current(&self, phase: f64, modes: [[f64; 2]; 2]) -> Option<f64> {
+        let stator = self.motor.stator()?;
+        let circuit = stator.circuit()?;
+        let (mut along, mut across) = (0.0, 0.0);
+        for ([place, speed], (mode, per_volt)) in
+            modes.into_iter().zip(stator.modes().iter().zip([circuit.force_per_volt, circuit.torque_per_volt]))
+        {
+            // q sin(phase + a) from the coordinate and its speed.
+            let unit = if mode.height == 0.0 { self.unit.angle } else { self.unit.length };
+            let (sin, cos) = sin_cos(phase);
+            along += per_volt * unit * (speed * cos + place * sin);
+            across += per_volt * unit * (place * cos - speed * sin);
+        }
+        let volts = if self.inputs.on { circuit.capacitance? * circuit.volts } else { 0.0 };
+        let (sin, cos) = sin_cos(circuit.phase);
+        Some(hypot(along + volts * cos, across + volts * sin) / self.unit.time)
+    }
+}
+
+/// A motor under its inputs.
+struct Built {
+    motor: Motor,
+    system: StatorSystem,
+    unit: Scales,
+    inertia: f64,
+}
+
+fn built(sheet: &Motor, inputs: &MotorInputs) -> Result<Built, Error> {
+    let load_torque = finite("load_torque", inputs.load_torque)?;
+    let field = MotorInputs::drive_field(sheet);
+    let motor = sheet.with(|sheet| {
+        field.set(sheet, inputs.drive);
+        sheet.drive_frequency = inputs.drive_frequency;
+    })?;
+    let (system, bound) = with_shaft(&motor)?;
+    let law = motor.load().map_or_else(|| LoadLaw::constant(0.0), Ok)?;
+    let mut lines = lines(&law, 0.0, &bound, motor.mass());
+    let torque = load_torque / (motor.preload_force() * bound.disk().contact_radius());
+    lines.iter_mut().for_each(|line| line.torque += torque);
+    let system = if inputs.on { system } else { still(&system)? };
+    Ok(Built { motor, system: system.with_load(&lines)?, unit: bound.scales(), inertia: motor.inertia() + law.inertia() })
+}
+
+#[cfg(test)]
+mod tests;
