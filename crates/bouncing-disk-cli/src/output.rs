@@ -67,7 +67,7 @@ impl Report<'_> {
                 let text = figure()?.to_svg()?;
                 target.write(replace, quiet, |to| to.write_all(text.as_bytes()))
             }
-            Kind::Toml => Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
+            Kind::Toml | Kind::Fmu => Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
         }
     }
 }

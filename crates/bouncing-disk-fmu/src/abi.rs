@@ -46,7 +46,8 @@ impl Logger {
 
 /// The error of a panic, which must not leave through C.
 fn caught<T>(call: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
-    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|_| Err("an internal error, please report it".to_owned()))
+    catch_unwind(AssertUnwindSafe(call))
+        .unwrap_or_else(|_| Err("an internal error, please report it".to_owned()))
 }
 
 /// Calls an instance; an error goes into its log.
@@ -117,7 +118,11 @@ unsafe extern "C" fn fmi3InstantiateCoSimulation(
         let sheet = std::fs::read_to_string(&path);
         let sheet = sheet.map_err(|error| format!("{} cannot be read: {error}", path.display()))?;
         if token(&sheet) != given {
-            return Err("the instantiation token is not that of this unit".to_owned());
+            return Err(concat!(
+                "the instantiation token is not that of this unit, made by bouncing-disk ",
+                env!("CARGO_PKG_VERSION")
+            )
+            .to_owned());
         }
         let motor = Motor::from_json(&sheet).map_err(|error| format!("{}: {error}", path.display()))?;
         Ok(Instance::new(&motor))
@@ -141,7 +146,12 @@ unsafe extern "C" fn fmi3FreeInstance(handle: *mut Handle) {
 
 /// Errors are said whatever the master wants to hear; there is nothing else to say.
 #[unsafe(no_mangle)]
-extern "C" fn fmi3SetDebugLogging(_handle: *mut Handle, _on: bool, _count: usize, _categories: *const c_void) -> i32 {
+extern "C" fn fmi3SetDebugLogging(
+    _handle: *mut Handle,
+    _on: bool,
+    _count: usize,
+    _categories: *const c_void,
+) -> i32 {
     OK
 }
 
@@ -303,7 +313,8 @@ of_no_variable! {
     fmi3SetUInt64 fmi3SetBoolean fmi3SetString fmi3SetBinary fmi3SetClock
 }
 
-/// Functions of what the description says this unit has not; the caller removes the other arguments.
+/// Functions of what the description says this unit has not, which masters look for all the same; the caller removes the
+/// other arguments.
 macro_rules! not_there {
     ($($name:ident)*) => {$(
         #[unsafe(no_mangle)]
@@ -322,6 +333,10 @@ not_there! {
     fmi3GetIntervalDecimal fmi3GetIntervalFraction fmi3GetShiftDecimal fmi3GetShiftFraction
     fmi3SetIntervalDecimal fmi3SetIntervalFraction fmi3SetShiftDecimal fmi3SetShiftFraction
     fmi3EvaluateDiscreteStates fmi3UpdateDiscreteStates
+    fmi3EnterContinuousTimeMode fmi3CompletedIntegratorStep fmi3SetTime fmi3SetContinuousStates
+    fmi3GetContinuousStateDerivatives fmi3GetEventIndicators fmi3GetContinuousStates
+    fmi3GetNominalsOfContinuousStates fmi3GetNumberOfEventIndicators fmi3GetNumberOfContinuousStates
+    fmi3ActivateModelPartition
 }
 
 /// No instances of the other kinds of units.

@@ -134,7 +134,8 @@ impl Instance {
                     _ => {}
                 }
             }
-            let motor = self.motor.with(|sheet| changes.iter().for_each(|(field, value)| field.set(sheet, *value)));
+            let motor =
+                self.motor.with(|sheet| changes.iter().for_each(|(field, value)| field.set(sheet, *value)));
             let motor = motor.map_err(|error| error.to_string())?;
             let begin = || {
                 let mut simulation = MotorSimulation::new(&motor, settings)?;
@@ -154,7 +155,9 @@ impl Instance {
         let size = SAME_POINT * (point.abs() + reached.abs() + step.abs());
         let follows = (point - reached).abs() <= size && step >= 0.0;
         if !follows {
-            return Err(format!("the step of {step:?} s at {point:?} s does not follow the one that ended at {reached:?} s"));
+            return Err(format!(
+                "the step of {step:?} s at {point:?} s does not follow the one that ended at {reached:?} s"
+            ));
         }
         let running = self.running.as_ref().ok_or("the motor has not started")?;
         let inputs = self.inputs(running.0.inputs());

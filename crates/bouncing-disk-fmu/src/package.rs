@@ -31,9 +31,9 @@ impl Display for PackageError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             Self::Motor(error) => error.fmt(f),
-            Self::Library => {
-                f.write_str("it is not the library of a functional mock-up unit of this version of bouncing-disk")
-            }
+            Self::Library => f.write_str(
+                "it is not the library of a functional mock-up unit of this version of bouncing-disk",
+            ),
             Self::Machine => f.write_str("FMI 3.0 has no name for this machine"),
             Self::Archive(error) => f.write_str(error),
         }
@@ -49,10 +49,8 @@ pub fn library_name() -> String {
     format!("{DLL_PREFIX}bouncing_disk_fmu{DLL_SUFFIX}")
 }
 
-/// What every library of this version holds.
-fn mark() -> String {
-    format!("bouncing-disk {}", env!("CARGO_PKG_VERSION"))
-}
+/// What every library of this version holds: an end of one of its messages.
+const MARK: &str = concat!("made by bouncing-disk ", env!("CARGO_PKG_VERSION"));
 
 /// The unit of a motor as the bytes of an archive, with this library as its binary; the same motor and library give the
 /// same bytes.
@@ -62,7 +60,7 @@ fn mark() -> String {
 pub fn packed(motor: &Motor, library: &[u8]) -> Result<Vec<u8>, PackageError> {
     MotorSimulation::new(motor, SimulationSettings::default()).map_err(PackageError::Motor)?;
     let holds = |text: &[u8]| library.windows(text.len()).any(|part| part == text);
-    if !holds(mark().as_bytes()) || !holds(b"fmi3InstantiateCoSimulation") {
+    if !holds(MARK.as_bytes()) || !holds(b"fmi3InstantiateCoSimulation") {
         return Err(PackageError::Library);
     }
     let system = match std::env::consts::OS {
@@ -76,10 +74,14 @@ pub fn packed(motor: &Motor, library: &[u8]) -> Result<Vec<u8>, PackageError> {
     };
     let binary = format!("binaries/{machine}-{system}/{IDENTIFIER}{}", std::env::consts::DLL_SUFFIX);
     let (text, sheet) = (description(motor), motor.to_json());
-    let files =
-        [("modelDescription.xml", text.as_bytes()), (&format!("resources/{SHEET}"), sheet.as_bytes()), (&binary, library)];
+    let files = [
+        ("modelDescription.xml", text.as_bytes()),
+        (&format!("resources/{SHEET}"), sheet.as_bytes()),
+        (&binary, library),
+    ];
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
-    let options = SimpleFileOptions::default().compression_method(CompressionMethod::Stored).unix_permissions(0o755);
+    let options =
+        SimpleFileOptions::default().compression_method(CompressionMethod::Stored).unix_permissions(0o755);
     let failed = |error: &dyn Display| PackageError::Archive(error.to_string());
     for (name, bytes) in files {
         archive.start_file(name, options).map_err(|error| failed(&error))?;

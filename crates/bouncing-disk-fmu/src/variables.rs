@@ -82,7 +82,8 @@ pub(crate) fn variables(motor: &Motor) -> Vec<Variable> {
         let current = |at: &MotorOutputs| at.current.unwrap_or_default();
         all.push(of("current", "A", "Amplitude of the current", 0.0, Role::Output(current)));
     }
-    let given = MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(&motor.parameters())?)));
+    let given =
+        MotorField::ALL.into_iter().filter_map(|field| Some((field, field.value(&motor.parameters())?)));
     let inputs: Vec<_> = all.iter().map(|known| known.name).collect();
     for (field, value) in given.filter(|(field, _)| !inputs.contains(&field.name())) {
         all.push(of(field.name(), field.unit(), "Of the data sheet", value, Role::Sheet(field)));

@@ -1,6 +1,7 @@
 //! `bouncing-disk motor`: a motor from its data sheet.
 
 mod curve;
+mod fmu;
 mod operations;
 mod settings;
 pub(super) mod sweep;
@@ -23,6 +24,7 @@ pub(crate) enum MotorCommand {
     PhaseLag(operations::LagArgs),
     Traps(operations::TrapsArgs),
     Sweep(sweep::SweepArgs),
+    Fmu(fmu::FmuArgs),
 }
 
 pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
@@ -34,6 +36,7 @@ pub(super) fn run(command: MotorCommand, context: Context) -> Result<()> {
         MotorCommand::PhaseLag(args) => operations::phase_lag(&args, context),
         MotorCommand::Traps(args) => operations::traps(&args, context),
         MotorCommand::Sweep(args) => sweep::run(&args, context),
+        MotorCommand::Fmu(args) => fmu::run(&args, context),
     }
 }
 

@@ -43,7 +43,7 @@ impl OutputArgs {
             }
             taken.push((place, format!("it is asked for twice, as {target} before")));
             match target.kind {
-                Kind::Toml => return Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
+                Kind::Toml | Kind::Fmu => return Err(Failure::Usage(format!("{target}: {NO_RESULT}"))),
                 Kind::Png | Kind::Svg if !has_picture => {
                     return Err(Failure::Usage(format!("{target}: {NO_PICTURE}")));
                 }
@@ -76,6 +76,8 @@ pub(crate) enum Kind {
     Svg,
     /// Parameters, which --template writes.
     Toml,
+    /// A functional mock-up unit, which `motor fmu` writes.
+    Fmu,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -100,7 +102,7 @@ impl Target {
         match Kind::from_str(&ending, true) {
             Ok(kind) => Ok(Self { path, kind }),
             Err(_) => {
-                Err("the ending says what is written: .csv, .json, .png or .svg; .toml with --template"
+                Err("the ending says what is written: .csv, .json, .png or .svg; .toml with --template, .fmu by motor fmu"
                     .to_owned())
             }
         }
@@ -108,7 +110,7 @@ impl Target {
 
     /// Whether it can be written, as far as that is seen without writing: better now than after an hour of
     /// computing.
-    fn check(&self, replace: bool) -> Result<()> {
+    pub(crate) fn check(&self, replace: bool) -> Result<()> {
         check_place(&self.path).map_err(Failure::Usage)?;
         if !replace && fs::symlink_metadata(&self.path).is_ok() {
             return Err(Failure::Usage(format!("{self}: it is there already; --force replaces it")));
@@ -159,7 +161,8 @@ impl Target {
 }
 
 /// Why no result goes into a file of parameters, and why there is no picture.
-pub(super) const NO_RESULT: &str = "a result is .csv, .json, .png or .svg; .toml is the file of --template";
+pub(super) const NO_RESULT: &str =
+    "a result is .csv, .json, .png or .svg; .toml is the file of --template, .fmu that of motor fmu";
 pub(super) const NO_PICTURE: &str = "this command has no picture; .csv and .json are possible";
 
 /// A new file in the folder of the target, because a file gets another name only within a file system. It is

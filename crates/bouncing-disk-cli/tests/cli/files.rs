@@ -363,3 +363,35 @@ fn a_torque_curve_names_what_lies_within_its_loads() {
         assert_eq!(svg.contains("efficiency</"), !has_nothing, "{loads}");
     }
 }
+
+/// With the library of the same build, which lies beside the program's dependencies.
+#[test]
+fn a_unit_is_packed_whole_or_not_at_all() {
+    let folder = Folder::new();
+    let text = folder.done("motor fmu --set friction=0.2 --out a.fmu");
+    assert_eq!(text, "");
+    let unit = folder.read("a.fmu");
+    assert!(unit.starts_with(b"PK") && unit.len() > 500_000);
+    folder.done("motor fmu --set friction=0.2 --out b.fmu");
+    assert!(folder.read("b.fmu") == unit, "the same motor and library give the same bytes");
+    folder.write("no.so", "\u{7f}ELF");
+    folder.write("drive.toml", &(folder.done("motor report --template") + "[drive]\nheight = 'triangle'\n"));
+    folder.write(
+        "timed.toml",
+        &(folder.done("motor report --template") + "[load]\nspeeds = [0.0]\ntorques = [0.0]\noff = 1.0\n"),
+    );
+    folder.all_refused(
+        2,
+        &[
+            ("motor fmu", "give --out FILE.fmu"),
+            ("motor fmu --out a.csv", "ends in .fmu"),
+            ("motor fmu --out a.fmu", "--force replaces it"),
+            ("motor fmu --out c.fmu --library no.so", "not the library of a functional mock-up unit"),
+            ("motor fmu --out c.fmu --library none.so", "cannot be read"),
+            ("motor fmu drive.toml --out c.fmu", "[drive]"),
+            ("motor fmu timed.toml --out c.fmu", "[load]"),
+            ("toss --out a.fmu", "that of motor fmu"),
+        ],
+    );
+    assert!(!folder.names().contains(&"c.fmu".to_owned()));
+}

@@ -192,7 +192,18 @@ impl MotorSimulation {
         let now = Ahead { engine, generator, totals: Totals::default() };
         let (unit, inertia) = (built.unit, built.inertia);
         let last = Totals::default();
-        Ok(Self { sheet, inputs, motor: built.motor, unit, inertia, perturbation, began, now, next: None, last })
+        Ok(Self {
+            sheet,
+            inputs,
+            motor: built.motor,
+            unit,
+            inertia,
+            perturbation,
+            began,
+            now,
+            next: None,
+            last,
+        })
     }
 
     /// The present inputs.
@@ -290,7 +301,9 @@ impl MotorSimulation {
         let mut at = self.now.clone();
         let until = self.began.1.after(PhaseSpan::from_radians((time - self.began.0) / self.unit.time));
         let periods = until.since(&at.engine.time()).periods;
-        if self.next.is_none() && let Some(one) = at.engine.skip_periods(periods) {
+        if self.next.is_none()
+            && let Some(one) = at.engine.skip_periods(periods)
+        {
             self.add(&mut at.totals, &one.ledger, &one.stator, periods as f64);
         }
         let record = at.engine.pause(until.since(&at.engine.time()).radians());
@@ -322,8 +335,9 @@ impl MotorSimulation {
         let stator = self.motor.stator()?;
         let circuit = stator.circuit()?;
         let (mut along, mut across) = (0.0, 0.0);
-        for ([place, speed], (mode, per_volt)) in
-            modes.into_iter().zip(stator.modes().iter().zip([circuit.force_per_volt, circuit.torque_per_volt]))
+        for ([place, speed], (mode, per_volt)) in modes
+            .into_iter()
+            .zip(stator.modes().iter().zip([circuit.force_per_volt, circuit.torque_per_volt]))
         {
             // q sin(phase + a) from the coordinate and its speed.
             let unit = if mode.height == 0.0 { self.unit.angle } else { self.unit.length };
@@ -358,7 +372,12 @@ fn built(sheet: &Motor, inputs: &MotorInputs) -> Result<Built, Error> {
     let torque = load_torque / (motor.preload_force() * bound.disk().contact_radius());
     lines.iter_mut().for_each(|line| line.torque += torque);
     let system = if inputs.on { system } else { still(&system)? };
-    Ok(Built { motor, system: system.with_load(&lines)?, unit: bound.scales(), inertia: motor.inertia() + law.inertia() })
+    Ok(Built {
+        motor,
+        system: system.with_load(&lines)?,
+        unit: bound.scales(),
+        inertia: motor.inertia() + law.inertia(),
+    })
 }
 
 #[cfg(test)]

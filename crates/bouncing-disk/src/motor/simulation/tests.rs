@@ -26,9 +26,8 @@ fn in_volts() -> Motor {
 
 /// Rigid, soft, and on a stator that yields with both.
 fn motors() -> Vec<Motor> {
-    let soft = |motor: &Motor| {
-        motor.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).expect("legal")
-    };
+    let soft =
+        |motor: &Motor| motor.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).expect("legal");
     let (paper, volts) = (Motor::paper_70_khz(), in_volts());
     vec![paper, soft(&paper), volts, soft(&volts)]
 }
@@ -102,7 +101,8 @@ fn inputs_act_as_the_table_of_a_load() {
     let law = law.with_factors(&[0.004], &[2.0]).expect("legal").with_drive(0.0, 0.008).expect("legal");
     let scheduled = in_volts().with(|sheet| sheet.load = Some(law)).expect("legal");
     let settings = TransientSettings { duration: 0.012, intervals: 3, ..TransientSettings::default() };
-    let driven = DrivenMotor::where_needed(scheduled, &DriveParameters::default()).expect("legal").expect("needed");
+    let driven =
+        DrivenMotor::where_needed(scheduled, &DriveParameters::default()).expect("legal").expect("needed");
     let phase = Phase::new(0.0).expect("finite");
     let (curve, amplitudes) = driven.run_up(phase, &settings, &Unobserved).expect("no failure");
     let inertia = LoadLaw::constant(0.0).expect("legal").with_inertia(1e-8).expect("legal");
@@ -132,8 +132,10 @@ fn the_current_is_that_of_the_circuit() {
         // Until the ringing of the change is gone.
         simulation.advance(simulation.time() + 0.05, &Unobserved).expect("no failure");
         let end = simulation.advance(simulation.time() + 0.01, &Unobserved).expect("no failure");
-        let known = motor.stator().and_then(|stator| stator.electrical_input_at(std::f64::consts::TAU * frequency));
-        let (current, power) = known.map(|known| (known.current.expect("known").0, known.power)).expect("a circuit");
+        let known =
+            motor.stator().and_then(|stator| stator.electrical_input_at(std::f64::consts::TAU * frequency));
+        let (current, power) =
+            known.map(|known| (known.current.expect("known").0, known.power)).expect("a circuit");
         assert!((end.current.expect("known") - current).abs() < 1e-6 * current, "{end:?} {current}");
         assert!((end.power - power).abs() < 1e-3 * power, "{end:?} {power}");
     }
@@ -174,7 +176,10 @@ fn a_rest_of_an_hour_costs_little() {
         let gained = -(load_torque - motor.largest_torque()).max(0.0) / motor.inertia();
         let (mean, change) = (end.angle - start.angle, end.speed - start.speed);
         assert!((change - gained).abs() <= 1e-9 * gained.abs() + 1e-12, "{start:?} {end:?} {gained}");
-        assert!((mean - 0.5 * (start.speed + end.speed)).abs() <= 1e-8 * mean.abs() + 1e-12, "{start:?} {end:?}");
+        assert!(
+            (mean - 0.5 * (start.speed + end.speed)).abs() <= 1e-8 * mean.abs() + 1e-12,
+            "{start:?} {end:?}"
+        );
         assert!(load_torque > 0.0 || end.angle.abs() < 1.0, "{end:?}");
     }
 }
