@@ -239,17 +239,24 @@ impl MotorSimulation {
     /// Goes on to a time (s) after the start, not before the last one.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a time before the last one; those of [`StatorEngine::advance`]. After an error the time
-    /// is that of the last call.
+    /// [`Error::OutOfRange`] for a time before the last one; those of [`StatorEngine::advance`]. After an error the motor
+    /// is where the last call has left it.
     pub fn advance(&mut self, time: f64, observer: &dyn Observer) -> Result<MotorOutputs, Error> {
         let watch = Watch::begin(observer, 0, 1)?;
         let mut work = watch.work();
         check(finite("time", time)? >= self.last.time, "time", time, "at or after the last one (s)")?;
         let until = (time - self.began.0) / self.unit.time;
+        let before = self.now.clone();
         loop {
             if self.next.is_none() {
-                work.spend(FLIGHTS_OF_EVENT)?;
-                self.next = self.found()?;
+                let found = work.spend(FLIGHTS_OF_EVENT).map_err(Error::from).and_then(|()| self.found());
+                match found {
+                    Ok(next) => self.next = next,
+                    Err(error) => {
+                        self.now = before;
+                        return Err(error);
+                    }
+                }
             }
             let comes = |next: &mut Ahead| next.engine.time().since(&self.began.1).radians() <= until;
             match self.next.take_if(comes) {

@@ -138,7 +138,8 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
     let motor = Motor::paper_70_khz();
     let load = 0.5 * motor.largest_torque();
     let points = printed(&motor, &[under(load, 0.0, 0.3)], 1);
-    let fit = fit(&motor, &points, &[FRICTION, RESTITUTION], 1).expect("fits");
+    let few = RatedFitSettings { most_evaluations: 24, ..settings(1) };
+    let fit = RatedFit::new(&motor, &points, &[FRICTION, RESTITUTION], &few, &Unobserved).expect("fits");
     let friction = &fit.estimate(FitParameter::Friction).expect("fitted").accepted[0];
     // At half of the friction nothing holds the load; the emulator is smooth across that.
     assert!(friction.low.is_some_and(|low| low > FRICTION.low), "{fit}");
