@@ -62,6 +62,9 @@ pub(crate) struct Options {
 }
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
+    if options.twice && !git_says(&["status", "--porcelain"])?.is_empty() {
+        bail!("only what is committed can be made a second time");
+    }
     let out = in_workspace("").join(&options.out);
     fs::create_dir_all(&out).with_context(|| format!("{} cannot be made", out.display()))?;
     if out.join(SUMS).exists() {
@@ -268,9 +271,6 @@ impl Workshop {
 
 /// Makes all of it again in another place, and names the files that differ.
 fn compared_with_another(options: &Options, first: &Path) -> Result<ExitCode> {
-    if !git_says(&["status", "--porcelain"])?.is_empty() {
-        bail!("only what is committed can be made a second time");
-    }
     // Not below this copy: cargo would read its configuration twice.
     let copy = std::env::temp_dir().join("bouncing-disk-dist");
     if copy.exists() {

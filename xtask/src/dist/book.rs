@@ -12,7 +12,10 @@ use crate::explorer::succeed;
 use crate::workspace::{DOCS_FOLDER, in_workspace};
 
 const SETTINGS: &str = "[book]\ntitle = \"A bouncing disk\"\nlanguage = \"en\"\n\n\
-                        [output.html]\nno-section-label = true\n";
+                        [output.html]\nno-section-label = true\ninput-404 = \"\"\nadditional-css = [\"wide.css\"]\n\
+                        playground.runnable = false\n";
+/// Tables of numbers are wider than mdBook's column.
+const STYLE: &str = ":root { --content-max-width: 1000px; }\n";
 /// The page that becomes the site's first.
 const FRONT: &str = "README.md";
 /// Where the files lie that are no pages of the book.
@@ -21,7 +24,7 @@ const LIVE: &str = "# Gallery and explorer\n\n\
     - [The gallery](gallery/index.html): the figures and tables of the paper, recomputed, with their data, \
     and each printed number against the computed one.\n\
     - [The explorer](explorer/index.html): tosses, orbit diagrams, basins and motors, computed as you watch. \
-    [The same in one file](explorer.html) to keep and to give to others.\n";
+    [The same in one file](explorer/explorer.html) to keep and to give to others.\n";
 
 /// Builds the site; the explorer and the figures are made already.
 pub(super) fn book(workshop: &Workshop) -> Result<()> {
@@ -31,6 +34,7 @@ pub(super) fn book(workshop: &Workshop) -> Result<()> {
     }
     let pages = folder.join("src");
     write(&folder.join("book.toml"), SETTINGS)?;
+    write(&folder.join("wide.css"), STYLE)?;
     let docs = in_workspace(DOCS_FOLDER);
     let mut others = BTreeSet::new();
     write(&pages.join(FRONT), &linked_in_book(FRONT, &read(&in_workspace(FRONT))?, &mut others))?;
@@ -43,8 +47,8 @@ pub(super) fn book(workshop: &Workshop) -> Result<()> {
         }
     }
     let contents = read(&pages.join("SUMMARY.md"))?;
-    let contents = contents.replacen("# Summary\n", &format!("# Summary\n\n[A bouncing disk]({FRONT})\n"), 1);
-    write(&pages.join("SUMMARY.md"), &format!("{contents}\n---\n\n[Gallery and explorer](live.md)\n"))?;
+    let front = format!("# Summary\n\n[A bouncing disk]({FRONT})\n[Gallery and explorer](live.md)\n");
+    write(&pages.join("SUMMARY.md"), &contents.replacen("# Summary\n", &front, 1))?;
     write(&pages.join("live.md"), LIVE)?;
     for path in &others {
         let (from, to) = (in_workspace(path), pages.join(place_in_book(path)));
@@ -59,7 +63,7 @@ pub(super) fn book(workshop: &Workshop) -> Result<()> {
     }
     gallery(&in_workspace("target/figures"), &pages.join("gallery"))?;
     copy_folder(&workshop.out.join("explorer/site"), &pages.join("explorer"))?;
-    copy(&workshop.out.join("explorer/explorer.html"), &pages.join("explorer.html"))?;
+    copy(&workshop.out.join("explorer/explorer.html"), &pages.join("explorer/explorer.html"))?;
     let site = workshop.folder("book")?;
     succeed(workshop.mdbook()?.arg("build").arg(&folder).arg("--dest-dir").arg(&site))?;
     let broken = broken_links(&site)?;
@@ -143,7 +147,8 @@ fn place_in_book(path: &str) -> String {
     } else {
         ".txt"
     };
-    format!("{SOURCES}/{path}{ending}")
+    // mdBook takes what has `.md` in it for a page.
+    format!("{SOURCES}/{}{ending}", path.strip_suffix(".md").unwrap_or(path))
 }
 
 /// A path without `..`.
@@ -164,7 +169,7 @@ fn normal(path: &Path) -> String {
 fn broken_links(site: &Path) -> Result<Vec<String>> {
     let mut pages = BTreeMap::new();
     let files: BTreeSet<_> = files_below(site)?.iter().map(|path| normal(path)).collect();
-    for name in files.iter().filter(|name| name.ends_with(".html") && !name.starts_with("explorer")) {
+    for name in files.iter().filter(|name| name.ends_with(".html") && !name.starts_with("explorer/")) {
         pages.insert(name.as_str(), read(&site.join(name))?);
     }
     let mut broken = Vec::new();
