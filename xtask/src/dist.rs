@@ -226,17 +226,17 @@ impl Workshop {
     fn program(&self) -> Result<()> {
         let folder = self.folder("program")?;
         let target = format!("{}-{}", std::env::consts::ARCH, std::env::consts::OS);
+        // Apart from the wheel, whose linker is another one: each would undo what the other has built.
+        let mut built = self.built.join("program");
         let mut build = self.steady(cargo());
-        let mut built = self.built.clone();
+        build.arg("build");
         if cfg!(target_os = "linux") {
-            build = self.tool("cargo-zigbuild");
             let target = format!("{}-unknown-linux-gnu", std::env::consts::ARCH);
-            build.current_dir(in_workspace("")).arg("zigbuild");
-            build.args(["--target", &format!("{target}.{OLDEST_GLIBC}")]);
+            build = self.tool("cargo-zigbuild");
+            build.args(["zigbuild", "--target", &format!("{target}.{OLDEST_GLIBC}")]);
             built.push(target);
-        } else {
-            build.arg("build");
         }
+        build.current_dir(in_workspace("")).env("CARGO_TARGET_DIR", self.built.join("program"));
         build.args(["--release", "--locked", "--package", "bouncing-disk-cli"]);
         succeed(&mut build)?;
         let program = format!("bouncing-disk{}", std::env::consts::EXE_SUFFIX);
