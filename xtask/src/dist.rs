@@ -18,7 +18,7 @@ use crate::workspace::{cargo, in_workspace};
 /// The published crates, each after those that it needs.
 const CRATES: [&str; 4] = ["bouncing-disk-core", "bouncing-disk", "bouncing-disk-plot", "bouncing-disk-cli"];
 /// What comes from PyPI: other versions may write other bytes.
-const TOOLS: [&str; 3] = ["maturin==1.16.0", "ziglang==0.17.1", "cargo-zigbuild==0.24.1"];
+const TOOLS: [&str; 4] = ["maturin==1.16.0", "ziglang==0.17.1", "cargo-zigbuild==0.24.1", "typst==0.15.2"];
 const MDBOOK: &str = "0.5.4";
 /// The oldest C library that the wheel and the program run on, where zig links them: that of manylinux2014.
 const OLDEST_GLIBC: &str = "2.17";
@@ -39,12 +39,14 @@ enum Part {
     Book,
     /// The command line for this kind of machine.
     Program,
+    /// The claims, the data of the figures and the report for Zenodo.
+    Archive,
 }
 
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Make these parts alone.
-    #[arg(value_enum, value_name = "PART", default_values = ["crates", "wheel", "explorer", "book", "program"])]
+    #[arg(value_enum, value_name = "PART", default_values = ["crates", "wheel", "explorer", "book", "program", "archive"])]
     parts: Vec<Part>,
     /// The folder to write to, from the root of the workspace.
     #[arg(long, value_name = "DIR", default_value = "target/dist")]
@@ -87,6 +89,9 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     if asked(Part::Book) {
         succeed(&mut workshop.xtask("figures")?)?;
         book::book(&workshop)?;
+    }
+    if asked(Part::Archive) {
+        crate::archive::archive(&out, Path::new(workshop.tool("python").get_program()))?;
     }
     succeed(workshop.python().args(["-c", PACK, "sums"]).arg(&out).arg(SUMS))?;
     say!("{}", out.join(SUMS).display())?;
