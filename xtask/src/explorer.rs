@@ -121,7 +121,7 @@ fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
 }
 
 /// Runs a program that reports its own errors.
-fn succeed(command: &mut Command) -> Result<()> {
+pub(crate) fn succeed(command: &mut Command) -> Result<()> {
     let name = Path::new(command.get_program()).display().to_string();
     let status = command.status().with_context(|| format!("{name} cannot be run"))?;
     if !status.success() {

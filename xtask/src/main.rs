@@ -1,11 +1,13 @@
 //! The chores of this repository.
 //!
 //! `cargo xtask figures` computes and draws the figures and tables of the paper, `cargo xtask explorer`
-//! builds the page for browsers, `cargo xtask archive` packs the claims with their data and the report, and `cargo xtask dependencies` counts what it depends on and checks the
-//! licences.
+//! builds the page for browsers, `cargo xtask archive` packs the claims with their data and the report,
+//! `cargo xtask dist` makes what is published, and `cargo xtask dependencies` counts what it depends on and
+//! checks the licences.
 
 mod archive;
 mod dependencies;
+mod dist;
 mod explorer;
 mod figures;
 mod output;
@@ -33,6 +35,8 @@ enum Chore {
     Explorer(explorer::Options),
     /// Pack the claims, the data of the figures and the report.
     Archive(archive::Options),
+    /// Make the packages, the explorer and the book that are given to others, with checksums.
+    Dist(dist::Options),
     /// Count the crates that each dependency brings, and check licences and sources.
     Dependencies,
 }
@@ -43,6 +47,7 @@ fn main() -> ExitCode {
         Chore::Figures(options) => figures::run(&options),
         Chore::Explorer(options) => explorer::run(&options),
         Chore::Archive(options) => archive::run(&options),
+        Chore::Dist(options) => dist::run(&options),
         Chore::Dependencies => dependencies::run(),
     };
     match done {
