@@ -264,11 +264,10 @@ def test_a_call_after_an_interrupted_one_is_whole() -> None:
 
 
 def test_importing_costs_little() -> None:
+    """What takes long to import is imported by what needs it."""
     program = """
-    import time
-    import json, dataclasses, typing, numpy, numpy.typing
-    began = time.perf_counter()
+    import sys
     import bouncing_disk
-    print(time.perf_counter() - began)
+    print({"matplotlib", "dask", "distributed", "xarray", "netCDF4", "multiprocessing"} & set(sys.modules))
     """
-    assert min(float(run(program)) for _ in range(3)) < 0.1
+    assert run(program) == "set()"
