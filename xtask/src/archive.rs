@@ -17,7 +17,7 @@ use crate::output::say;
 use crate::workspace::{DOCS_FOLDER, in_workspace};
 use crate::{figures, typeset};
 
-/// The folder in that of the outputs. The same in one file is `bouncing-disk-VERSION-archive.tar.gz`.
+/// The folder in that of the outputs: `bouncing-disk-VERSION-archive`, and the same as one `.tar.gz`.
 const FOLDER: &str = "archive";
 const CITATION: &str = "CITATION.cff";
 /// All files together may be so large (bytes).
@@ -27,7 +27,7 @@ const PROGRAM: &str = include_str!("archive.py");
 
 #[derive(Args)]
 pub(crate) struct Options {
-    /// Write the folder `archive`, and the same as one compressed file, into this folder
+    /// Write a folder, and the same as one compressed file, into the folder `archive` of this one
     #[arg(long, value_name = "DIR", default_value = "target/dist")]
     out: PathBuf,
     /// A Python with the package typst of PyPI, 0.15.2
@@ -36,14 +36,18 @@ pub(crate) struct Options {
 }
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
-    archive(&in_workspace("").join(&options.out), &options.python)?;
+    archive(
+        &in_workspace("").join(&options.out),
+        &options.python,
+        &in_workspace("target/dist-build/figures"),
+    )?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// Makes the archive in `out`, the figures where they are out of date, and the PDF by the package `typst` of a Python.
-/// The same sources make the same bytes.
-pub(crate) fn archive(out: &Path, python: &Path) -> Result<()> {
-    let made = figures::of_the_paper()?;
+/// Makes the archive in `out`, in a folder of their own the figures where they are out of date, and the PDF by the package
+/// `typst` of a Python. The same sources make the same bytes.
+pub(crate) fn archive(out: &Path, python: &Path, own_figures: &Path) -> Result<()> {
+    let made = figures::of_the_paper(own_figures)?;
     let docs = OutputFolder::existing(in_workspace(DOCS_FOLDER));
     let entries = registry::paper();
     let outdated =
@@ -78,18 +82,17 @@ pub(crate) fn archive(out: &Path, python: &Path) -> Result<()> {
     let size: usize = files.iter().map(|(_, bytes)| bytes.len()).sum();
     ensure!(size <= LARGEST, "the archive has {size} bytes; at most {LARGEST} are allowed");
 
-    let out = OutputFolder::create(out)?;
-    let folder = out.path().join(FOLDER);
-    if folder.exists() {
-        fs::remove_dir_all(&folder).with_context(|| format!("cannot remove {}", folder.display()))?;
-    }
+    // The folder, and the same in one file beside its contents.
+    let out = OutputFolder::create(out.join(FOLDER))?;
+    let name = format!("bouncing-disk-{}-archive", env!("CARGO_PKG_VERSION"));
+    let folder = out.path().join(&name);
+    fs::remove_dir_all(out.path()).with_context(|| format!("cannot remove {}", out.path().display()))?;
     for inner in ["data", "figures", "extras"] {
         fs::create_dir_all(folder.join(inner))
             .with_context(|| format!("cannot make {}", folder.display()))?;
     }
     let files: Vec<_> = files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
     OutputFolder::existing(&folder).write_all(&files)?;
-    let name = format!("bouncing-disk-{}-archive", env!("CARGO_PKG_VERSION"));
     let tar = set_and_packed(python, &folder, &name, &typst)?;
     let mut packed = GzBuilder::new().mtime(0).write(Vec::new(), Compression::best());
     packed.write_all(&tar)?;

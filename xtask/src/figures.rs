@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context as _;
@@ -167,9 +167,9 @@ pub(crate) fn run(options: &Options) -> anyhow::Result<ExitCode> {
     run.make(options.quality, &folder)
 }
 
-/// The folder with the figures of the paper, without a user's measurements and made where they are out of date.
-pub(crate) fn of_the_paper() -> anyhow::Result<OutputFolder> {
-    let options = Options::default();
+/// The figures of the paper in this folder, without a user's measurements and made where they are out of date.
+pub(crate) fn of_the_paper(folder: &Path) -> anyhow::Result<OutputFolder> {
+    let options = Options { out: Some(folder.to_owned()), ..Options::default() };
     let (entries, measurements) = (registry::all(), &Measurements::none());
     let selected: Vec<_> = entries.iter().filter(|entry| !entry.is_extra()).collect();
     let folder = OutputFolder::create(options.folder())?;

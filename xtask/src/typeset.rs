@@ -9,7 +9,7 @@ const HEAD: &str = include_str!("report.typ");
 const NARROW: usize = 18;
 
 /// The document, and the pictures that it shows. A quotation is a line of mathematics, which Typst sets: it is written
-/// so that both read it. Anything that the report does not need is an error.
+/// so that both read it. It refuses what the report does not need.
 pub(crate) fn typst(markdown: &str) -> Result<(String, Vec<String>)> {
     let (mut text, mut pictures) = (HEAD.to_owned(), Vec::new());
     // The longest cell of each column (characters), the column of the current cell, and its length.

@@ -6,8 +6,11 @@ use bouncing_disk::motor::{MotorInputs, MotorOutputs, MotorSimulation, Simulatio
 
 use crate::variables::{Role, Variable, variables};
 
-/// A communication point is where the last step ended, within this share of the time.
+/// A communication point is where the last step ended, within this share of the step and the rounding of the times.
 const SAME_POINT: f64 = 1.0e-9;
+
+/// 2^53: a double holds no larger numbers one by one.
+const MOST_SEED: f64 = 9_007_199_254_740_992.0;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Mode {
@@ -81,7 +84,7 @@ impl Instance {
         match role {
             Role::Time | Role::Output(_) => return Err(format!("{name} cannot be set")),
             Role::Sheet(_) | Role::Setting(_) if !early => {
-                return Err(format!("the parameter {name} can be set before the first step only"));
+                return Err(format!("the parameter {name} can be set until the initialisation ends"));
             }
             Role::Input(_) if self.mode == Mode::Terminated => {
                 return Err(format!("{name} cannot be set after the end"));
@@ -90,6 +93,9 @@ impl Instance {
         }
         if !value.is_finite() {
             return Err(format!("{name} = {value:?} is not finite"));
+        }
+        if name == "seed" && !(value.fract() == 0.0 && (0.0..=MOST_SEED).contains(&value)) {
+            return Err(format!("seed = {value:?} is not a whole number in [0, 2^53]"));
         }
         self.values[reference as usize] = value;
         if early {
@@ -101,8 +107,7 @@ impl Instance {
     pub(crate) fn get(&mut self, reference: u32) -> Result<f64, String> {
         match self.variable(reference)?.role {
             Role::Time => Ok(self.start + self.running.as_ref().map_or(0.0, |(motor, _)| motor.time())),
-            Role::Output(of) if self.mode == Mode::Instantiated => {
-                let _ = of;
+            Role::Output(_) if self.mode == Mode::Instantiated => {
                 Err("outputs are known from the initialisation on".to_owned())
             }
             Role::Output(of) => self.started().map(|(_, outputs)| of(outputs)),
@@ -138,8 +143,8 @@ impl Instance {
                 self.motor.with(|sheet| changes.iter().for_each(|(field, value)| field.set(sheet, *value)));
             let motor = motor.map_err(|error| error.to_string())?;
             let begin = || {
-                let mut simulation = MotorSimulation::new(&motor, settings)?;
-                simulation.set_inputs(self.inputs(simulation.inputs()))?;
+                let inputs = self.inputs(MotorInputs::of(&motor));
+                let mut simulation = MotorSimulation::new(&motor, inputs, settings)?;
                 let outputs = simulation.advance(0.0, &Unobserved)?;
                 Ok((simulation, outputs))
             };
@@ -152,7 +157,7 @@ impl Instance {
     pub(crate) fn step(&mut self, point: f64, step: f64) -> Result<f64, String> {
         self.to(&[Mode::Step], Mode::Step)?;
         let (start, reached) = (self.start, self.get(0)?);
-        let size = SAME_POINT * (point.abs() + reached.abs() + step.abs());
+        let size = SAME_POINT * step.abs() + 4.0 * f64::EPSILON * (point.abs() + reached.abs());
         let follows = (point - reached).abs() <= size && step >= 0.0;
         if !follows {
             return Err(format!(

@@ -6,7 +6,7 @@
 //! inputs the motion does not depend on the steps, to the last bit.
 //!
 //! All variables are of the type Float64, because some masters know no other. Every instance is independent of the
-//! others, states can be stored and restored, and whatever goes wrong is said in the log.
+//! others, states can be stored and restored, and the log names each error.
 //!
 //! No crate writes this interface here: the one there is (`fmi-export`) has no stored states, and brings 150 others.
 

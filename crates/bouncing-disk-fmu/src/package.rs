@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::io::{Cursor, Write as _};
 
 use bouncing_disk::Motor;
-use bouncing_disk::motor::{MotorSimulation, SimulationSettings};
+use bouncing_disk::motor::{MotorInputs, MotorSimulation, SimulationSettings};
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
@@ -58,7 +58,8 @@ const MARK: &str = concat!("made by bouncing-disk ", env!("CARGO_PKG_VERSION"));
 /// # Errors
 /// [`PackageError`].
 pub fn packed(motor: &Motor, library: &[u8]) -> Result<Vec<u8>, PackageError> {
-    MotorSimulation::new(motor, SimulationSettings::default()).map_err(PackageError::Motor)?;
+    MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
+        .map_err(PackageError::Motor)?;
     let holds = |text: &[u8]| library.windows(text.len()).any(|part| part == text);
     if !holds(MARK.as_bytes()) || !holds(b"fmi3InstantiateCoSimulation") {
         return Err(PackageError::Library);

@@ -27,7 +27,7 @@ const LIVE: &str = "# Gallery and explorer\n\n\
     [The same in one file](explorer/explorer.html) to keep and to give to others.\n";
 
 /// Builds the site; the explorer and the figures are made already.
-pub(super) fn book(workshop: &Workshop) -> Result<()> {
+pub(super) fn book(workshop: &Workshop, figures: &Path) -> Result<()> {
     let folder = workshop.built.join("book");
     if folder.exists() {
         fs::remove_dir_all(&folder)?;
@@ -61,7 +61,7 @@ pub(super) fn book(workshop: &Workshop) -> Result<()> {
         write(&to, &format!("<!DOCTYPE html>\n<ul>\n{}</ul>\n", files.iter().map(line).collect::<String>()))?;
         copy_folder(&from, &to.with_file_name(""))?;
     }
-    gallery(&in_workspace("target/figures"), &pages.join("gallery"))?;
+    gallery(figures, &pages.join("gallery"))?;
     copy_folder(&workshop.out.join("explorer/site"), &pages.join("explorer"))?;
     copy(&workshop.out.join("explorer/explorer.html"), &pages.join("explorer/explorer.html"))?;
     let site = workshop.folder("book")?;

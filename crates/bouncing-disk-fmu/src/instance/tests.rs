@@ -49,11 +49,17 @@ fn parameters_count_until_the_start_and_inputs_until_the_end() {
     instance.set(friction, 0.2).expect("legal");
     assert_eq!(instance.get(output), Ok(0.0));
     instance.exit_initialization().expect("legal");
-    assert!(instance.set(friction, 0.1).expect_err("late").contains("before the first step"));
+    assert!(instance.set(friction, 0.1).expect_err("late").contains("until the initialisation ends"));
     assert!(
         instance.set(output, 0.1).is_err() && instance.set(0, 0.1).is_err() && instance.set(99, 0.1).is_err()
     );
     assert!(instance.set(torque, f64::NAN).is_err());
+    let seed = reference(&instance, "seed");
+    let mut early = Instance::new(&Motor::paper_70_khz());
+    assert!(
+        [-1.0, 1.5, 1e300].into_iter().all(|value| early.set(seed, value).is_err())
+            && early.set(seed, 7.0).is_ok()
+    );
     instance.step(0.0, 0.1).expect("legal");
     let running = speed(&mut instance);
     let mut other = started();
@@ -86,4 +92,36 @@ fn a_description_has_each_variable_once_with_its_unit() {
             "name=\"amplitude\" valueReference=\"2\" causality=\"input\" start=\"1e-8\" unit=\"m\""
         )
     );
+}
+
+/// A late start shifts the times, and nothing else; nor does it let a step be left out.
+#[test]
+fn a_run_may_begin_at_any_time() {
+    let mut late = Instance::new(&Motor::paper_70_khz());
+    late.enter_initialization(1024.0).expect("legal");
+    late.exit_initialization().expect("legal");
+    assert_eq!(late.step(1024.0, 0.125), Ok(1024.125));
+    assert!(late.step(1024.126, 0.125).is_err() && late.step(1024.0, 0.125).is_err());
+    let mut early = started();
+    assert_eq!(early.step(0.0, 0.125), Ok(0.125));
+    assert_eq!(speed(&mut late).to_bits(), speed(&mut early).to_bits());
+}
+
+/// Until it is switched on, nothing moves.
+#[test]
+fn a_motor_that_is_off_at_the_start_is_at_rest() {
+    let mut instance = Instance::new(&Motor::paper_70_khz());
+    let [on, amplitude, impacts] =
+        ["drive_on", "vibration_amplitude", "impacts"].map(|name| reference(&instance, name));
+    instance.set(on, 0.0).expect("legal");
+    instance.enter_initialization(0.0).expect("legal");
+    instance.exit_initialization().expect("legal");
+    instance.step(0.0, 0.1).expect("legal");
+    assert_eq!(
+        (instance.get(amplitude), instance.get(impacts), speed(&mut instance)),
+        (Ok(0.0), Ok(0.0), 0.0)
+    );
+    instance.set(on, 1.0).expect("legal");
+    instance.step(0.1, 0.1).expect("legal");
+    assert!(speed(&mut instance) > 0.1);
 }

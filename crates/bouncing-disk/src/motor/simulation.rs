@@ -88,15 +88,16 @@ pub struct MotorOutputs {
     pub angle: f64,
     /// Its angular speed (rad/s).
     pub speed: f64,
-    /// Mean torque of the stator on rotor and shaft (N m) since the last call: that of the load, and what accelerates
+    /// Mean torque of the stator on rotor and shaft (N m) since the last call, or in the step before if no time has passed: that of the load, and what accelerates
     /// their inertia.
     pub shaft_torque: f64,
     /// Amplitude of the stator's height (m): how far its mode would swing freely; of a prescribed motion its own.
     pub amplitude: f64,
-    /// Amplitude of the current (A), as if the modes moved as sines at the frequency of the drive; `None` without volts
-    /// and a capacitance.
+    /// Amplitude of the current (A), as if the modes moved as sines at the frequency of the drive; `None` without a
+    /// capacitance.
     pub current: Option<f64>,
-    /// Mean power of the drive (W) since the last call; in volts, the real part of voltage times current.
+    /// Mean power (W) of the drive in the modes, and of a motion that is prescribed, since the last call: without the
+    /// latter the real part of voltage times current.
     pub power: f64,
     /// Impacts since the start.
     pub impacts: u64,
@@ -115,8 +116,7 @@ struct Totals {
     impacts: u64,
 }
 
-/// The motion just after the next event, found before anybody asks for it: what follows from constant inputs then
-/// does not depend on the times at which one asks.
+/// The motion just after an event. The next one is found before anybody asks for a time, and so does not depend on it.
 #[derive(Debug, Clone)]
 struct Ahead {
     engine: StatorEngine,
@@ -128,7 +128,8 @@ struct Ahead {
 /// the last bit; a clone is a stored state.
 ///
 /// A change of the inputs takes effect at once. Modes are continuous; a prescribed motion jumps, and the rotor keeps
-/// its distance and its speed from it. A change of the frequency keeps the phase of the motion without a rotor.
+/// its distance and its speed from it. A change of the frequency keeps the phase of the motion without a rotor, so that
+/// the phase of the voltage jumps. A twist that the sheet prescribes moves whenever the drive is on, however strong.
 ///
 /// ```
 /// use bouncing_disk::Motor;
@@ -136,12 +137,12 @@ struct Ahead {
 /// use bouncing_disk::motor::{MotorInputs, MotorSimulation, SimulationSettings};
 ///
 /// let motor = Motor::paper_70_khz();
-/// let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default())?;
-/// let running = simulation.advance(0.1, &Unobserved)?;
-/// assert!(running.speed > 0.0);
-/// let off = MotorInputs { on: false, load_torque: 1e-5, ..MotorInputs::of(&motor) };
-/// simulation.set_inputs(off)?;
-/// assert!(simulation.advance(0.2, &Unobserved)?.speed < running.speed);
+/// let running = MotorInputs::of(&motor);
+/// let mut simulation = MotorSimulation::new(&motor, running, SimulationSettings::default())?;
+/// let early = simulation.advance(0.1, &Unobserved)?;
+/// assert!(early.speed > 0.0);
+/// simulation.set_inputs(MotorInputs { on: false, load_torque: 1e-5, ..running })?;
+/// assert!(simulation.advance(0.2, &Unobserved)?.speed < early.speed);
 /// # Ok::<(), bouncing_disk::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -160,27 +161,34 @@ pub struct MotorSimulation {
     next: Option<Ahead>,
     /// At the last call.
     last: Totals,
+    /// Torque and power over the last step that took time.
+    means: [f64; 2],
 }
 
 impl MotorSimulation {
-    /// A motor whose rotor lies on the stator at rest at the time 0, under the inputs of its sheet.
+    /// A motor whose rotor lies at rest at the time 0, on a stator that has moved under these inputs for long.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for illegal settings; [`Error::LoadInTime`] for a table `[load]` that varies in time: the
+    /// [`Error::OutOfRange`] for illegal inputs and settings; [`Error::LoadInTime`] for a table `[load]` that varies in time: the
     /// inputs do that; [`Error::BothGiven`] for a contact that unloads at less stiffness.
-    pub fn new(motor: &Motor, settings: SimulationSettings) -> Result<Self, Error> {
+    pub fn new(motor: &Motor, inputs: MotorInputs, settings: SimulationSettings) -> Result<Self, Error> {
         let perturbation = moderate_not_negative("relaunch_perturbation", settings.relaunch_perturbation)?;
         if motor.load().is_some_and(|load| load.next_change_after(f64::NEG_INFINITY).is_some()) {
             return Err(Error::LoadInTime);
         }
-        let inputs = MotorInputs::of(motor);
         let sheet = motor.with(|sheet| {
             sheet.load_torque = 0.0;
-            // Otherwise they would follow the frequency of the drive.
-            if let Some(table) = &mut sheet.stator {
-                table.resonance.get_or_insert(sheet.drive_frequency);
-                if table.kind == StatorKind::AxialAndTorsional {
+            let Some((table, own)) = sheet.stator.as_mut().zip(motor.stator()) else { return };
+            // Otherwise these would follow the inputs.
+            table.resonance.get_or_insert(sheet.drive_frequency);
+            match table.kind {
+                StatorKind::Axial => {}
+                StatorKind::AxialAndTorsional => {
                     table.torsional_resonance.get_or_insert(sheet.drive_frequency);
+                }
+                StatorKind::AxialTwist => {
+                    table.twist_per_height = Some(own.modes()[0].angle);
+                    (sheet.peak_angular_speed, sheet.twist_amplitude, sheet.phase_lag) = (None, None, 0.0);
                 }
             }
         })?;
@@ -191,7 +199,7 @@ impl MotorSimulation {
         let generator = SplitMix64::new(settings.seed);
         let now = Ahead { engine, generator, totals: Totals::default() };
         let (unit, inertia) = (built.unit, built.inertia);
-        let last = Totals::default();
+        let (last, means) = (Totals::default(), [0.0; 2]);
         Ok(Self {
             sheet,
             inputs,
@@ -203,6 +211,7 @@ impl MotorSimulation {
             now,
             next: None,
             last,
+            means,
         })
     }
 
@@ -267,7 +276,7 @@ impl MotorSimulation {
         watch.end();
         let at = self.at(time);
         let outputs = self.outputs(&at);
-        self.last = at.totals;
+        (self.last, self.means) = (at.totals, [outputs.shaft_torque, outputs.power]);
         Ok(outputs)
     }
 
@@ -323,16 +332,16 @@ impl MotorSimulation {
     fn outputs(&self, at: &Ahead) -> MotorOutputs {
         let (unit, totals, state) = (&self.unit, &at.totals, at.engine.state());
         let passed = totals.time - self.last.time;
-        let mean = |change: f64| if passed > 0.0 { change / passed } else { 0.0 };
+        let mean = |change: f64, before: f64| if passed > 0.0 { change / passed } else { before };
         let gained = self.inertia * (totals.speed - self.last.speed);
         let prescribed = if self.inputs.on { self.motor.system().platform().amplitude() } else { 0.0 };
         MotorOutputs {
             angle: state.disk.angle * unit.angle,
             speed: totals.speed,
-            shaft_torque: mean(gained + (totals.load - self.last.load)),
+            shaft_torque: mean(gained + (totals.load - self.last.load), self.means[0]),
             amplitude: at.engine.amplitude_after(0.0).map_or(prescribed, |amplitude| amplitude * unit.length),
             current: self.current(at.engine.time().phase.angle(), state.modes),
-            power: mean(totals.work - self.last.work),
+            power: mean(totals.work - self.last.work, self.means[1]),
             impacts: totals.impacts,
         }
     }
@@ -352,7 +361,8 @@ impl MotorSimulation {
             along += per_volt * unit * (speed * cos + place * sin);
             across += per_volt * unit * (place * cos - speed * sin);
         }
-        let volts = if self.inputs.on { circuit.capacitance? * circuit.volts } else { 0.0 };
+        let capacitance = circuit.capacitance?;
+        let volts = if self.inputs.on { capacitance * circuit.volts } else { 0.0 };
         let (sin, cos) = sin_cos(circuit.phase);
         Some(hypot(along + volts * cos, across + volts * sin) / self.unit.time)
     }

@@ -4,7 +4,7 @@ use super::*;
 use crate::motor::{DrivenMotor, OperatingSettings, TransientSettings};
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
-use crate::parameters::stator::StatorParameters;
+use crate::parameters::stator::{StatorKind, StatorParameters};
 
 /// Table III on a stator of 50 g in volts, which it lifts.
 fn in_volts() -> Motor {
@@ -24,12 +24,32 @@ fn in_volts() -> Motor {
     motor.expect("legal")
 }
 
-/// Rigid, soft, and on a stator that yields with both.
+fn begun(motor: &Motor) -> Result<MotorSimulation, Error> {
+    MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
+}
+
+/// The same on one mode that also twists, without the number of its twist, and on two modes.
+fn twisting() -> [Motor; 2] {
+    let change = |change: fn(&mut StatorParameters)| {
+        in_volts().with(|sheet| sheet.stator.iter_mut().for_each(change)).expect("legal")
+    };
+    let one = change(|table| table.kind = StatorKind::AxialTwist);
+    let two = change(|table| {
+        table.kind = StatorKind::AxialAndTorsional;
+        (table.inertia, table.torsional_quality) = (Some(2e-6), Some(200.0));
+    });
+    [one, two]
+}
+
+/// Rigid, soft, and on a stator that yields with both; of one mode that twists under a load with a slope, and of two.
 fn motors() -> Vec<Motor> {
     let soft =
         |motor: &Motor| motor.with(|sheet| sheet.contact = Some(Contact::lasting(1e-5))).expect("legal");
     let (paper, volts) = (Motor::paper_70_khz(), in_volts());
-    vec![paper, soft(&paper), volts, soft(&volts)]
+    let [one, two] = twisting();
+    let law = LoadLaw::fan(0.2, 5e-6, 3).expect("legal").with_inertia(1e-8).expect("legal");
+    let fan = one.with(|sheet| sheet.load = Some(law)).expect("legal");
+    vec![paper, soft(&paper), volts, soft(&volts), fan, two]
 }
 
 /// The time of each change, and the inputs from it on.
@@ -44,7 +64,7 @@ fn script(motor: &Motor) -> Vec<(f64, MotorInputs)> {
 
 /// The outputs at the changes, reached in `pieces` equal steps each.
 fn run(motor: &Motor, pieces: u32) -> Vec<MotorOutputs> {
-    let mut simulation = MotorSimulation::new(motor, SimulationSettings::default()).expect("legal");
+    let mut simulation = begun(motor).expect("legal");
     let mut script = script(motor);
     script.push((0.06, MotorInputs::of(motor)));
     let pair = |pair: &[(f64, MotorInputs)]| {
@@ -82,7 +102,7 @@ fn long_runs_have_the_means_of_operating_points() {
         let settings = OperatingSettings { relative_error: 0.05, ..OperatingSettings::default() };
         let known = crate::motor::operations(&[loaded], &settings, &Unobserved).expect("no failure");
         let known = known[0].steady().expect("steady");
-        let mut simulation = MotorSimulation::new(&loaded, SimulationSettings::default()).expect("legal");
+        let mut simulation = begun(&loaded).expect("legal");
         let start = simulation.advance(5.0, &Unobserved).expect("no failure");
         let end = simulation.advance(65.0, &Unobserved).expect("no failure");
         let speed = (end.angle - start.angle) / 60.0;
@@ -107,7 +127,7 @@ fn inputs_act_as_the_table_of_a_load() {
     let (curve, amplitudes) = driven.run_up(phase, &settings, &Unobserved).expect("no failure");
     let inertia = LoadLaw::constant(0.0).expect("legal").with_inertia(1e-8).expect("legal");
     let motor = in_volts().with(|sheet| sheet.load = Some(inertia)).expect("legal");
-    let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default()).expect("legal");
+    let mut simulation = begun(&motor).expect("legal");
     let (mut angle, inputs) = (0.0, MotorInputs::of(&motor));
     for (index, (load_torque, on)) in [(-1e-5, true), (-2e-5, true), (-2e-5, false)].into_iter().enumerate() {
         simulation.set_inputs(MotorInputs { load_torque, on, ..inputs }).expect("legal");
@@ -124,7 +144,7 @@ fn inputs_act_as_the_table_of_a_load() {
 fn the_current_is_that_of_the_circuit() {
     let motor = in_volts().with(|sheet| (sheet.mass, sheet.preload_force) = (Some(1e-12), Some(1e-11)));
     let motor = motor.expect("legal");
-    let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default()).expect("legal");
+    let mut simulation = begun(&motor).expect("legal");
     let mut inputs = MotorInputs::of(&motor);
     for frequency in [70e3, 70.1e3, 69.9e3] {
         inputs.drive_frequency = frequency;
@@ -148,7 +168,7 @@ fn the_current_is_that_of_the_circuit() {
 #[test]
 fn illegal_inputs_are_refused_and_change_nothing() {
     let motor = in_volts();
-    let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default()).expect("legal");
+    let mut simulation = begun(&motor).expect("legal");
     simulation.advance(0.001, &Unobserved).expect("no failure");
     let good = simulation.inputs();
     let refused = |inputs| crate::testing::refused_field(simulation.clone().set_inputs(inputs));
@@ -165,8 +185,10 @@ fn illegal_inputs_are_refused_and_change_nothing() {
 /// A rotor that lies on a stator that is off, and one that a load turns there: nothing happens for a long time.
 #[test]
 fn a_rest_of_an_hour_costs_little() {
-    for (motor, load_torque) in motors().into_iter().flat_map(|motor| [(motor, 0.0), (motor, 1e-3)]) {
-        let mut simulation = MotorSimulation::new(&motor, SimulationSettings::default()).expect("legal");
+    // A load with a slope is followed.
+    let motors = motors().into_iter().filter(|motor| motor.load().is_none());
+    for (motor, load_torque) in motors.flat_map(|motor| [(motor, 0.0), (motor, 1e-3)]) {
+        let mut simulation = begun(&motor).expect("legal");
         let inputs = MotorInputs { on: false, load_torque, ..MotorInputs::of(&motor) };
         simulation.set_inputs(inputs).expect("legal");
         simulation.advance(1.0, &Unobserved).expect("no failure");
@@ -181,5 +203,62 @@ fn a_rest_of_an_hour_costs_little() {
             "{start:?} {end:?}"
         );
         assert!(load_torque > 0.0 || end.angle.abs() < 1.0, "{end:?}");
+        let torque = load_torque.min(motor.largest_torque());
+        assert!(
+            (end.shaft_torque - torque).abs() <= 1e-9 * torque + 1e-30 && end.power.abs() < 1e-20,
+            "{end:?} {torque}"
+        );
     }
+}
+
+/// On a stator too slow to throw it: friction gives it on average what the load takes, and the drive what that costs.
+#[test]
+fn a_rotor_that_creeps_has_the_power_of_its_operating_point() {
+    let creeping = Motor::paper_70_khz().with(|sheet| {
+        (sheet.amplitude, sheet.load_torque, sheet.contact_radius) = (Some(4e-11), 4e-5, 5e-3);
+    });
+    let creeping = creeping.expect("legal");
+    let known = crate::motor::operations(&[creeping], &OperatingSettings::default(), &Unobserved);
+    let known = *known.expect("no failure")[0].steady().expect("steady");
+    let mut simulation = begun(&creeping).expect("legal");
+    let start = simulation.advance(2.5, &Unobserved).expect("no failure");
+    let end = simulation.advance(2.7, &Unobserved).expect("no failure");
+    let speed = (end.angle - start.angle) / 0.2;
+    assert!((speed - known.speed.value).abs() < 0.01 * known.speed.value.abs(), "{speed} {known:?}");
+    assert!(
+        (end.power - known.input_power.value).abs() < 0.01 * known.input_power.value,
+        "{end:?} {known:?}"
+    );
+    assert!((end.shaft_torque - 4e-5).abs() < 1e-7, "{end:?}");
+}
+
+/// One mode does both: at half of the volts half of the twist, and nothing jumps.
+#[test]
+fn the_twist_of_a_mode_follows_the_drive() {
+    let [one, _] = twisting();
+    let start = MotorInputs::of(&one);
+    let twist = |inputs: MotorInputs| {
+        let simulation = MotorSimulation::new(&one, inputs, SimulationSettings::default()).expect("legal");
+        simulation.motor.system().platform().peak_angular_speed()
+    };
+    let whole = twist(start);
+    assert!((twist(MotorInputs { drive: 0.5 * start.drive, ..start }) - 0.5 * whole).abs() < 1e-12 * whole);
+    assert!(twist(MotorInputs { drive: 0.0, ..start }).abs() < 1e-12 * whole);
+}
+
+/// Switched on from rest, a mode rings up; of a step that takes no time the means are those before.
+#[test]
+fn a_drive_that_is_off_at_the_start_rings_up() {
+    let motor = in_volts();
+    let off = MotorInputs { on: false, ..MotorInputs::of(&motor) };
+    let mut simulation = MotorSimulation::new(&motor, off, SimulationSettings::default()).expect("legal");
+    let start = simulation.advance(0.001, &Unobserved).expect("no failure");
+    // The stator sags under the rotor.
+    assert!(start.amplitude < 1e-10 && start.impacts == 0 && start.power == 0.0, "{start:?}");
+    simulation.set_inputs(MotorInputs::of(&motor)).expect("legal");
+    let early = simulation.advance(0.0015, &Unobserved).expect("no failure");
+    let late = simulation.advance(0.03, &Unobserved).expect("no failure");
+    assert!(early.amplitude < 0.5 * late.amplitude && late.power > 0.0, "{early:?} {late:?}");
+    let again = simulation.advance(0.03, &Unobserved).expect("no failure");
+    assert_eq!((again.power, again.shaft_torque), (late.power, late.shaft_torque));
 }
