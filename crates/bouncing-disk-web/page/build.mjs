@@ -1,9 +1,10 @@
 /**
  * Builds the page: one file with everything in it, and the same split for hosting.
  *
- *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--check: the types first]
+ *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--words WORDS.json] [--check: the types first]
  *
- * The glue is what `wasm-bindgen --target no-modules` writes.
+ * The glue is what `wasm-bindgen --target no-modules` writes. WORDS.json has all texts of the page, as src/words.json has
+ * them in English.
  */
 
 import { execFileSync } from "node:child_process";
@@ -18,8 +19,20 @@ import { build } from "esbuild";
 const here = dirname(fileURLToPath(import.meta.url));
 
 const text = { type: "string" };
-const { values } = parseArgs({ options: { wasm: text, glue: text, out: text, check: { type: "boolean" } } });
-const { wasm, glue, out, check } = values;
+const { values } = parseArgs({
+  options: { wasm: text, glue: text, out: text, words: text, check: { type: "boolean" } },
+});
+const { wasm, glue, out, check, words = join(here, "src/words.json") } = values;
+
+/** The texts stand in the page by themselves, where an editor finds them. */
+const wordsOfThePage = {
+  name: "words",
+  setup: ({ onLoad }) =>
+    onLoad({ filter: /words\.json$/ }, () => ({
+      contents: 'export default JSON.parse(document.getElementById("words").textContent)',
+      loader: "js",
+    })),
+};
 
 /** The text of a script's bundle, and of the style sheets that it imports. */
 async function bundled(entry) {
@@ -35,6 +48,7 @@ async function bundled(entry) {
     target: ["es2022"],
     legalComments: "none",
     logLevel: "warning",
+    plugins: [wordsOfThePage],
   });
   const text = (end) => outputFiles.find((file) => file.path.endsWith(end))?.text ?? "";
   return { script: text(".js").trim(), styles: text(".css").trim() };
@@ -69,9 +83,22 @@ function written(path, content) {
   console.log(`${path.padEnd(60)} ${kilobytes(bytes)} ${kilobytes(gzipSync(content, { level: 9 }).length)} gzipped`);
 }
 
+/** Fails where a translation lacks a text of the English one, has another one, or has other values in it. */
+function compared(own, english, place) {
+  const holes = (text) => [...String(text).matchAll(/\{\w+\}/g)].flat().sort().join();
+  const kind = (value) => (value !== null && typeof value === "object" ? Object.keys(value).sort().join() : "a text");
+  if (kind(own) !== kind(english)) throw new Error(`${place}: ${kind(english)} expected, and not ${kind(own)}`);
+  if (kind(english) !== "a text") for (const key of Object.keys(english)) compared(own[key], english[key], `${place}.${key}`);
+  else if (holes(own) !== holes(english)) throw new Error(`${place} has to have ${holes(english) || "no values"} in it`);
+}
+
+const texts = JSON.parse(readFileSync(words, "utf8"));
+compared(texts, JSON.parse(readFileSync(join(here, "src/words.json"), "utf8")), words);
 const compiler = join(here, "node_modules/typescript/bin/tsc");
 if (check) execFileSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" });
-const html = readFileSync(join(here, "index.html"), "utf8");
+const html = filled(readFileSync(join(here, "index.html"), "utf8").replace('lang="en"', `lang="${texts.language}"`), {
+  words: `<script type="application/json" id="words">\n${inScript(JSON.stringify(texts, null, 1))}\n</script>`,
+});
 const page = await bundled("src/main.ts");
 const worker = await bundled("src/worker.ts");
 const module = readFileSync(wasm);

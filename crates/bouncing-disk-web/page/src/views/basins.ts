@@ -8,6 +8,7 @@ import type { Pen } from "../drawing/pen";
 import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
+import { WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { mapOf, RoundingCaution, tellFailure, type MapParameters } from "./asking";
 import { Cells, computeCells, gridsOf, type Grid } from "./basins/cells";
@@ -277,7 +278,6 @@ function paintMark(pen: Pen, plot: Plot, { impact_phase, normalised_speed }: Imp
 
 export const basins: ViewKind = {
   name: "basins",
-  title: "Basins",
-  description: "All starts by phase and speed of their first impact, coloured by the attractor that they end on.",
+  ...WORDS.views.basins,
   make: (host, context) => new BasinsView(host, context),
 };

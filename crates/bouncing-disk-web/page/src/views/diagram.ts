@@ -8,6 +8,7 @@ import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
+import { WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
@@ -284,7 +285,6 @@ function keyOf({ system, ...others }: Wanted): string {
 
 export const diagram: ViewKind = {
   name: "diagram",
-  title: "Orbit diagram",
-  description: "The impacts that an orbit repeats, over the axial forcing parameter; zooming computes them anew.",
+  ...WORDS.views.diagram,
   make: (host, context) => new DiagramView(host, context),
 };

@@ -5,6 +5,7 @@ import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
 import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
 import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../protocol";
+import { WORDS } from "../words";
 import { Asked, tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
@@ -238,7 +239,6 @@ function summaryOf(operations: readonly Operation[]): string {
 
 export const motor: ViewKind = {
   name: "motor",
-  title: "Motor",
-  description: "The system as a motor: data sheet, run-up, speed, power and efficiency against load.",
+  ...WORDS.views.motor,
   make: (host, context) => new MotorView(host, context),
 };

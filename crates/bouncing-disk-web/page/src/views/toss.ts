@@ -6,6 +6,7 @@ import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, div, element, oncePerFrame, section, setText } from "../elements";
 import { plain } from "../numbers";
+import { WORDS } from "../words";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { RoundingCaution, tellFailure } from "./asking";
 import { Controls, Player } from "./toss/player";
@@ -305,7 +306,6 @@ class TossView implements View {
 
 export const toss: ViewKind = {
   name: "toss",
-  title: "Toss and bounce",
-  description: "Disk and platform in perspective, with time traces and the phase portrait of the impacts.",
+  ...WORDS.views.toss,
   make: (host, context) => new TossView(host, context),
 };
