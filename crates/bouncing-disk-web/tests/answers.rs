@@ -1,5 +1,6 @@
 //! Answers to requests: what a page relies on, and every seam of what it may ask.
 
+use bouncing_disk::core::flight::Compliance;
 use bouncing_disk::core::numerics::elementary::ln;
 use bouncing_disk::core::{Phase, Unobserved};
 use bouncing_disk::driven::single_toss;
@@ -86,14 +87,25 @@ fn basins(rows: [usize; 2]) -> Value {
     })
 }
 
-/// Tables I and III as the page imports them: the library is the one place in which they are typed.
+/// The legal ranges of what the form shows in place of a number of the system: the forcing, and the contact time in
+/// periods.
+fn ranges() -> Value {
+    let start = json!({ "impact_phase": 1.0, "normalised_speed": 1.0 });
+    let orbit = json!({ "call": "orbit", "axial_forcing": -1.0, "restitution": 0.5, "start": start });
+    let forcing = refused(&orbit)["range"].clone();
+    let forcing = forcing.as_str().and_then(|range| range.split(" (").next());
+    let periods = 10.0 * (Compliance::CONTACT_TIMES[1] / std::f64::consts::TAU / 10.0).floor();
+    json!({ "axial_forcing": forcing, "contact_time": format!("[0, {periods}]") })
+}
+
+/// Tables I and III and the legal ranges, as the page imports them: the library is the one place in which they are typed.
 #[test]
 fn the_tables_of_the_page_are_those_of_the_library() {
     let (hand, dough, motor) = (Stroke::pizza_toss(), System::pizza_toss(), Motor::paper_70_khz());
     let motion = json!({
         "stroke": hand.stroke, "amplitude_angle": hand.amplitude_angle, "angular_frequency": hand.angular_frequency
     });
-    let tables = json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor });
+    let tables = json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor, "ranges": ranges() });
     let text = serde_json::to_string_pretty(&tables).expect("storable") + "\n";
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/page/src/tables.json");
     if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {

@@ -2,32 +2,35 @@
 
 import type { Change, State } from "./contract";
 import { element, symbol } from "./elements";
-import { abridged, prefixOf, shown, stepped, typed } from "./numbers";
+import { abridged, mayBeThousands, prefixOf, shown, stepped, typed } from "./numbers";
 import type { Range, Refusal, Summary, SystemParameters } from "./protocol";
-import { amplitudeOf, contactPeriods } from "./state";
+import { amplitudeOf, axialForcing, contactPeriods } from "./state";
 import type { ChangeOptions } from "./store";
+import tables from "./tables.json";
+import { say, WORDS } from "./words";
 
 type Propose = (change: Change, options: ChangeOptions) => void;
 
-interface Parameter {
-  /** The name in the state; refusals of the module use the same one. */
-  readonly name: string;
+export interface Parameter {
+  /** The name in the state; refusals of the module use the same one, and `words.json` has its label. */
+  readonly name: keyof typeof WORDS.form.labels;
   /** As in the paper; what follows an underscore is a subscript. */
   readonly symbol: string;
-  readonly label: string;
   readonly unit: string;
-  /** Sliders of positive quantities are logarithmic, two decades about the value with which they were set up. */
-  readonly slider: "logarithmic" | ((state: State) => Range);
+  /** Logarithmic sliders reach two decades about the value with which they were set up. */
+  readonly slider: typeof LOGARITHMIC | ((state: State) => Range);
   /** True where people think in multiples of pi. */
   readonly angle?: boolean;
   /** `null` until the module has said it. */
   value(state: State, summary: Summary | null): number | null;
   change(value: number, state: State): Change;
-  /** The legal range, where the module refuses not this quantity but one of those that follow from it. */
-  readonly refusedAs?: { readonly quantities: readonly string[]; readonly range: string };
+  /** Names in refusals of what follows from this number, whose own range stands in the tables of the library. */
+  readonly refusedAs?: readonly string[];
   /** The same in another unit, for orientation. */
   hint?(value: number, state: State): string;
 }
+
+const LOGARITHMIC = "logarithmic";
 
 /** The number with the fewest digits that `sets` the same parameter: what was typed, if that set it. */
 function asTyped(exact: number, sets: (shorter: number) => boolean): number {
@@ -52,20 +55,12 @@ function measured(value: number, unit: string): string {
 const metres = (value: number): string => (value === 0 || Math.abs(value) >= 1e-2 ? "" : measured(value, "m"));
 const hertz = (value: number): string => measured(value / (2 * Math.PI), "Hz");
 
-type Words = [
-  symbol: string,
-  label: string,
-  unit: string,
-  Parameter["slider"],
-  more?: Pick<Parameter, "angle" | "hint">,
-];
-
-const LOGARITHMIC = "logarithmic";
+type Words = [symbol: string, unit: string, Parameter["slider"], more?: Pick<Parameter, "angle" | "hint">];
 
 const parametersOf =
   <Part extends "system" | "start">(part: Part) =>
-  (name: keyof State[Part] & string, ...[symbol, label, unit, slider, more]: Words): Parameter => ({
-    ...{ name, symbol, label, unit, slider, ...more },
+  (name: keyof State[Part] & Parameter["name"], ...[symbol, unit, slider, more]: Words): Parameter => ({
+    ...{ name, symbol, unit, slider, ...more },
     value: (state) => state[part][name] as number,
     change: (value) => ({ [part]: { [name]: value } }),
   });
@@ -79,49 +74,98 @@ const twistSpeed = ({ system }: State): number => system.angular_frequency * sys
 const frictionScale = ({ system }: State): number =>
   (system.friction * system.contact_radius * system.preload_acceleration) / system.gyration_radius ** 2 || 1;
 
-const GROUPS: Readonly<Record<string, readonly Parameter[]>> = {
-  Platform: [
-    {
-      name: "axial_forcing",
-      symbol: "Γ",
-      label: "axial forcing, sets A",
-      unit: "",
-      slider: LOGARITHMIC,
-      value: ({ system }, summary) =>
-        summary && asTyped(summary.axial_forcing, (forcing) => amplitudeOf(forcing, system) === system.amplitude),
-      // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
-      change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
-      // The range of the library's `Vibration::from_axial_forcing`.
-      refusedAs: { quantities: ["amplitude", "peak_acceleration"], range: "[0, 3.18e7]" },
-    },
-    ofSystem("amplitude", "A", "amplitude", "m", LOGARITHMIC, { hint: metres }),
-    ofSystem("twist_amplitude", "Φ", "twist amplitude", "rad", LOGARITHMIC, {
+/** Stroke and angle that set A = c cos(phi_L) and a_e Phi = c sin(phi_L), Eq. (13): as they were typed, if these did. */
+function strokeOf({ amplitude, twist_amplitude, contact_radius }: Readonly<SystemParameters>): StrokeSides {
+  const [up, around] = [amplitude, contact_radius * twist_amplitude];
+  const exact = { stroke: Math.hypot(up, around), angle: Math.atan2(around, up) };
+  let found = exact;
+  asTyped(exact.stroke, (stroke) => {
+    const angle = asTyped(exact.angle, (one) => stroke * Math.cos(one) === up);
+    const sets = stroke * Math.cos(angle) === up && (stroke * Math.sin(angle)) / contact_radius === twist_amplitude;
+    if (sets) found = { stroke, angle };
+    return sets;
+  });
+  return found;
+}
+
+type StrokeSides = Readonly<Record<"stroke" | "angle", number>>;
+
+const ofStroke = (given: (system: State["system"]) => StrokeSides, { system }: State): Change => {
+  const { stroke, angle } = given(system);
+  const twist_amplitude = (stroke * Math.sin(angle)) / system.contact_radius;
+  return { system: { amplitude: stroke * Math.cos(angle), twist_amplitude } };
+};
+
+/** Forcings between which a disk bounces once, twice, and so on up to chaos. */
+const CASCADE: Range = [0.25, 0.75];
+
+const FORCING: Parameter = {
+  name: "axial_forcing",
+  symbol: "Γ",
+  unit: "",
+  slider: ({ system }) => {
+    const forcing = axialForcing(system);
+    return forcing >= CASCADE[0] && forcing <= CASCADE[1] ? CASCADE : [0, 2 * forcing || 1];
+  },
+  value: ({ system }, summary) =>
+    summary && asTyped(summary.axial_forcing, (forcing) => amplitudeOf(forcing, system) === system.amplitude),
+  // Gamma = A omega²/(pi g) is a definition (Sec. I); what comes of it is checked like any amplitude.
+  change: (value, { system }) => ({ system: { amplitude: amplitudeOf(value, system) } }),
+  refusedAs: ["amplitude", "peak_acceleration"],
+};
+
+/** What a newcomer changes first stands open; the rest is folded. */
+const GROUPS: Readonly<Record<keyof typeof WORDS.form.groups, readonly Parameter[]>> = {
+  essentials: [
+    FORCING,
+    ofSystem("restitution", "ε", "", () => [0, 0.95]),
+    ofSystem("friction", "μ", "", () => [0, 1]),
+  ],
+  platform: [
+    ofSystem("amplitude", "A", "m", LOGARITHMIC, { hint: metres }),
+    ofSystem("twist_amplitude", "Φ", "rad", LOGARITHMIC, {
       angle: true,
       hint: (_, { system }) => `ωΦ ${shown(system.angular_frequency * system.twist_amplitude, 4)} rad/s`,
     }),
-    ofSystem("angular_frequency", "ω", "angular frequency", "rad/s", LOGARITHMIC, { hint: hertz }),
-    ofSystem("phase_lag", "θ", "phase lag", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: inPi }),
-  ],
-  Disk: [
-    ofSystem("restitution", "ε", "coefficient of restitution", "", () => [0, 0.95]),
     {
-      name: "contact_periods",
+      name: "stroke",
+      symbol: "c",
+      unit: "m",
+      slider: LOGARITHMIC,
+      value: ({ system }) => strokeOf(system).stroke,
+      change: (stroke, state) => ofStroke((system) => ({ ...strokeOf(system), stroke }), state),
+      hint: metres,
+    },
+    {
+      name: "amplitude_angle",
+      symbol: "φ_L",
+      unit: "rad",
+      slider: () => [0, Math.PI / 2],
+      angle: true,
+      value: ({ system }) => strokeOf(system).angle,
+      change: (angle, state) => ofStroke((system) => ({ ...strokeOf(system), angle }), state),
+      hint: inPi,
+    },
+    ofSystem("angular_frequency", "ω", "rad/s", LOGARITHMIC, { hint: hertz }),
+    ofSystem("phase_lag", "θ", "rad", () => [-Math.PI, Math.PI], { angle: true, hint: inPi }),
+  ],
+  disk: [
+    {
+      name: "contact_time",
       symbol: "T_c",
-      label: "contact time",
       unit: "2π/ω",
       slider: () => [0, 2],
       value: ({ system }) =>
         asTyped(contactPeriods(system), (periods) => contactTime(periods, system) === system.contact_time),
       change: (value, { system }) => ({ system: { contact_time: contactTime(value, system) } }),
-      // The range of the library's `Compliance`.
-      refusedAs: { quantities: ["contact.time", "contact time"], range: "[0, 1590]" },
-      hint: (_, { system }) => (system.contact_time === 0 ? "rigid impacts" : measured(system.contact_time, "s")),
+      refusedAs: ["contact.time", "contact time"],
+      hint: (_, { system }) =>
+        system.contact_time === 0 ? WORDS.form.rigid : measured(system.contact_time, "s"),
     },
-    ofSystem("friction", "μ", "coefficient of friction", "", () => [0, 1]),
-    ofSystem("contact_radius", "a_e", "contact radius", "m", LOGARITHMIC, { hint: metres }),
-    ofSystem("gyration_radius", "a_g", "radius of gyration", "m", LOGARITHMIC, { hint: metres }),
-    ofSystem("preload_acceleration", "g", "preload acceleration", "m/s²", LOGARITHMIC),
-    ofSystem("load_acceleration", "α_L", "deceleration by load", "rad/s²",
+    ofSystem("contact_radius", "a_e", "m", LOGARITHMIC, { hint: metres }),
+    ofSystem("gyration_radius", "a_g", "m", LOGARITHMIC, { hint: metres }),
+    ofSystem("preload_acceleration", "g", "m/s²", LOGARITHMIC),
+    ofSystem("load_acceleration", "α_L", "rad/s²",
       (state) => [-frictionScale(state), frictionScale(state)], {
       hint: (value, { system, mass }) =>
         value === 0 ? "" : `${shown(value * mass * system.gyration_radius ** 2, 3)} N m`,
@@ -129,22 +173,26 @@ const GROUPS: Readonly<Record<string, readonly Parameter[]>> = {
     {
       name: "mass",
       symbol: "m",
-      label: "mass",
       unit: "kg",
       slider: LOGARITHMIC,
       value: (state) => state.mass,
       change: (value) => ({ mass: value }),
     },
   ],
-  "Start, with an impact": [
-    ofStart("impact_phase", "τ_imp", "phase", "rad", () => [0, 2 * Math.PI], { angle: true, hint: inPi }),
-    ofStart("normalised_speed", "w_A", "impact speed", "πg/ω", () => [0, 5], {
+  start: [
+    ofStart("impact_phase", "τ_imp", "rad", () => [0, 2 * Math.PI], { angle: true, hint: inPi }),
+    ofStart("normalised_speed", "w_A", "πg/ω", () => [0, 5], {
       hint: (value, { system }) =>
         `${shown((value * Math.PI * system.preload_acceleration) / system.angular_frequency, 3)} m/s`,
     }),
-    ofStart("angular_speed", "α̇", "angular speed", "rad/s", (state) => [-twistSpeed(state), twistSpeed(state)]),
+    ofStart("angular_speed", "α̇", "rad/s", (state) => [-twistSpeed(state), twistSpeed(state)]),
   ],
 };
+
+/** In the order of the form. */
+export const PARAMETERS: readonly Parameter[] = Object.values(GROUPS).flat();
+
+export const labelOf = ({ name }: Parameter): string => WORDS.form.labels[name];
 
 export class Parameters {
   private readonly fields: Field[] = [];
@@ -153,37 +201,35 @@ export class Parameters {
   private summary: Summary | null = null;
 
   constructor(host: HTMLElement, propose: Propose) {
-    const group = (title: string, ...parts: HTMLElement[]) =>
-      element("details", { class: "group", open: true }, element("summary", {}, title), ...parts);
-    for (const [title, parameters] of Object.entries(GROUPS)) {
+    const group = (name: string, title: string, ...parts: HTMLElement[]) =>
+      element("details", { class: `group ${name}`, open: name === "essentials" }, element("summary", {}, title), ...parts);
+    for (const [name, parameters] of Object.entries(GROUPS)) {
       const fields = parameters.map((parameter) => new Field(parameter, propose));
       this.fields.push(...fields);
-      host.append(group(title, ...fields.map((field) => field.element)));
+      host.append(group(name, WORDS.form.groups[name as keyof typeof GROUPS], ...fields.map((field) => field.element)));
     }
-    host.append(group("What follows", this.list, this.sentence));
+    host.append(group("follows", WORDS.form.follows, this.list, this.sentence));
   }
 
   /** What follows from the state that is shown next, as the module gives it. */
   follow(summary: Summary): void {
     this.summary = summary;
     const { angular_forcing, rise_time, contact } = summary;
+    const { readout } = WORDS.form;
     const rows = [
-      ["Γ_T", "angular forcing", angular_forcing === null ? "none, no friction" : shown(angular_forcing, 4)],
-      ["Aω²/g", "peak acceleration", `${shown(summary.peak_acceleration, 4)} g`],
-      ["2π/ω", "period", measured(summary.period, "s")],
-      ["c", "stroke", measured(summary.stroke, "m")],
-      ["t_r", "rise time", rise_time === null ? "none" : measured(rise_time, "s")],
-      ["T_c", "over the period", contact?.[0][1] ?? "rigid impacts"],
-      ["mg/kA", "indentation", contact?.[1][1] ?? "none"],
+      ["Γ_T", readout.angular_forcing, angular_forcing === null ? readout.no_friction : shown(angular_forcing, 4)],
+      ["Aω²/g", readout.peak_acceleration, `${shown(summary.peak_acceleration, 4)} g`],
+      ["2π/ω", readout.period, measured(summary.period, "s")],
+      ["t_r", readout.rise_time, rise_time === null ? readout.none : measured(rise_time, "s")],
+      ["T_c", readout.contact, contact?.[0][1] ?? WORDS.form.rigid],
+      ["mg/kA", readout.indentation, contact?.[1][1] ?? readout.none],
     ] as const;
     this.list.replaceChildren(
       ...rows.map(([sign, name, value]) =>
         element("div", {}, element("dt", {}, symbol(sign), ` ${name}`), element("dd", {}, value)),
       ),
     );
-    this.sentence.textContent = summary.bounces
-      ? "The platform falls away from a disk at rest on it: the disk bounces."
-      : "The platform never falls away from a disk at rest on it.";
+    this.sentence.textContent = summary.bounces ? readout.bounces : readout.never_bounces;
   }
 
   show(state: State, fresh: boolean): void {
@@ -210,10 +256,11 @@ class Field {
     private readonly parameter: Parameter,
     private readonly propose: Propose,
   ) {
-    const { name, label, unit } = parameter;
+    const { name, unit } = parameter;
+    const label = labelOf(parameter);
     const spoken = `${label}${unit ? `, ${unit}` : ""}`;
     this.slider = element("input", {
-      type: "range", min: 0, max: POSITIONS, step: 1, "aria-label": `${spoken}, slider`,
+      type: "range", min: 0, max: POSITIONS, step: 1, "aria-label": say(WORDS.form.slider, { name: spoken }),
       oninput: () => this.slid(false), onchange: () => this.slid(true),
     }); // prettier-ignore
     this.input = element("input", {
@@ -251,17 +298,18 @@ class Field {
   }
 
   private suitable(value: number, state: State): Range {
-    if (this.parameter.slider === "logarithmic") {
+    const { slider } = this.parameter;
+    if (slider === LOGARITHMIC) {
       const size = value > 0 ? value : 1;
       return [size / REACH, size * REACH];
     }
-    const [low, high] = this.parameter.slider(state);
+    const [low, high] = slider(state);
     return [Math.min(low, value), Math.max(high, value)];
   }
 
   private position(value: number): number {
     const [low, high] = this.range;
-    const logarithmic = this.parameter.slider === "logarithmic";
+    const logarithmic = this.parameter.slider === LOGARITHMIC;
     const share = logarithmic ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
     return Math.round(POSITIONS * Math.min(1, Math.max(0, share)));
   }
@@ -269,7 +317,7 @@ class Field {
   private slid(settled: boolean): void {
     const [low, high] = this.range;
     const share = Number(this.slider.value) / POSITIONS;
-    const logarithmic = this.parameter.slider === "logarithmic";
+    const logarithmic = this.parameter.slider === LOGARITHMIC;
     const exact = logarithmic ? low * (high / low) ** share : low + share * (high - low);
     // No more digits than a position means, so that the number can be read, typed and cited.
     const digit = logarithmic
@@ -284,12 +332,12 @@ class Field {
       this.complain(null);
       return;
     }
-    const value = typed(text, this.parameter.angle === true);
+    const { unit, angle } = this.parameter;
+    const value = typed(text, unit, angle === true);
+    const { no_number, no_angle, thousands } = WORDS.form;
+    const problem = mayBeThousands(text) ? thousands : angle === true ? no_angle : no_number;
     if (value !== null) this.ask(value, true);
-    else
-      this.complain(
-        `"${text.slice(0, 24)}" is not a number; write it like 0.5 or 1e-8${this.parameter.angle ? " or 0.26π" : ""}.`,
-      );
+    else this.complain(say(problem, { text: text.slice(0, 24) }));
   }
 
   private pressed(event: KeyboardEvent): void {
@@ -316,11 +364,11 @@ class Field {
 
   private words(refusal: Refusal, value: number): string {
     const { quantity, message } = refusal;
-    const { label, name, refusedAs } = this.parameter;
-    const follows = refusedAs?.quantities.includes(quantity ?? "") === true;
-    const range = follows ? refusedAs.range : quantity === name ? refusal.range : null;
+    const { name, refusedAs } = this.parameter;
+    const ranges: Readonly<Record<string, string>> = tables.ranges;
+    const range = refusedAs?.includes(quantity ?? "") ? (ranges[name] ?? null) : quantity === name ? refusal.range : null;
     if (range === null) return `${message}${/[.!]$/.test(message) ? "" : "."}`;
-    return `${shown(value)} is refused: the ${label.split(",")[0]} has to be in ${range}.`;
+    return say(WORDS.form.refused, { value: shown(value), name: labelOf(this.parameter).split(",")[0] ?? "", range });
   }
 
   /** What is wrong stays until something legal is typed, and so does the text. */

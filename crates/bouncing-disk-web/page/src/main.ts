@@ -11,7 +11,7 @@ import type { Context, Offer, State, ViewKind } from "./contract";
 import { fileName, save } from "./drawing/files";
 import { byId, element } from "./elements";
 import { Parameters } from "./form";
-import { Notes, Problems, TourPanel } from "./notes";
+import { Notes, Opening, Problems, TourPanel } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
@@ -19,6 +19,7 @@ import { basins } from "./views/basins";
 import { diagram } from "./views/diagram";
 import { motor } from "./views/motor";
 import { toss } from "./views/toss";
+import { WORDS } from "./words";
 
 /** In the order of their tabs. */
 const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor];
@@ -154,14 +155,9 @@ function begin(): void {
     event.preventDefault();
   });
 
-  // On a narrow screen the picture comes first and the form is closed until somebody wants it.
-  const narrow = window.matchMedia("(max-width: 860px)");
-  const fold = (): void => {
-    for (const group of side.querySelectorAll("details")) group.open = !narrow.matches;
-  };
-  narrow.addEventListener("change", fold);
-  fold();
-
+  // Only where nothing else is asked for: a link and a preset speak for themselves.
+  const opening = new Opening(byId("opening"), [[WORDS.opening.tour, () => tour.begin()]]);
+  if (location.hash === "") opening.show();
   const first = address.opened();
   problems.replace(first.problems);
   void store.open(first.state);

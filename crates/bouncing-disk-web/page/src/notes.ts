@@ -1,9 +1,10 @@
 /** What stands above a view: the note on a preset, sentences about what could not be done, and the tour. */
 
 import type { State } from "./contract";
-import { button, closeButton, element, rich } from "./elements";
+import { button, closeButton, element, kept, rich } from "./elements";
 import { PRESETS, stateOf, STEPS, type Panel, type Preset } from "./presets";
 import { changed, DEFAULT_STATE, toHash } from "./state";
+import { WORDS } from "./words";
 
 /** The preset and panel of a state, so that links, reloads and going back show the card as well. */
 const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
@@ -68,6 +69,32 @@ export class Notes {
     this.shown = null;
     this.host.hidden = true;
     this.host.replaceChildren();
+  }
+}
+
+/** What a first visit reads: one sentence, and where to begin. Once closed, it stays so. */
+export class Opening {
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly ways: readonly (readonly [string, () => void])[],
+  ) {}
+
+  show(): void {
+    this.host.hidden = kept("opening") === "closed";
+    const close = (): void => {
+      this.host.hidden = true;
+      kept("opening", "closed");
+    };
+    const ways = this.ways.map(([name, go]) => {
+      const begin = (): void => {
+        close();
+        go();
+      };
+      return button(name, begin, { class: "primary" });
+    });
+    const { sentence: what, examples } = WORDS.opening;
+    const sentence = element("p", {}, what, element("span", {}, ` ${examples}`));
+    this.host.replaceChildren(sentence, ...ways, closeButton(WORDS.opening.close, close));
   }
 }
 

@@ -22,19 +22,45 @@ export function abridged(value: number): string {
   return text.length > 8 ? rounded(5) : text;
 }
 
-/** A typed number: `0.5`, `1e-8`, with a true minus sign, and `0.26π` or `pi/2` where multiples of pi are meant. */
-export function typed(text: string, multiplesOfPi: boolean): number | null {
-  const plain = text.trim().replaceAll("−", "-").replace(/\s+/g, " ");
-  const direct = readNumber(plain);
-  if (direct !== null || !multiplesOfPi) return direct;
-  const parts = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(plain);
+/** What people write behind a number, and how many of the field's units it is. */
+const UNITS: Readonly<Record<string, Readonly<Record<string, number>>>> = {
+  m: { m: 1, km: 1e3, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6, nm: 1e-9, pm: 1e-12 },
+  kg: { kg: 1, g: 1e-3, mg: 1e-6, "µg": 1e-9 },
+  rad: { rad: 1, mrad: 1e-3, "µrad": 1e-6, "°": Math.PI / 180, deg: Math.PI / 180 },
+  "rad/s": {
+    "rad/s": 1, "krad/s": 1e3, Hz: 2 * Math.PI, kHz: 2e3 * Math.PI, MHz: 2e6 * Math.PI, rpm: Math.PI / 30, "1/s": 1,
+  },
+  "m/s²": { "m/s²": 1, "m/s^2": 1, "m/s2": 1, "mm/s²": 1e-3 },
+  "rad/s²": { "rad/s²": 1, "rad/s^2": 1, "rad/s2": 1 },
+  "": { "%": 1e-2 },
+}; // prettier-ignore
+
+/**
+ * A typed number in the unit of its field: `0.5`, `0,5`, `1e-8`, `62 mm`, with a true minus sign, and `0.26π` or `pi/2` where
+ * multiples of pi are meant. `null` for what is none, or may be two.
+ */
+export function typed(text: string, unit = "none", multiplesOfPi = false): number | null {
+  const plain = text.trim().replaceAll("−", "-").replaceAll("μ", "µ").replace(/\s+/g, " ");
+  if (mayBeThousands(plain)) return null;
+  const pointed = plain.includes(".") ? plain : plain.replace(",", ".");
+  const direct = readNumber(pointed);
+  if (direct !== null) return direct;
+  const [, factorOf = "", unitOf = ""] = /^([+-]?[\d.]+(?:e[+-]?\d+)?) ?(\D.*)$/i.exec(pointed) ?? [];
+  const [factor, size] = [readNumber(factorOf), UNITS[unit]?.[unitOf]];
+  // 62 mm is 0.062 to the bit, and 15 digits are more than anybody types before a unit.
+  if (factor !== null && size !== undefined) return size === 1 ? factor : Number((factor * size).toPrecision(15));
+  if (!multiplesOfPi) return null;
+  const parts = /^([+-]?)([\d.e+-]*) ?\*? ?(?:π|pi)(?: ?\/ ?([\d.]+))?$/i.exec(pointed);
   if (parts === null) return null;
   const [, sign, factorText, divisorText] = parts;
-  const factor = factorText ? readNumber(factorText) : 1;
+  const times = factorText ? readNumber(factorText) : 1;
   const divisor = divisorText ? readNumber(divisorText) : 1;
-  if (factor === null || divisor === null || divisor === 0) return null;
-  return ((sign === "-" ? -1 : 1) * factor * Math.PI) / divisor;
+  if (times === null || divisor === null || divisor === 0) return null;
+  return ((sign === "-" ? -1 : 1) * times * Math.PI) / divisor;
 }
+
+/** A comma before three digits parts thousands in English, and decimals elsewhere. */
+export const mayBeThousands = (text: string): boolean => /^[+−-]?[1-9]\d{0,2}(,\d{3})+(?!\d)/.test(text.trim());
 
 /** The next number of three significant digits, up or down; `coarse` makes ten such steps. */
 export function stepped(value: number, direction: 1 | -1, coarse: boolean, smallest: number): number {

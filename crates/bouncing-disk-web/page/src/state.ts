@@ -16,15 +16,17 @@ export function systemOf(table: Readonly<Record<string, number>>): SystemParamet
   return Object.fromEntries(SYSTEM_NAMES.map((name) => [name, table[name] ?? 0])) as SystemParameters;
 }
 
+const HAND = systemOf(tables.table_one);
+
 /**
  * The hands and the dough of Table I, made to toss again and again at Gamma = 0.45, with the lag of Fig. 6(d): there
- * the disk can bounce once in every period, and all four views have something to show.
+ * the disk can bounce once in every period, and all views have something to show.
  */
 export const DEFAULT_SYSTEM: Readonly<SystemParameters> = {
-  ...systemOf(tables.table_one),
-  amplitude: 0.0616,
+  ...HAND,
+  amplitude: amplitudeOf(0.45, HAND),
   twist_amplitude: 0.9,
-  phase_lag: -0.8168,
+  phase_lag: -0.26 * Math.PI,
 };
 
 export const DEFAULT_STATE: State = {

@@ -124,13 +124,15 @@ onPage("on a telephone the picture comes first", { width: 360, height: 740, hasT
         top: picture.top + scrollY,
         right: picture.right,
         form: boxOf(document.getElementById("parameters")).top + scrollY,
-        open: document.querySelectorAll("aside details[open]").length,
+        open: [...document.querySelectorAll("aside details[open]")].map((one) => one.className),
+        sliders: boxOf(document.querySelector(".essentials")).bottom,
         tabs: [...document.querySelectorAll('[role="tab"]')].map((tab) => boxOf(tab)).map(({ right }) => right),
       };
     }, view);
     assert.ok(seen.top < 250, `${view} begins at ${seen.top}`);
     assert.ok(seen.right <= 360 && Math.max(...seen.tabs) <= 360, JSON.stringify(seen));
     assert.ok(seen.form > seen.top + 250, `${view}: the form is at ${seen.form}`);
-    assert.equal(seen.open, 0);
+    // The three sliders stay under the thumb.
+    assert.deepEqual([seen.open, seen.sliders], [["group essentials"], 740]);
   }
 });

@@ -1,9 +1,9 @@
 /** Every field at and beyond its limits: refused where it is typed, or taken; the page goes on in both cases. */
 
 import assert from "node:assert/strict";
-import { isCalm, settled, stateOf, type, valueOf, whenText, onPage } from "./browser.mjs";
+import { isCalm, settled, stateOf, type, valueOf, whenText, whenValue, onPage } from "./browser.mjs";
 
-const NO_NUMBER = /is not a number; write it like 0\.5/;
+const NO_NUMBER = /is not a number\. Write it like 0\.5/;
 const TAKEN = null;
 /** What each field does with a text; those that are no numbers are tried in one number and one angle. */
 const POSITIVE = { 0: /has to be in \(0, inf\)/, "-0": /has to be in \(0, inf\)/, "-1": /has to be in \(0, inf\)/ };
@@ -12,17 +12,19 @@ const ANY = { 0: TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1e-310": TAKEN, "-1": TA
 const FORCING = /is refused: the axial forcing has to be in \[0, 3\.18e7\]/;
 const FIELDS = {
   axial_forcing: { "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "-1": FORCING, "3e7": TAKEN, "4e7": FORCING },
-  amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
-  twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
-  angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },
-  phase_lag: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
   restitution: {
     "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "0.9999999999999999": TAKEN, "1": /\[0, 1\)/, "-1e-310": /\[0, 1\)/,
   },
-  contact_periods: {
+  friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /\[0, 1e100\]/ },
+  amplitude: { ...ATLEAST0, "4e6": TAKEN, "5e6": /\[0, 1e8\]/ },
+  twist_amplitude: { ...ATLEAST0, "1e90": TAKEN, "1e300": /1e100\]/ },
+  stroke: { "1e-3": TAKEN, "-1": /amplitude/, "1e9": /legal range/ },
+  amplitude_angle: { "0": TAKEN, "30°": TAKEN, "2": /amplitude/ },
+  angular_frequency: { ...POSITIVE, "1e-310": /legal range/, "1e-3": TAKEN, "1e5": TAKEN, "1e6": /\[0, 1e8\]/ },
+  phase_lag: { ...ANY, "1e300": TAKEN, "-1e300": TAKEN },
+  contact_time: {
     "0": TAKEN, "-0": TAKEN, "1e-310": TAKEN, "1e3": TAKEN, "2e3": /the contact time has to be in \[0, 1590\]/, "-1": /\[0, 1590\]/,
   },
-  friction: { ...ATLEAST0, "1e90": TAKEN, "1e101": /\[0, 1e100\]/ },
   contact_radius: { ...POSITIVE, "1e-310": /1e100\]/, "1e-12": TAKEN, "1e8": TAKEN },
   gyration_radius: { ...POSITIVE, "1e-310": /legal range/, "1e-6": TAKEN, "1e8": TAKEN, "1e300": /1e100\]/ },
   preload_acceleration: { ...POSITIVE, "1e-310": /\[0, 1e8\]/, "1e-6": TAKEN, "1e8": TAKEN, "1e300": /legal range/ },
@@ -32,12 +34,28 @@ const FIELDS = {
   normalised_speed: { ...ATLEAST0, "1e8": TAKEN, "1e300": /more than the largest duration/ },
   angular_speed: { ...ANY, "1e8": TAKEN, "1e300": /1e100/, "-1e300": /1e100/ },
 }; // prettier-ignore
-for (const t of ["", "inf", "1e400", "1,5", "1 5", "0x1p3"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;
+for (const t of ["", "inf", "1e400", "1,5,1", "1 5", "0x1p3", "0.5 mm"]) FIELDS.restitution[t] = FIELDS.phase_lag[t] = NO_NUMBER;
 for (const expected of Object.values(FIELDS)) expected.NaN = NO_NUMBER;
 
 onPage("the list of fields is that of the page", "#view=toss", async (page) => {
   const names = await page.evaluate(() => [...document.querySelectorAll(".field")].map((one) => one.dataset.name));
   assert.deepEqual(names, Object.keys(FIELDS));
+});
+
+onPage("numbers are understood with a decimal comma and with a unit", "#view=toss", async (page) => {
+  const understood = {
+    amplitude: { "62 mm": "0.062", "6,2cm": "0.062", "62.5e3 µm": "0.0625", "1,250 m": null },
+    restitution: { "0,25": "0.25", "35 %": "0.35" },
+    angular_frequency: { "2 Hz": String(Number((4 * Math.PI).toPrecision(15))), "15 rad/s": "15" },
+    phase_lag: { "-90°": String(Number((-Math.PI / 2).toPrecision(15))), "-π/2": String(-Math.PI / 2) },
+    mass: { "400 g": "0.4", "0,5 kg": "0.5", "5 mm": null },
+  };
+  for (const [name, texts] of Object.entries(understood))
+    for (const [text, value] of Object.entries(texts)) {
+      await type(page, name, text);
+      if (value !== null) await whenValue(page, name, value);
+      else assert.match(await page.textContent(`#error-${name}`), /thousands or decimals|not a number/, text);
+    }
 });
 
 /** What has become of what was typed: the sentence of its refusal, or null once the state has this number. */
@@ -50,7 +68,7 @@ async function outcome(page, name, text) {
       // The forcing is computed back from the amplitude that it sets.
       return Math.abs(value - wanted) <= Math.max(1e-12 * Math.abs(wanted), 1e-300) && { refused: null };
     },
-    [name, Number(text)],
+    [name, text.endsWith("°") ? (parseFloat(text) * Math.PI) / 180 : Number(text)],
     { timeout: 5000 },
   );
   return (await answer.jsonValue()).refused;
@@ -59,9 +77,8 @@ async function outcome(page, name, text) {
 for (const [name, expected] of Object.entries(FIELDS))
   onPage(`${name}: every limit is kept, and the field goes on after each`, "#view=toss", async (page) => {
     const first = await valueOf(page, name);
-    const state = await stateOf(page);
     for (const [text, wanted] of Object.entries(expected)) {
-      const before = await valueOf(page, name);
+      const [before, state] = [await valueOf(page, name), await stateOf(page)];
       await type(page, name, text);
       const refused = await outcome(page, name, text);
       if (wanted === TAKEN) assert.equal(refused, null, `${name} = ${text}`);
@@ -102,7 +119,7 @@ onPage("a throw by numbers is refused with its range, too", "#view=toss", async 
   const problem = page.locator(".throw .error");
   const field = (index) => page.locator(".throw input").nth(index);
   for (const [index, good, bad] of [
-    [0, "100", ["", "1,5", "NaN", "1e400", "-1", "1e9"]],
+    [0, "100", ["", "1,500", "NaN", "1e400", "-1", "1e9"]],
     [1, "500", ["", "x", "-1e9", "1e9"]],
     [2, "5", ["", "1e7", "-1e400"]],
   ]) {

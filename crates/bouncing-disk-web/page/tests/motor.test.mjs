@@ -153,7 +153,7 @@ onPage("a contact time is stated, and what it rules out is said", `${MOTOR}&cont
   assert.match(await fact(page, "motor", "Stall load"), /bouncing-disk motor stall$/);
   await page.click("#tab-basins");
   await whenText(page, "#status", /set the contact time to 0$/);
-  await type(page, "contact_periods", "0.25");
+  await type(page, "contact_time", "0.25");
   await whenAddress(page, "contact_time", String(0.25 * 2 * Math.PI / 439822.9715025711));
-  assert.equal(await page.inputValue("#field-contact_periods"), "0.25");
+  assert.equal(await page.inputValue("#field-contact_time"), "0.25");
 });

@@ -86,7 +86,7 @@ class TossView implements View {
       },
     };
     attachThrowing(this.scene.surface, throwing);
-    const scene = [this.scene.root, this.gains, this.thrown, this.rounding.root, this.alternative];
+    const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = [this.heights.root, this.spins.root];
     const readings = [...this.readings.elements, throwForm(throwing)];
     const key =
@@ -98,7 +98,7 @@ class TossView implements View {
     ];
     const left = div("toss-left", element("div", {}, ...scene), section("Time traces", null, ...charts));
     const right = [section("Readings", "panel", ...readings), section("Phase portrait", null, ...portrait)];
-    host.append(this.controls.root, div("toss", left, div("toss-right", ...right)));
+    host.append(div("toss", left, div("toss-right", ...right)));
   }
 
   show(state: State): void {

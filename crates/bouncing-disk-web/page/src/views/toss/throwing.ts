@@ -115,7 +115,7 @@ export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "
   const problem = element("p", { class: "error", role: "alert", hidden: true });
   /** A number that no throw can have is refused with the range of those that one can. */
   const throwIt = () => {
-    const [gap = NaN, velocity = NaN, spin = NaN] = entries.map(({ input }) => typed(input.value, false) ?? NaN);
+    const [gap = NaN, velocity = NaN, spin = NaN] = entries.map(({ input }) => typed(input.value) ?? NaN);
     const thrown = { phase: phase(), gap: gap / 1000, relative_velocity: velocity / 1000, angular_speed: spin };
     const highest = bounded(system(), { ...thrown, gap: Infinity }).gap;
     const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
