@@ -7,22 +7,27 @@ import "./styles/screens.css";
 import "./styles/views.css";
 import { Address, link } from "./address";
 import { makeClient, type Source } from "./client";
-import type { Context, Offer, State, ViewKind } from "./contract";
+import type { Context, Offer, State, ViewKind, ViewName } from "./contract";
 import { fileName, save } from "./drawing/files";
 import { byId, element } from "./elements";
 import { Parameters } from "./form";
 import { Notes, Opening, Problems, TourPanel } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
+import { SYSTEM_NAMES } from "./protocol";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
 import { basins } from "./views/basins";
 import { diagram } from "./views/diagram";
 import { motor } from "./views/motor";
 import { toss } from "./views/toss";
-import { WORDS } from "./words";
+import { say, WORDS } from "./words";
 
 /** In the order of their tabs. */
 const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor];
+
+/** No ultrasonic motor has a drive as slow as this (rad/s). */
+const SLOWEST_MOTOR = 2e3 * Math.PI;
+const MOTOR_STATE = stateOf(openingPanel(PRESETS.find(({ id }) => id === "table3") as Preset));
 
 /** The worker's script and the module: in this page, or beside it. */
 function source(): Source {
@@ -63,6 +68,7 @@ function begin(): void {
     void store.open(state);
   });
 
+  let clock: number | undefined;
   const context: Context = {
     client,
     state: () => store.state(),
@@ -71,14 +77,33 @@ function begin(): void {
       announcer.textContent = text;
     },
     status: (text, kind = "done") => {
+      clearInterval(clock);
       // What is under way changes too often to be read out.
       statusLine.setAttribute("aria-live", kind === "busy" ? "off" : "polite");
       statusLine.textContent = text;
       statusLine.dataset["kind"] = kind;
+      const began = performance.now();
+      const tell = (): void => {
+        const seconds = Math.round((performance.now() - began) / 1000);
+        statusLine.textContent = say(WORDS.status.elapsed, { text, seconds });
+      };
+      if (kind === "busy") clock = window.setInterval(tell, 1000);
     },
   };
   const stage = new Stage(byId("views"), VIEWS, context);
-  const tabs = new Tabs(byId("tabs"), VIEWS, (view) => store.change({ view }));
+  /** What the motor's view has put aside: a hand is no motor. */
+  let aside: State | null = null;
+  const visit = (view: ViewName): void => {
+    const { system } = store.state();
+    const guest = aside !== null && SYSTEM_NAMES.every((name) => system[name] === MOTOR_STATE.system[name]);
+    if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
+      aside = store.state();
+      open(MOTOR_STATE);
+      context.announce(WORDS.status.motor_put_in);
+    } else if (guest && aside !== null && view !== "motor") open({ ...aside, view });
+    else store.change({ view });
+  };
+  const tabs = new Tabs(byId("tabs"), VIEWS, visit);
   const side = byId("parameters");
   const parameters = new Parameters(side, (change, options) => store.change(change, options));
   const choose = (preset: Preset, panel: Panel): void => {
@@ -149,7 +174,7 @@ function begin(): void {
       return;
     const view = VIEWS[Number(event.key) - 1]?.name;
     const own = tools.find(([key]) => key === event.key)?.[2];
-    if (view !== undefined) store.change({ view });
+    if (view !== undefined) visit(view);
     else if (own !== undefined) own();
     else return;
     event.preventDefault();

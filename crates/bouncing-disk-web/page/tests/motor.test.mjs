@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { fact, type, whenAddress, whenText, within as open } from "./browser.mjs";
+import { fact, savedBy, stateOf, type, whenAddress, whenText, within as open } from "./browser.mjs";
 import { sourceOf } from "./module.mjs";
 
 const words = await sourceOf("views/motor/words.ts");
@@ -156,4 +156,41 @@ onPage("a contact time is stated, and what it rules out is said", `${MOTOR}&cont
   await type(page, "contact_time", "0.25");
   await whenAddress(page, "contact_time", String(0.25 * 2 * Math.PI / 439822.9715025711));
   assert.equal(await page.inputValue("#field-contact_time"), "0.25");
+});
+
+onPage("the view of the motor starts with a motor, and the disk comes back", "#view=toss&friction=0.37", async (page) => {
+  await page.click("#tab-motor");
+  await whenAddress(page, "amplitude", "1e-8");
+  assert.match(await page.textContent("#note"), /ultrasonic motor/);
+  await page.click("#tab-diagram");
+  await whenAddress(page, "friction", "0.37");
+  assert.equal((await stateOf(page)).angular_frequency, "15");
+  // Somebody who changes the motor goes on with it.
+  await page.click("#tab-motor");
+  await whenAddress(page, "amplitude", "1e-8");
+  await type(page, "friction", "0.2");
+  await page.click("#tab-toss");
+  await whenAddress(page, "view", "toss");
+  assert.equal((await stateOf(page)).amplitude, "1e-8");
+});
+
+/** Bounces once in every period from the shared start, and chatters from rest. */
+const BISTABLE = "#view=motor&amplitude=0.0616&phase_lag=-0.8168&impact_phase=0.4&normalised_speed=1.4";
+onPage("where the run-up and the other views end on two attractors, the page says so", BISTABLE, async (page) => {
+  await whenText(page, "#view-motor .caution:not([hidden])", /starts from rest, and ends with: rest after .*end with: 1 impact in 1 period of the platform\./);
+  await type(page, "normalised_speed", "0.1");
+  await page.waitForFunction(() => document.querySelector("#view-motor .caution").hidden);
+});
+
+onPage("a run-up goes on until it is steady", `${MOTOR}&motor_rise_times=0.5`, async (page) => {
+  await done(page);
+  const [runUp] = await captions(page);
+  assert.doesNotMatch(runUp, /ends before/);
+  // It was asked for half a rise time, in which no motor gets there.
+  const { content } = await savedBy(page, async () => {
+    await page.click("#export-button");
+    await page.locator("dialog.export .card", { hasText: "motor run-up" }).filter({ hasText: "CSV" }).click();
+  });
+  const last = String(content).trim().split("\n").at(-1).split(",").map(Number);
+  assert.ok(Math.abs(last[1] - parseFloat(await fact(page, "motor", "Steady speed"))) < 1.5, `${last}`);
 });

@@ -4,6 +4,7 @@ import { Cancelled, messageOf, type Context, type State } from "../contract";
 import { element } from "../elements";
 import type { ImpactStart, VerdictJson } from "../protocol";
 import { axialForcing, contactPeriods } from "../state";
+import { say, WORDS } from "../words";
 
 /** The map of the vertical motion of the shared system. */
 export const mapOf = ({ system }: State) => ({
@@ -80,5 +81,28 @@ export class RoundingCaution {
       this.root.hidden = !(await verdictOf(context, this.slot, map, REST)).rounding_dependent;
     };
     this.verdict.get(map, ask).catch(() => {});
+  }
+}
+
+/** Says so where a motion from rest and the shared start end on two attractors: views that begin so then differ. */
+export class Attractors {
+  readonly root = element("p", { class: "caution", hidden: true });
+  private readonly verdicts = new Asked<void>();
+
+  constructor(private readonly slot: string) {}
+
+  show(context: Context, state: State): void {
+    const map = mapOf(state);
+    const start = impactOf(state);
+    const ask = async () => {
+      this.root.hidden = true;
+      if (map.contact_periods > 0) return;
+      const own = await verdictOf(context, `${this.slot}-start`, map, start);
+      const rest = await verdictOf(context, `${this.slot}-rest`, map, REST);
+      this.root.hidden = own.kind === rest.kind && own.impacts === rest.impacts;
+      const [first = "", other = ""] = [rest, own].map(({ text }) => text.replace(/, multipliers.*|\.$/s, ""));
+      this.root.textContent = say(WORDS.asking.two_attractors, { rest: first, start: other });
+    };
+    this.verdicts.get([map, start], ask).catch(() => {});
   }
 }

@@ -3,22 +3,25 @@
 import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
+import { rowsOf } from "../drawing/files";
 import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
-import type { MotorSheet, Range, ReportJson, SheetJson, StallJson } from "../protocol";
-import { WORDS } from "../words";
-import { Asked, tellFailure } from "./asking";
+import { percent } from "../numbers";
+import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
+import { say, WORDS } from "../words";
+import { Asked, Attractors, tellFailure } from "./asking";
 import { loadCharts, motorOffers, transientChart } from "./motor/charts";
 import {
   membersOf, operate, PASSES, reportOf, sheetOf, SheetPanel, stallOf, transientOf, SLOT, type Operation, type Transient,
 } from "./motor/sheet"; // prettier-ignore
 import { describeCurves, describeRunUp, ReportPanel, whyNothingTurns } from "./motor/words";
 
-const remarkOf = (sheet: MotorSheet | null): string =>
-  `Bands are two standard errors wide on either side; run-ups are means of ${membersOf(sheet)} motors. ` +
-  "A hollow circle is a load under which the motion has not settled: its numbers are the best so far. " +
-  "A cross is a load that drives the rotor.";
+const remarkOf = (sheet: MotorSheet | null): string => say(WORDS.motor.remark, { members: membersOf(sheet) });
 
-const CURVES = ["The speed against the load", "The power", "The efficiency"] as const;
+const CURVES = Object.values(WORDS.motor.curves);
+
+/** A run-up that does not come this near (relative) to the steady speed goes on, three times as long, so many times. */
+const NEAR = 0.05;
+const LENGTHENINGS = 3;
 
 /** Two charts above each other fill a window of any height, as far as they can still be read. */
 const chartHeight = (): number => clamp(window.innerHeight / 2 - 150, 230, 560);
@@ -31,6 +34,8 @@ class Known {
   operations: readonly Operation[] = [];
   /** The operation under the load of the sheet. */
   own: Operation | null = null;
+  /** The error that was asked for is not yet the last one. */
+  rough = true;
   /** Why there is no run-up, and no curve, where they cannot be computed. */
   problems: { runUp?: string; curve?: string } = {};
   loads: Range = [0, 1];
@@ -43,6 +48,7 @@ class MotorView implements View {
   private readonly runUpChart = new ScreenChart(chartHeight);
   private readonly curveCharts = CURVES.map(() => new ScreenChart(chartHeight));
   private readonly remark = element("p", { class: "remark" });
+  private readonly attractors = new Attractors("motor-attractors");
   private known = new Known();
   private imported: SheetJson | null = null;
   /** What the motor that is shown depends on. */
@@ -66,7 +72,7 @@ class MotorView implements View {
       section("Power and efficiency", null, power ?? null, efficiency ?? null, this.remark),
     ];
     const words = div("motor-words", this.reportPanel.root, this.sheetPanel.root);
-    host.append(div("motor", this.reportPanel.trap, ...charts, words));
+    host.append(div("motor", this.attractors.root, this.reportPanel.trap, ...charts, words));
   }
 
   show(state: State): void {
@@ -76,6 +82,7 @@ class MotorView implements View {
       this.shown = key;
       this.forget();
     }
+    this.attractors.show(this.context, state);
     this.compute();
     this.draw();
   }
@@ -121,7 +128,7 @@ class MotorView implements View {
   /** Fills in what is known of a motor; where another one is shown, what is asked for next is cancelled. */
   private async computeAll(state: State, known: Known): Promise<void> {
     const { context, reportPanel } = this;
-    context.status("Reading the data sheet", "busy");
+    context.status(WORDS.motor.reading, "busy");
     const sheet = this.sheetKnown(state) ?? (await sheetOf(context, state));
     const { json } = await context.client.ask<{ text: string }>(SLOT, { call: "sheet_write", sheet });
     known.sheet = sheet;
@@ -138,17 +145,13 @@ class MotorView implements View {
       context.status(still);
       return;
     }
-    context.status("Computing the run-up", "busy");
+    await this.runUp(sheet, state.motor.rise_times, known);
     try {
-      known.transient = await transientOf(context, sheet, state.motor.rise_times);
-    } catch (error) {
-      if (error instanceof Cancelled) throw error;
-      known.problems.runUp = messageOf(error);
-    }
-    reportPanel.runUp(known.transient, known.own, known.problems.runUp);
-    this.draw();
-    try {
-      for (const pass of PASSES) await this.sweep(sheet, report, state, pass, known);
+      for (const pass of PASSES) {
+        await this.sweep(sheet, report, state, pass, known);
+        if (known.rough) await this.runOn(sheet, state.motor.rise_times, known);
+        known.rough = false;
+      }
       // It takes longest where nothing bounces, and is the last to be missed.
       await this.findStall(sheet, known);
     } catch (error) {
@@ -159,6 +162,24 @@ class MotorView implements View {
     }
     if (known.problems.runUp !== undefined) context.status(known.problems.runUp, "error");
     else context.status(summaryOf(known.operations));
+  }
+
+  private async runUp(sheet: MotorSheet, rise_times: number, known: Known): Promise<void> {
+    this.context.status(say(WORDS.motor.running_up, { rise_times }), "busy");
+    try {
+      known.transient = await transientOf(this.context, sheet, rise_times);
+    } catch (error) {
+      if (error instanceof Cancelled) throw error;
+      known.problems.runUp = messageOf(error);
+    }
+    this.reportPanel.runUp(known.transient, known.own, known.problems.runUp);
+    this.draw();
+  }
+
+  /** A run-up is shown until it is steady, or said not to be. */
+  private async runOn(sheet: MotorSheet, rise_times: number, known: Known): Promise<void> {
+    for (let times = 1; times <= LENGTHENINGS && !isSteady(known); times += 1)
+      await this.runUp(sheet, rise_times * 3 ** times, known);
   }
 
   /** The loads of the curve, and with them that of the sheet, so that there is one steady speed on the page. */
@@ -173,8 +194,8 @@ class MotorView implements View {
     const torques = Array.from({ length: points }, (_, index) => low + ((high - low) * index) / (points - 1));
     const { load_torque } = sheet;
     const asked = torques.includes(load_torque) ? torques : [...torques, load_torque];
-    const error = `${100 * pass.relative_error} %`;
-    this.context.status(`Computing the operation under ${asked.length} loads with an error of ${error}`, "busy");
+    const values = { loads: asked.length, error: percent(pass.relative_error, 0) };
+    this.context.status(say(known.rough ? WORDS.motor.rough_curve : WORDS.motor.sharp_curve, values), "busy");
     const found = await operate(this.context, sheet, asked, pass);
     known.loads = [low, high];
     known.operations = found.slice(0, torques.length);
@@ -186,7 +207,7 @@ class MotorView implements View {
 
   /** A stall load that cannot be found is no failure of the view. */
   private async findStall(sheet: MotorSheet, known: Known): Promise<void> {
-    this.context.status("Searching the stall load", "busy");
+    this.context.status(WORDS.motor.searching_stall, "busy");
     let problem = "";
     try {
       known.stall = await stallOf(this.context, sheet);
@@ -215,26 +236,40 @@ class MotorView implements View {
     const still = report === null ? null : whyNothingTurns(report);
     setText(this.remark, still ?? remarkOf(this.known.sheet));
     for (const { root } of [this.runUpChart, ...this.curveCharts]) root.hidden = still !== null;
-    if (transient === null || report === null)
-      this.runUpChart.showWord(problems.runUp ?? "The run-up is being computed.");
-    else this.runUpChart.show(transientChart(transient, own), describeRunUp(transient, own, report));
+    if (transient === null || report === null) this.runUpChart.showWord(problems.runUp ?? WORDS.motor.run_up_coming);
+    else {
+      const rising = isSteady(this.known) ? "" : ` ${WORDS.motor.still_rising}`;
+      this.runUpChart.show(transientChart(transient, own), describeRunUp(transient, own, report) + rising);
+    }
     const charts = this.curves();
     const words = describeCurves(operations, stall);
     this.curveCharts.forEach((place, index) => {
       const chart = charts[index];
-      if (chart === undefined) place.showWord(problems.curve ?? `${CURVES[index]} is being computed.`);
-      else place.show(chart, words[index]);
+      const rough = this.known.rough ? `${WORDS.motor.rough} ` : "";
+      if (chart === undefined) place.showWord(problems.curve ?? CURVES[index] ?? "");
+      else place.show(chart, rough + (words[index] ?? ""));
     });
   }
 }
 
+/** Whether the last quarter of the run-up is at the steady speed; nobody knows before there is one. */
+function isSteady({ transient, own }: Known): boolean {
+  if (transient === null || own?.status !== 0) return true;
+  const rows = [...rowsOf(transient.numbers, TRANSIENT_COLUMNS.length)].slice(-Math.ceil(transient.json.points / 4));
+  return [rows[0], rows.at(-1)].every((row) => {
+    const [speed = NaN, error = NaN] = row?.slice(1) ?? [];
+    const slack = NEAR * Math.abs(own.speed) + 3 * Math.hypot(error, own.speed_error);
+    return Math.abs(speed - own.speed) <= slack;
+  });
+}
+
 function summaryOf(operations: readonly Operation[]): string {
-  const unsettled = operations.filter(({ status }) => status === 1).length;
-  const runaway = operations.filter(({ status }) => status === 2).length;
-  const words = [`Run-up and ${operations.length} loads are computed`];
-  if (unsettled > 0) words.push(`under ${unsettled} of them the motion has not settled`);
-  if (runaway > 0) words.push(runaway === 1 ? "one of them drives the rotor" : `${runaway} of them drive the rotor`);
-  return `${words.join("; ")}.`;
+  const [unsettled, runaway] = [1, 2].map((wanted) => operations.filter(({ status }) => status === wanted).length);
+  const { done, unsettled: slow, runaway: driven } = WORDS.motor;
+  const words = [say(done, { loads: operations.length })];
+  if (unsettled) words.push(say(slow, { loads: unsettled }));
+  if (runaway) words.push(say(driven, { loads: runaway }));
+  return words.join(" ");
 }
 
 export const motor: ViewKind = {
