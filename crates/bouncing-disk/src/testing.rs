@@ -7,8 +7,10 @@ use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
 use crate::System;
+use crate::motor::Motor;
 use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
+use crate::parameters::stator::StatorParameters;
 
 /// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.
 pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
@@ -16,6 +18,24 @@ pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {
         .with_platform(|stator| stator.amplitude = amplitude)
         .and_then(|motor| motor.with_disk(|rotor| rotor.load_acceleration = load_acceleration))
         .expect("legal")
+}
+
+/// Table III on a stator of 50 g in volts, which it lifts.
+pub(crate) fn in_volts() -> Motor {
+    let table = StatorParameters {
+        mass: Some(0.05),
+        quality: Some(300.0),
+        resonance: Some(70e3),
+        anti_resonance: Some(70.4e3),
+        capacitance: Some(1.2e-9),
+        volts: Some(10.0),
+        ..StatorParameters::default()
+    };
+    let motor = Motor::paper_70_khz().with(|sheet| {
+        (sheet.amplitude, sheet.stator) = (None, Some(table));
+        (sheet.mass, sheet.preload_acceleration, sheet.preload_force) = (Some(0.033), None, Some(0.3));
+    });
+    motor.expect("legal")
 }
 
 /// The motor on which a new user came to grief: 40 kHz, 0.5 um, 20 g, preload 5 N, 12 rad/s, lag 30 degrees;

@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {
-  fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, whenAddress, whenText, within,
+  fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
 } from "./browser.mjs"; // prettier-ignore
 
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
@@ -131,8 +131,7 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
   // The address is there before its state is.
   await page.getByRole("button", { name: "Start with the shared impact" }).waitFor();
   // Another start takes the place of a throw.
-  await page.fill("#field-normalised_speed", "1.2");
-  await page.press("#field-normalised_speed", "Enter");
+  await type(page, "normalised_speed", "1.2");
   await whenAddress(page, "throw", "none");
 });
 

@@ -10,9 +10,6 @@ use super::{CARRIES, CONTACT_TIMES, Curve, DETUNINGS, ExtraYieldingData, MASSES,
 /// The range (mN) in which the authors found the speed constant.
 const CONSTANT: (f64, f64) = (80.0, 280.0);
 
-/// Friction times contact radius of Table III (m), for the torque of friction.
-const ARM: f64 = 0.1 * 1.25e-3;
-
 /// The weight of the ball over its mass (m/s²).
 const WEIGHT: f64 = 9.81;
 
@@ -21,7 +18,10 @@ pub(super) fn draw(data: &ExtraYieldingData) -> Figure {
     let margins = Margins { left: 44.0, right: 14.0, top: 18.0, bottom: 34.0 };
     let grid = Grid::new(DOUBLE_COLUMN, HEIGHT, 4, 3).margins(margins).gaps(52.0, 44.0);
     let cell = |row, column| grid.cell(row, column);
-    let torque = 1e6 * ARM * data.mass_kg * PRELOADS.1;
+    let disk = *bouncing_disk::System::motor().disk();
+    // The torque of friction over the preload (m).
+    let arm = disk.friction() * disk.contact_radius();
+    let torque = 1e6 * arm * data.mass_kg * PRELOADS.1;
     let rows = [
         (&data.rigid, "70 kHz, rigid, by $M$", ["(a)", "(b)", "(c)"]),
         (&data.soft, "70 kHz, by $T_c/T$", ["(d)", "(e)", "(f)"]),
@@ -40,7 +40,7 @@ pub(super) fn draw(data: &ExtraYieldingData) -> Figure {
         panels.push(own(cell(row, 0), |point| point.speed, speed, title(0, "speed")));
         let mut torques = own(cell(row, 1), |point| 1e6 * point.stall_torque, stall, title(1, "torque"));
         if row > 0 {
-            let all = [0.0, PRELOADS.1].map(|g| (1e3 * g * data.mass_kg, 1e6 * ARM * g * data.mass_kg));
+            let all = [0.0, PRELOADS.1].map(|g| (1e3 * g * data.mass_kg, 1e6 * arm * g * data.mass_kg));
             torques = torques.layer(Line::new(all).colour(Colour::BLACK).width(0.6).dash(Dash::Dotted));
         }
         panels.push(torques.legend(Legend::at(Corner::TopLeft)));

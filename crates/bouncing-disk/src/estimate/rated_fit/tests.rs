@@ -5,8 +5,7 @@ use super::point::RatedCondition;
 use super::surface::THRESHOLD;
 use super::*;
 use crate::motor::data_sheet::motor_field::MotorField;
-use crate::parameters::stator::StatorParameters;
-use crate::testing::{Noise, golden_spread, refused_field};
+use crate::testing::{Noise, golden_spread, in_volts, refused_field};
 
 const FRICTION: FitRange = FitRange { parameter: FitParameter::Friction, low: 0.03, high: 0.4 };
 const TWIST: FitRange = FitRange { parameter: FitParameter::TwistAmplitude, low: 2e-5, high: 2e-4 };
@@ -14,23 +13,9 @@ const RESTITUTION: FitRange = FitRange { parameter: FitParameter::Restitution, l
 const MASS: FitRange = FitRange { parameter: FitParameter::StatorMass, low: 0.01, high: 0.3 };
 const QUALITY: FitRange = FitRange { parameter: FitParameter::StatorQuality, low: 50.0, high: 1500.0 };
 
-/// Table III with 0.11 um without a rotor, on a stator of 50 g in volts; a larger contact radius settles it sooner.
-fn in_volts() -> Motor {
-    let table = StatorParameters {
-        mass: Some(0.05),
-        quality: Some(300.0),
-        resonance: Some(70e3),
-        anti_resonance: Some(70.4e3),
-        capacitance: Some(1.2e-9),
-        volts: Some(10.0),
-        ..StatorParameters::default()
-    };
-    let motor = Motor::paper_70_khz().with(|sheet| {
-        (sheet.amplitude, sheet.stator) = (None, Some(table));
-        (sheet.mass, sheet.preload_acceleration, sheet.preload_force) = (Some(0.033), None, Some(0.3));
-        (sheet.peak_angular_speed, sheet.contact_radius) = (Some(30.0), 5e-3);
-    });
-    motor.expect("legal")
+/// A larger contact radius settles the motor sooner.
+fn settled_soon() -> Motor {
+    in_volts().with(|sheet| sheet.contact_radius = Some(5e-3)).expect("legal")
 }
 
 fn under(load: f64, load_error: f64, speed_error: f64) -> RatedPoint {
@@ -100,7 +85,7 @@ fn ranges_hold_the_truth() {
 #[test]
 #[ignore = "takes hours"]
 fn ninety_of_a_hundred_ranges_hold_the_truth() {
-    let (prescribed, volts) = (Motor::paper_70_khz(), in_volts());
+    let (prescribed, volts) = (Motor::paper_70_khz(), settled_soon());
     let loads = [under(0.0, 0.0, 0.5), under(8e-5, 8e-7, 0.5), under(1.4e-4, 4e-6, 0.5)];
     let preloads = [0.3, 2.0, 3.0].map(|force| under(0.0, 0.0, 0.5).at(MotorField::PreloadForce, force));
     let typical = covered(&prescribed, &prescribed_points(), &[FRICTION, TWIST], 0..100);
@@ -117,7 +102,7 @@ fn ninety_of_a_hundred_ranges_hold_the_truth() {
 /// A stator of ten times the mass changes the speed without load by 4 rad/s: a speed with an error of 3 says nothing.
 #[test]
 fn a_speed_that_is_badly_known_leaves_the_mass_of_a_stator_open() {
-    let motor = in_volts().with(|sheet| {
+    let motor = settled_soon().with(|sheet| {
         MotorField::Amplitude.set(sheet, 1.1e-7);
         sheet.stator.iter_mut().for_each(|table| (table.anti_resonance, table.capacitance) = (None, None));
     });
@@ -154,7 +139,7 @@ fn a_load_that_a_motor_holds_bounds_the_friction() {
 
 #[test]
 fn illegal_points_are_refused_by_name() {
-    let (motor, volts) = (Motor::paper_70_khz(), in_volts());
+    let (motor, volts) = (Motor::paper_70_khz(), settled_soon());
     let good = under(1e-6, 0.0, 0.3);
     let model = |motor: &Motor, points: &[RatedPoint], ranges: &[FitRange]| {
         let settings = settings(1);

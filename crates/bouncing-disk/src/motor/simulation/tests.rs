@@ -5,24 +5,7 @@ use crate::motor::{DrivenMotor, OperatingSettings, TransientSettings};
 use crate::parameters::contact::Contact;
 use crate::parameters::driven_platform::DriveParameters;
 use crate::parameters::stator::{StatorKind, StatorParameters};
-
-/// Table III on a stator of 50 g in volts, which it lifts.
-fn in_volts() -> Motor {
-    let table = StatorParameters {
-        mass: Some(0.05),
-        quality: Some(300.0),
-        resonance: Some(70e3),
-        anti_resonance: Some(70.4e3),
-        capacitance: Some(1.2e-9),
-        volts: Some(10.0),
-        ..StatorParameters::default()
-    };
-    let motor = Motor::paper_70_khz().with(|sheet| {
-        (sheet.amplitude, sheet.stator) = (None, Some(table));
-        (sheet.mass, sheet.preload_acceleration, sheet.preload_force) = (Some(0.033), None, Some(0.3));
-    });
-    motor.expect("legal")
-}
+use crate::testing::in_volts;
 
 fn begun(motor: &Motor) -> Result<MotorSimulation, Error> {
     MotorSimulation::new(motor, MotorInputs::of(motor), SimulationSettings::default())
