@@ -8,10 +8,11 @@ import "./styles/views.css";
 import { Address, link } from "./address";
 import { makeClient, type Source } from "./client";
 import type { Context, Offer, State, ViewKind, ViewName } from "./contract";
+import { COURSES, CoursePanel, type Course } from "./courses";
 import { fileName, save } from "./drawing/files";
 import { byId, element } from "./elements";
 import { Parameters } from "./form";
-import { Notes, Opening, Problems, TourPanel } from "./notes";
+import { Notes, Opening, Problems } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { SYSTEM_NAMES } from "./protocol";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
@@ -52,7 +53,7 @@ function begin(): void {
       else address.write(state, settled);
       tabs.show(state.view);
       parameters.show(state, fresh || fromAddress);
-      notes.show(state, tour.running);
+      notes.show(state, course.running);
       stage.show(state);
       fresh = false;
     },
@@ -107,6 +108,7 @@ function begin(): void {
   const side = byId("parameters");
   const parameters = new Parameters(side, (change, options) => store.change(change, options));
   const choose = (preset: Preset, panel: Panel): void => {
+    course.stay();
     notes.choose(preset, panel);
     open(stateOf(panel));
   };
@@ -124,8 +126,16 @@ function begin(): void {
       })),
   );
   const help = helpDialog();
-  const tour = new TourPanel(open);
-  byId("main").prepend(tour.element);
+  const course = new CoursePanel(() => store.state(), open);
+  byId("main").prepend(course.element);
+  const courses = choices(WORDS.course.choose, "courses", WORDS.course.what, () =>
+    COURSES.map((one) => ({
+      label: one.title,
+      note: one.note,
+      attributes: { "data-course": one.id },
+      act: () => course.begin(one),
+    })),
+  );
 
   const tool = (name: string): HTMLButtonElement => byId<HTMLButtonElement>(`${name}-button`);
   const themes = new Themes(tool("theme"), () => stage.redraw());
@@ -150,7 +160,7 @@ function begin(): void {
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [
     ["p", "presets", presets],
-    ["t", "tour", () => tour.begin()],
+    ["t", "courses", courses],
     ["e", "export", exports],
     ["l", "link", copy],
     ["d", "theme", () => context.announce(themes.next())],
@@ -181,7 +191,10 @@ function begin(): void {
   });
 
   // Only where nothing else is asked for: a link and a preset speak for themselves.
-  const opening = new Opening(byId("opening"), [[WORDS.opening.tour, () => tour.begin()]]);
+  const opening = new Opening(byId("opening"), [
+    [WORDS.opening.tour, () => course.begin(COURSES[0] as Course)],
+    [WORDS.opening.lessons, courses],
+  ]);
   if (location.hash === "") opening.show();
   const first = address.opened();
   problems.replace(first.problems);

@@ -1,10 +1,10 @@
-/** What stands above a view: the note on a preset, sentences about what could not be done, and the tour. */
+/** What stands above a view: the note on a preset, and sentences about what could not be done. */
 
 import type { State } from "./contract";
 import { button, closeButton, element, kept, rich } from "./elements";
-import { PRESETS, stateOf, STEPS, type Panel, type Preset } from "./presets";
-import { changed, DEFAULT_STATE, toHash } from "./state";
-import { WORDS } from "./words";
+import { PRESETS, stateOf, type Panel, type Preset } from "./presets";
+import { toHash } from "./state";
+import { say, WORDS } from "./words";
 
 /** The preset and panel of a state, so that links, reloads and going back show the card as well. */
 const BY_HASH = new Map<string, { preset: Preset; panel: Panel }>(
@@ -31,7 +31,7 @@ export class Notes {
     this.shown = { preset, panel };
   }
 
-  /** Nothing while the tour explains the same states in its own way. */
+  /** Nothing while a course explains the same states in its own way. */
   show(state: State, quiet: boolean): void {
     const { shown } = this;
     const hash = toHash(state);
@@ -51,17 +51,17 @@ export class Notes {
       return button(rich(panel.label), () => this.open(preset, panel), pressed);
     });
     const place = element("span", { class: "place" }, preset.place);
-    const changed = active === null ? element("span", { class: "changed" }, "changed since") : null;
+    const changed = active === null ? element("span", { class: "changed" }, WORDS.notes.changed) : null;
     // The focus stays on the panel that was just chosen.
     const focused = [...this.host.querySelectorAll(".chip")].indexOf(document.activeElement as HTMLElement);
     this.host.hidden = false;
     this.host.replaceChildren(
       element("h2", {}, place, ` ${preset.title}`, changed),
-      closeButton("Close this note", () => this.close()),
+      closeButton(WORDS.notes.close, () => this.close()),
       element("p", {}, ...rich(preset.text)),
     );
     if (chips.length > 0)
-      this.host.append(element("div", { class: "chips", role: "group", "aria-label": "Panels" }, ...chips));
+      this.host.append(element("div", { class: "chips", role: "group", "aria-label": WORDS.notes.panels }, ...chips));
     if (focused >= 0) chips[focused]?.focus({ preventScroll: true });
   } // prettier-ignore
 
@@ -120,74 +120,9 @@ export class Problems {
   private draw(): void {
     const shown = this.messages.slice(-MOST);
     const rest = this.messages.length - shown.length;
-    if (rest > 0) shown.unshift(`${rest} more.`);
+    if (rest > 0) shown.unshift(say(WORDS.notes.more, { count: rest }));
     this.host.hidden = shown.length === 0;
-    const close = closeButton("Close these messages", () => this.replace([]));
+    const close = closeButton(WORDS.notes.close_messages, () => this.replace([]));
     this.host.replaceChildren(...shown.map((message) => element("p", {}, message)), close);
-  }
-}
-
-/** The panel of the tour: it lies beside the picture and leaves everything in reach. */
-export class TourPanel {
-  readonly element: HTMLElement;
-  private readonly place = element("p", { class: "place" });
-  private readonly title = element("h2", { tabindex: -1 });
-  private readonly text = element("p", { class: "text" });
-  private readonly back = button("Back", () => this.go(this.step - 1));
-  private readonly next = button("Next", () => this.go(this.step + 1), { class: "primary" });
-  private step = 0;
-  private opener: HTMLElement | null = null;
-
-  constructor(private readonly open: (state: State) => void) {
-    const end = button("End", () => this.end());
-    const buttons = [end, this.back, this.next];
-    const parts = [this.place, this.title, this.text, element("div", { class: "buttons" }, ...buttons)];
-    this.element = element("section", { class: "tour", hidden: true, "aria-label": "Guided tour" }, ...parts);
-    this.element.addEventListener("keydown", (event) => this.pressed(event));
-  }
-
-  get running(): boolean {
-    return !this.element.hidden;
-  }
-
-  begin(): void {
-    if (this.running) {
-      this.title.focus();
-      return;
-    }
-    this.opener = document.activeElement as HTMLElement | null;
-    this.element.hidden = false;
-    this.go(0);
-  }
-
-  end(): void {
-    this.element.hidden = true;
-    this.opener?.focus();
-  }
-
-  private go(step: number): void {
-    const shown = STEPS[step];
-    if (shown === undefined) {
-      if (step >= STEPS.length) this.end();
-      return;
-    }
-    this.step = step;
-    this.place.textContent = `Step ${step + 1} of ${STEPS.length}`;
-    this.title.textContent = shown.title;
-    this.text.replaceChildren(...rich(shown.text));
-    this.back.disabled = step === 0;
-    this.next.textContent = step === STEPS.length - 1 ? "Finish" : "Next";
-    this.open(changed(DEFAULT_STATE, shown.change));
-    // A screen reader begins with the new step; the arrow keys work from here.
-    this.title.focus({ preventScroll: true });
-  }
-
-  private pressed(event: KeyboardEvent): void {
-    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (event.key === "Escape") this.end();
-    else if (by !== undefined && STEPS[this.step + by] !== undefined) this.go(this.step + by);
-    else return;
-    event.preventDefault();
-    event.stopPropagation();
   }
 }

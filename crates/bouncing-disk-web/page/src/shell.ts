@@ -2,6 +2,7 @@
 
 import type { Context, State, View, ViewKind, ViewName } from "./contract";
 import { button, closeButton, div, element, kept, oncePerFrame, roved } from "./elements";
+import { say, WORDS } from "./words";
 
 /** The tabs of the views: arrow keys move between them, as everywhere. */
 export class Tabs {
@@ -104,12 +105,16 @@ export class Themes {
     this.theme = THEMES[(THEMES.indexOf(this.theme) + 1) % THEMES.length] ?? "automatic";
     kept("theme", this.theme);
     this.apply();
-    return `Colours: ${this.theme}`;
+    return this.name();
+  }
+
+  private name(): string {
+    return say(WORDS.shell.colours, { theme: WORDS.shell.themes[this.theme] });
   }
 
   private apply(): void {
     this.opener.dataset["theme"] = this.theme;
-    this.opener.setAttribute("aria-label", `Colours: ${this.theme}`);
+    this.opener.setAttribute("aria-label", this.name());
     const scheme = this.theme === "automatic" ? (dark.matches ? "dark" : "light") : this.theme;
     const { dataset } = document.documentElement;
     if (dataset["scheme"] === scheme) return;
@@ -121,7 +126,7 @@ export class Themes {
 function dialog(title: string, name: string, ...content: Node[]): HTMLDialogElement {
   const made = element("dialog", { class: name, "aria-labelledby": `${name}-title` });
   const heading = element("h2", { id: `${name}-title` }, title);
-  const close = closeButton("Close", () => made.close());
+  const close = closeButton(WORDS.shell.close, () => made.close());
   made.append(div("sheet", heading, close, ...content));
   // A click beside the sheet closes it.
   made.addEventListener("click", (event) => {
@@ -163,50 +168,27 @@ export function choices(title: string, name: string, words: string, choicesNow: 
   };
 }
 
-const KEYS: readonly [string, string][] = [
-  ["1 2 3 4", "Toss, orbit diagram, basins, motor"],
-  ["p", "figures and tables of the paper"],
-  ["t", "guided tour; in it → next, ← back, Esc end"],
-  ["e", "export data and pictures of the view"],
-  ["l", "copy a link to what you see"],
-  ["d", "light, dark or automatic colours"],
-  ["?", "this help"],
-  ["↑ ↓", "in a number: one step; with Shift ten"],
-  ["Esc", "in a number: back to the last legal value"],
-  ["+ − 0", "in a diagram or basins: nearer, farther, all"],
-  ["← → ↑ ↓", "there: move what is seen"],
-  ["Shift ← → ↑ ↓", "there: move the cross"],
-  ["Enter", "there: choose what is under the cross"],
-];
-
 /** Single keys get in the way of dictation and of some screen readers, so they can be switched off. */
 export const shortcutsOn = (): boolean => kept("keys") !== "off";
 
 export function helpDialog(): HTMLDialogElement {
+  const words = WORDS.shell.help;
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
   box.addEventListener("change", () => kept("keys", box.checked ? "on" : "off"));
-  const keys = KEYS.map(([key, what]) => {
+  const keys = words.keys.map(([key = "", what = ""]) => {
     const caps = key.split(" ").map((one) => element("kbd", {}, one));
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
+  const [before = "", after = ""] = words.model.split("{paper}");
   return dialog(
-    "Keyboard and about",
+    words.title,
     "help",
     element("dl", { class: "keys" }, ...keys),
-    paragraph(element("label", {}, box, " Keys without Ctrl or Alt work")),
-    element("h3", {}, "What this is"),
-    paragraph(
-      "A disk bounces on a platform that vibrates and twists: a pizza dough on a hand, a steel ball on a chaotic " +
-        "table, or the rotor of an ultrasonic motor. Everything is computed in this page by the library of the " +
-        "project, with the same bits as on any other machine; nothing is sent anywhere, and nothing is loaded " +
-        "from anywhere.",
-    ),
-    paragraph(
-      "The model is that of K.-C. Liu, J. Friend and L. Yeo, ",
-      element("cite", {}, "Rotating bouncing disks, tossing pizza dough, and the behavior of ultrasonic motors"),
-      ", Phys. Rev. E 80, 046201 (2009), doi:10.1103/PhysRevE.80.046201. Please cite it for the physics.",
-    ),
-    paragraph("Licence: MIT or Apache-2.0, as you prefer."),
+    paragraph(element("label", {}, box, ` ${words.on}`)),
+    element("h3", {}, words.what),
+    paragraph(say(words.about, { opening: WORDS.opening.sentence })),
+    paragraph(before, element("cite", {}, words.paper), after),
+    paragraph(words.licence),
   );
 }

@@ -110,8 +110,9 @@ onPage("what is tapped has 40 pixels at least", { width: 360, height: 740, hasTo
   await page.locator("dialog.presets .card").first().tap();
   await settled(page);
   assert.deepEqual(await small(), [], "note");
-  await page.tap("#tour-button");
-  assert.deepEqual(await small(), [], "tour");
+  await page.tap("#courses-button");
+  await page.tap("[data-course='doubling']");
+  assert.deepEqual(await small(), [], "lesson");
 });
 
 onPage("on a telephone the picture comes first", { width: 360, height: 740, hasTouch: true }, async (page) => {

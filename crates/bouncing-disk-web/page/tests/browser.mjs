@@ -94,6 +94,12 @@ export async function preset(page, id, panel = 0) {
   await settled(page);
 }
 
+/** Begins the tour or a lesson. */
+export async function course(page, id) {
+  await page.click("#courses-button");
+  await page.click(`[data-course="${id}"]`);
+}
+
 export const stateOf = async (page) =>
   Object.fromEntries(
     (await page.evaluate(() => location.hash))

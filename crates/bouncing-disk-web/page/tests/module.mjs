@@ -11,6 +11,13 @@ import { build } from "esbuild";
 export const file =
   process.env.EXPLORER_HTML ?? fileURLToPath(new URL("../../../../target/explorer/explorer.html", import.meta.url));
 
+/** All texts of the page. */
+export const WORDS = JSON.parse(readFileSync(new URL("../src/words.json", import.meta.url), "utf8"));
+
+/** A text as the source of a pattern, with patterns for some of its values, and `.*` for the others. */
+export const patternOf = (text, values = {}) =>
+  text.replace(/[.*+?^$()|[\]\\]/g, "\\$&").replace(/\{(\w+)\}/g, (_, name) => values[name] ?? ".*");
+
 export async function sourceOf(path) {
   const entryPoints = [fileURLToPath(new URL(`../src/${path}`, import.meta.url))];
   const { outputFiles } = await build({ entryPoints, write: false, bundle: true, format: "esm", logLevel: "warning" });

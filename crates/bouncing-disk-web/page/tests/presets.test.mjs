@@ -1,10 +1,12 @@
-/** Every figure and table of the paper, all their panels, whose answers `native.test.mjs` waits for, and the tour. */
+/** Every figure and table of the paper, all their panels, whose answers `native.test.mjs` waits for, and the courses. */
 
 import assert from "node:assert/strict";
-import { isCalm, onPage, preset, settled, stateOf, type, whenText } from "./browser.mjs";
-import { sourceOf } from "./module.mjs";
+import { course, isCalm, onPage, preset, settled, stateOf, type, whenText } from "./browser.mjs";
+import { patternOf, sourceOf, WORDS } from "./module.mjs";
 
 const { PRESETS } = await sourceOf("presets.ts");
+const { COURSES } = await sourceOf("courses.ts");
+const { toHash } = await sourceOf("state.ts");
 
 for (const { id, panels } of PRESETS) {
   onPage(`${id} opens with all its panels, says what to see and is legal`, {}, async (page) => {
@@ -48,20 +50,39 @@ onPage("the note goes with its state, and where another view or another system h
   await page.waitForSelector("#note", { state: "hidden" });
 });
 
-onPage("the tour has eight steps, each a state and two or three sentences", {}, async (page) => {
-  await page.click("#tour-button");
-  const states = new Set();
-  for (let step = 1; step <= 8; step++) {
-    await whenText(page, ".tour .place", new RegExp(`^Step ${step} of 8$`));
-    await settled(page);
-    await page.waitForTimeout(300);
-    states.add(JSON.stringify(await stateOf(page)));
-    const sentences = (await page.textContent(".tour .text")).split(/[.?!;:] /).length;
-    assert.ok(sentences >= 2, await page.textContent(".tour .text"));
-    await isCalm(page);
-    await page.click(".tour .primary");
-  }
-  assert.equal(states.size, 8);
+const stateNow = async (page) => JSON.stringify(await stateOf(page));
+
+for (const { id, steps } of COURSES)
+  onPage(`the course ${id} leads through its states, and gives back the one that it found`, "#view=basins", async (page) => {
+    const before = await stateNow(page);
+    await course(page, id);
+    for (const [step, { state, answer }] of steps.entries()) {
+      const place = patternOf(WORDS.course.place, { step: step + 1, steps: steps.length });
+      await whenText(page, ".tour .place", new RegExp(`^${place}$`));
+      await page.waitForFunction((hash) => location.hash === hash, toHash(state));
+      await isCalm(page);
+      const answers = page.locator(".tour details p");
+      if (answer) assert.equal(await answers.isVisible(), false, "an answer waits until somebody asks for it");
+      if (answer) await page.click(".tour summary");
+      assert.equal(await answers.count(), answer ? 1 : 0);
+      await page.click(".tour .primary");
+    }
+    assert.equal(await page.isVisible(".tour"), false);
+    assert.equal(await page.evaluate(() => document.activeElement.id), "courses-button", "the focus goes back");
+    await page.waitForTimeout(400);
+    assert.equal(await stateNow(page), before);
+  });
+
+onPage("a course ends where somebody wants to stay, and with a figure", {}, async (page) => {
+  await course(page, "tour");
+  await page.click(".tour .primary");
+  await settled(page);
+  await page.click(`.tour button:text-is("${WORDS.course.stay}")`);
+  await page.waitForTimeout(400);
   assert.equal(await page.isVisible(".tour"), false);
-  assert.equal(await page.evaluate(() => document.activeElement.id), "tour-button", "the focus goes back");
+  assert.equal(await page.evaluate(() => location.hash), toHash(COURSES[0].steps[1].state));
+  await course(page, "rest");
+  await preset(page, "fig07");
+  assert.equal(await page.isVisible(".tour"), false);
+  assert.ok(await page.isVisible("#note"));
 });

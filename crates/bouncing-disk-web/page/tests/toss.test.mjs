@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import {
-  fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
+  course, fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
 } from "./browser.mjs"; // prettier-ignore
 
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
@@ -63,9 +63,9 @@ onPage("a motion that another view, the tour or a figure opens is seen to move",
     await preset(page, id);
     await plays(page, id);
   }
-  await page.click("#tour-button");
+  await course(page, "tour");
   for (let step = 1; step <= 6; step++) {
-    await whenText(page, ".tour .place", new RegExp(`^Step ${step} of 8$`));
+    await whenText(page, ".tour .place", new RegExp(`step ${step} of 8$`));
     if (step === 4 || step === 6) await plays(page, `step ${step} of the tour`);
     await page.click(".tour .primary");
   }

@@ -1,0 +1,165 @@
+/** The tour and the lessons: courses of steps, each of them a state, with words beside the picture. */
+
+import type { Change, State } from "./contract";
+import { button, element, rich, setText } from "./elements";
+import {
+  basins, bouncing, diagram, motor, multipleToss, REST, stateOf, toss, tossOf, withForcing, withTwist,
+} from "./presets"; // prettier-ignore
+import type { Range } from "./protocol";
+import { say, WORDS } from "./words";
+
+type Words = typeof WORDS.courses;
+type Id = keyof Words;
+
+const { PI } = Math;
+const TEXTS = WORDS.course;
+
+/** Phases of impacts over the forcing from `low` to `high`, for a system with the first number as its own. */
+function cascade(forcing: number, low: number, high: number, range: Range | null = null): Change {
+  const { diagram: window, ...change } = diagram("impact_phase", withForcing(multipleToss, forcing), [low, high]);
+  return { ...change, diagram: { ...window, range } };
+}
+
+/** Starts that are nearly at rest. */
+const SLOW = { ...basins(0.45), basins: { phase_periods: [0, 1], normalised_speed: [0, 0.6] } } satisfies Change;
+
+/** The states of the steps, from the defaults; all have their words. */
+const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["steps"], Change>> } = {
+  tour: {
+    toss: toss({}),
+    bounce: bouncing(0.45),
+    road: cascade(0.45, 0.32, 0.58),
+    chaos: bouncing(0.55),
+    starts: basins(0.486),
+    rest: bouncing(0.45, REST),
+    motor: motor({}),
+    lag: diagram("angular_speed", withTwist(withForcing(multipleToss, 0.486), 1), [0.32, 0.58]),
+  },
+  doubling: {
+    one: bouncing(0.45),
+    two: bouncing(0.48),
+    diagram: cascade(0.48, 0.44, 0.53),
+    multiplier: bouncing(0.5),
+  },
+  feigenbaum: {
+    cascade: cascade(0.53, 0.48, 0.545),
+    ratios: cascade(0.5424, 0.542, 0.5427, [0.19, 0.235]),
+    limit: cascade(0.543, 0.538, 0.546, [0.15, 0.25]),
+  },
+  rest: { plane: basins(0.45), edge: SLOW, flight: bouncing(0.45, REST), push: bouncing(0.45, REST) },
+  hand: {
+    release: toss({}),
+    lag: toss(tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
+    angle: toss(tossOf({ angle: 0.323 * PI })),
+    friction: toss(tossOf({ angle: 0.323 * PI })),
+  },
+  motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
+  sensitivity: {
+    chaos: bouncing(0.55),
+    exponent: cascade(0.55, 0.54999, 0.55001),
+    order: cascade(0.45, 0.44, 0.46),
+    bits: bouncing(0.55),
+  },
+};
+
+interface StepWords {
+  readonly title: string;
+  readonly text: string;
+  /** Something to do on the page, and what comes of it. */
+  readonly task?: string;
+  readonly answer?: string;
+}
+
+/** In the order in which they are offered. */
+export const COURSES = (Object.keys(STEPS) as Id[]).map((id) => {
+  const words: { readonly title: string; readonly note: string; readonly steps: object } = WORDS.courses[id];
+  const said = words.steps as Readonly<Record<string, StepWords>>;
+  const steps = Object.entries<Change>(STEPS[id]).map(([name, change]) => ({
+    ...(said[name] as StepWords),
+    state: stateOf({ change }),
+  }));
+  return { id, title: words.title, note: words.note, steps };
+});
+
+export type Course = (typeof COURSES)[number];
+
+/** The panel of a course: it lies beside the picture and leaves everything in reach. */
+export class CoursePanel {
+  readonly element: HTMLElement;
+  private readonly place = element("p", { class: "place" });
+  private readonly title = element("h2", { tabindex: -1 });
+  private readonly text = element("div", { class: "text" });
+  private readonly back = button(TEXTS.back, () => this.go(this.step - 1));
+  private readonly next = button("", () => this.go(this.step + 1), { class: "primary" });
+  private course: Course | null = null;
+  private step = 0;
+  /** What was shown before the course, and what had the focus. */
+  private before: { state: State; focus: Element | null } | null = null;
+
+  constructor(
+    private readonly present: () => State,
+    private readonly open: (state: State) => void,
+  ) {
+    const end = button(TEXTS.end, () => this.end(), { title: TEXTS.end_hint });
+    const stay = button(TEXTS.stay, () => this.stay(), { title: TEXTS.stay_hint });
+    const buttons = element("div", { class: "buttons" }, end, stay, this.back, this.next);
+    this.element = element("section", { class: "tour", hidden: true }, this.place, this.title, this.text, buttons);
+    this.element.addEventListener("keydown", (event) => this.pressed(event));
+  }
+
+  get running(): boolean {
+    return this.before !== null;
+  }
+
+  begin(course: Course): void {
+    this.before ??= { state: this.present(), focus: document.activeElement };
+    this.course = course;
+    this.element.hidden = false;
+    this.element.setAttribute("aria-label", course.title);
+    this.go(0);
+  }
+
+  /** Leaves the page as it is now. */
+  stay(): void {
+    this.element.hidden = true;
+    (this.before?.focus as HTMLElement | null)?.focus();
+    this.before = null;
+  }
+
+  private end(): void {
+    const { before } = this;
+    this.stay();
+    if (before !== null) this.open(before.state);
+  }
+
+  private go(step: number): void {
+    const { title, steps } = this.course as Course;
+    const shown = steps[step];
+    if (shown === undefined) {
+      if (step >= steps.length) this.end();
+      return;
+    }
+    this.step = step;
+    setText(this.place, say(TEXTS.place, { course: title, step: step + 1, steps: steps.length }));
+    setText(this.title, shown.title);
+    const { text, task, answer } = shown;
+    const asked = task && element("p", {}, element("b", {}, TEXTS.task), " ", ...rich(task));
+    const told =
+      answer && element("details", {}, element("summary", {}, TEXTS.answer), element("p", {}, ...rich(answer)));
+    this.text.replaceChildren(element("p", {}, ...rich(text)), ...[asked, told].flatMap((part) => part || []));
+    this.back.disabled = step === 0;
+    setText(this.next, step === steps.length - 1 ? TEXTS.finish : TEXTS.next);
+    this.open(shown.state);
+    // A screen reader begins with the new step; the arrow keys work from here.
+    this.title.focus({ preventScroll: true });
+  }
+
+  private pressed(event: KeyboardEvent): void {
+    const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+    if (event.key === "Escape") this.end();
+    else if (by !== undefined && this.course?.steps[this.step + by] !== undefined) this.go(this.step + by);
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+}

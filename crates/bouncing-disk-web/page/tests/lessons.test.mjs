@@ -1,0 +1,166 @@
+/** What the lessons and the tour say, computed by the module of the page. */
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { asker, sourceOf } from "./module.mjs";
+
+const { COURSES } = await sourceOf("courses.ts");
+const { axialForcing } = await sourceOf("state.ts");
+const ask = asker();
+
+/** A step by the order in which it comes: its state, and what it says, of which all `words` have to be a part. */
+function step(id, number) {
+  const { state, text, answer = "" } = COURSES.find((one) => one.id === id).steps[number - 1];
+  const says = (...words) => {
+    for (const one of words) assert.ok(`${text} ${answer}`.includes(one), `${one}: ${text} ${answer}`);
+  };
+  return { state, says };
+}
+
+const mapOf = ({ system }, axial_forcing = axialForcing(system)) => ({
+  axial_forcing, restitution: system.restitution, contact_periods: 0,
+}); // prettier-ignore
+
+const orbitOf = async (state, forcing, { impact_phase, normalised_speed } = state.start) =>
+  (await ask({ call: "orbit", ...mapOf(state, forcing), start: { impact_phase, normalised_speed } })).json;
+
+const attractorsOf = async (state) => (await ask({ call: "attractors", ...mapOf(state) })).json.attractors;
+
+/** The labels of the cells of a window. */
+async function cellsOf(state) {
+  const [phases, speeds] = [200, 100];
+  return (await ask({ call: "basins", ...mapOf(state), ...state.basins, phases, speeds, rows: [0, speeds] })).bytes;
+}
+
+/** The first separation of a motion. */
+async function thrown({ system, start }, change = {}) {
+  const motion = { system: { ...system, ...change }, start: { kind: "impact", ...start }, periods: 3, samples_per_period: 64 };
+  const { json, numbers, bytes } = await ask({ call: "motion", ...motion });
+  const first = json.event_kinds.findIndex((kind) => /separation/i.test(kind));
+  const event = bytes.subarray(json.samples).indexOf(first);
+  const [, phase, , , angular_speed] = numbers.subarray(9 * json.samples + 6 * event);
+  return { phase, angular_speed };
+}
+
+test("doubling: period one, period two, and the multiplier between them", async () => {
+  const { state, says } = step("doubling", 3);
+  for (const [number, impacts] of [[1, 1], [2, 1], [4, 2]])
+    assert.equal((await orbitOf(step("doubling", number).state)).impacts, impacts, `${number}`);
+  assert.equal((await orbitOf(step("doubling", 2).state, 0.5)).impacts, 2);
+  for (const number of [1, 2]) {
+    const [, orbit] = await attractorsOf(step("doubling", number).state);
+    assert.ok(Math.abs(orbit.impact.normalised_speed - 4 / 3) < 1e-9);
+  }
+  const { json } = await ask({ call: "branches", restitution: 0.5, axial_forcing: state.diagram.axial_forcing });
+  const [{ axial_forcing }] = json.bifurcations.filter(({ kind }) => kind === "doubling");
+  says(`At Γ = ${axial_forcing.toFixed(3)}.`, "−1 there");
+  for (const [forcing, words] of [[0.484, "1 impact in 1 period"], [0.488, "2 impacts in 2 periods"]]) {
+    assert.ok((await orbitOf(state, forcing)).text.startsWith(words), words);
+    says(words);
+  }
+  for (const forcing of [0.48, 0.485]) {
+    const [[least]] = (await orbitOf(state, forcing)).multipliers;
+    says(`−${(-least).toFixed(2)} at Γ = ${forcing}`);
+    if (forcing === 0.48) step("doubling", 4).says(`−${(-least).toFixed(2)}`, `${(100 * (1 + least)).toFixed(0)} %`);
+  }
+}); // prettier-ignore
+
+test("Feigenbaum: five doublings, their ratios, and where they lead", async () => {
+  const doublings = async (number) => {
+    const { axial_forcing } = step("feigenbaum", number).state.diagram;
+    const { json } = await ask({ call: "branches", restitution: 0.5, axial_forcing });
+    return json.bifurcations.filter(({ kind }) => kind === "doubling").map((one) => one.axial_forcing);
+  };
+  const found = await doublings(1);
+  assert.equal(found.length, 5, "the page follows the first five");
+  assert.deepEqual(await doublings(2), found.slice(3));
+  const name = (index) => `Γ${"₁₂₃₄₅"[index]}`;
+  found.forEach((one, index) => step("feigenbaum", 1).says(`${name(index)} = ${one.toFixed(4)}`));
+  found.forEach((one, index) => step("feigenbaum", 2).says(`${name(index)} = ${one.toFixed(6)}`));
+  // As a reader has them, with six digits.
+  const read = found.map((one) => Number(one.toFixed(6)));
+  const steps = read.slice(1).map((one, index) => one - read[index]);
+  const ratios = steps.slice(1).map((one, index) => steps[index] / one);
+  const [first, second, third] = ratios.map((one) => one.toFixed(2));
+  step("feigenbaum", 2).says(`${first}, ${second} and ${third}`);
+  const limit = read[4] + steps[3] / 3.669;
+  const { state, says } = step("feigenbaum", 3);
+  says(`${(100 * (1 - ratios[2] / 4.669)).toFixed(1)} % below`);
+  says(`${read[4].toFixed(6)} + ${steps[3].toFixed(6)}/3.669 = ${limit.toFixed(6)}`);
+  assert.equal((await orbitOf(state, 0.5426)).impacts, 32);
+  assert.equal((await orbitOf(state)).kind, "chaotic");
+});
+
+test("rest: two attractors, and slow starts of only one of them", async () => {
+  const { state } = step("rest", 1);
+  const [rest, orbit, ...others] = await attractorsOf(state);
+  assert.deepEqual([rest.kind, orbit.kind, others], ["rest", "periodic", []]);
+  const share = (cells) => cells.filter((label) => label === rest.label).length / cells.length;
+  assert.ok(Math.abs(share(await cellsOf(state)) - 2 / 3) < 0.03);
+  assert.equal(share(await cellsOf(step("rest", 2).state)), 1);
+  const flight = step("rest", 3);
+  const { phase } = await thrown(flight.state);
+  assert.ok(Math.abs(Math.sin(phase) - 1 / (0.45 * Math.PI)) < 1e-9);
+  flight.says(Math.sin(phase).toFixed(3), phase.toFixed(3), `${(phase / 2 / Math.PI).toFixed(3)} of a period`);
+  flight.says(`${(await orbitOf(flight.state)).impacts} impacts`);
+  const pushed = await orbitOf(step("rest", 4).state, 0.45, { impact_phase: 0.4, normalised_speed: 1.4 });
+  assert.equal(pushed.impacts, 1);
+});
+
+test("hand: the speeds of the tosses", async () => {
+  const spin = async (state, change) => `${(await thrown(state, change)).angular_speed.toFixed(1)} rad/s`;
+  step("hand", 1).says(await spin(step("hand", 1).state));
+  const lag = step("hand", 2);
+  lag.says(`only ${await spin(lag.state)}`, `${await spin(lag.state, { phase_lag: Math.PI / 4 })} with θ = π/4`);
+  lag.says(`${await spin(lag.state, { phase_lag: 0 })} with θ = 0`);
+  const { state, says } = step("hand", 3);
+  says(`${await spin(state, { amplitude: 0.1463, twist_amplitude: 1.5016 })} instead of ${await spin(state)}`);
+  says(await spin(step("hand", 1).state), `${(0.55 / Math.PI).toFixed(3)}π`);
+  const friction = step("hand", 4);
+  for (const value of [0.7, 0.5]) friction.says(`${await spin(friction.state, { friction: value })} with μ = ${value}`);
+});
+
+test("motor: what the sheet, the run-up and the curve say", async () => {
+  const reads = async (number) => {
+    const { system, mass } = step("motor", number).state;
+    const { sheet } = (await ask({ call: "sheet_of_system", system, mass })).json;
+    const report = (await ask({ call: "motor_report", sheet })).json;
+    const stall = (await ask({ call: "motor_stall", sheet, relative_error: 0.02, seed: 1 })).json;
+    const run = { call: "motor_transient", sheet, members: 16, rise_times: 6, points: 160, seed: 1 };
+    const { value } = (await ask(run)).json.rise.constant;
+    return { sheet, report, stall, value, steady: stall.no_load_speed };
+  };
+  const { sheet, report, stall, value, steady } = await reads(1);
+  const largest = report.largest_torque;
+  assert.ok(Math.abs(0.1 * 0.0329 * 9.8 * 1.25e-3 - largest) < 1e-3 * largest);
+  const micro = (torque, digits = 0) => `${(1e6 * torque).toFixed(digits)} µN m`;
+  step("motor", 1).says(micro(largest, 1));
+  const percent = (share) => `${(100 * share).toFixed(0)} %`;
+  step("motor", 2).says(`${steady.toFixed(1)} rad/s`, percent(steady / 30), `${value.toFixed(2)} s`);
+  step("motor", 3).says(micro(stall.torque), percent(stall.torque / largest));
+  // The loads of the page: nine from none to the largest.
+  const load_torques = Array.from({ length: 9 }, (_, index) => (index * largest) / 8);
+  const request = { call: "motor_loads", sheet, load_torques, relative_error: 0.02, most_impacts: 20e6, seed: 1 };
+  const { numbers } = await ask(request);
+  const powers = load_torques.map((_, row) => numbers[10 * row + 3]).filter(Number.isFinite);
+  const best = powers.indexOf(Math.max(...powers));
+  step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e3 * powers[best]).toFixed(2)} mW`);
+  assert.ok(Math.abs(load_torques[best] / stall.torque - 0.5) < 0.06);
+  const double = await reads(4);
+  step("motor", 4).says(micro(double.stall.torque), `${double.steady.toFixed(1)} rad/s`, `${double.value.toFixed(2)} s`);
+});
+
+test("sensitivity: the exponents, and how many impacts they leave", async () => {
+  assert.equal((await orbitOf(step("sensitivity", 1).state)).kind, "chaotic");
+  const { state, says } = step("sensitivity", 2);
+  const [low, high] = state.diagram.axial_forcing;
+  // Wherever somebody points.
+  for (const share of [0, 0.3, 0.5, 0.8, 1]) {
+    const { exponent } = await orbitOf(state, low + share * (high - low));
+    assert.ok(Math.abs(exponent - 0.285) < 0.004, `${exponent}`);
+  }
+  says("about 0.285", `= ${(Math.log(1e16) / 0.285).toFixed(0)}:`);
+  const { exponent } = await orbitOf(step("sensitivity", 3).state);
+  assert.ok(Math.abs(exponent + Math.LN2) < 1e-9);
+  step("sensitivity", 3).says(`−${Math.LN2.toFixed(3)}`);
+});
