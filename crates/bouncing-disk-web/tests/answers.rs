@@ -105,7 +105,8 @@ fn the_tables_of_the_page_are_those_of_the_library() {
     let motion = json!({
         "stroke": hand.stroke, "amplitude_angle": hand.amplitude_angle, "angular_frequency": hand.angular_frequency
     });
-    let tables = json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor, "ranges": ranges() });
+    let tables =
+        json!({ "table_one": with(json!(dough.disk()), motion), "table_three": motor, "ranges": ranges() });
     let text = serde_json::to_string_pretty(&tables).expect("storable") + "\n";
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/page/src/tables.json");
     if std::env::var_os("UPDATE_DOCUMENTATION").is_some() {

@@ -6,11 +6,10 @@ use bouncing_disk_core::numerics::elementary::exp;
 use bouncing_disk_core::{ChatterPolicy, Phase};
 use proptest::prelude::*;
 
-use crate::System;
-use crate::motor::Motor;
 use crate::motion::initial_condition::InitialCondition;
 use crate::parameters::dimensionless::{DimensionlessParameters, DimensionlessSystem};
 use crate::parameters::stator::StatorParameters;
+use crate::{Motor, System};
 
 /// The motor of Table III, at an `amplitude` in m and a load in rad/s^2.
 pub(crate) fn motor(amplitude: f64, load_acceleration: f64) -> System {

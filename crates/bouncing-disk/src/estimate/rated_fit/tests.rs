@@ -15,7 +15,7 @@ const QUALITY: FitRange = FitRange { parameter: FitParameter::StatorQuality, low
 
 /// A larger contact radius settles the motor sooner.
 fn settled_soon() -> Motor {
-    in_volts().with(|sheet| sheet.contact_radius = Some(5e-3)).expect("legal")
+    in_volts().with(|sheet| sheet.contact_radius = 5e-3).expect("legal")
 }
 
 fn under(load: f64, load_error: f64, speed_error: f64) -> RatedPoint {
