@@ -187,7 +187,7 @@ export function helpDialog(): HTMLDialogElement {
     element("dl", { class: "keys" }, ...keys),
     paragraph(element("label", {}, box, ` ${words.on}`)),
     element("h3", {}, words.what),
-    paragraph(say(words.about, { opening: WORDS.opening.sentence })),
+    paragraph(say(words.about, WORDS.opening)),
     paragraph(before, element("cite", {}, words.paper), after),
     paragraph(words.licence),
   );
