@@ -160,7 +160,7 @@ test("motor: what the sheet, the run-up and the curve say", async () => {
   const { numbers } = await ask(request);
   const powers = load_torques.map((_, row) => numbers[10 * row + 3]).filter(Number.isFinite);
   const best = powers.indexOf(Math.max(...powers));
-  step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e3 * powers[best]).toFixed(2)} mW`);
+  step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e6 * powers[best]).toFixed(0)} µW`);
   assert.ok(Math.abs(load_torques[best] / stall.torque - 0.5) < 0.06);
   const double = await reads(4);
   step("motor", 4).says(micro(double.stall.torque), `${double.steady.toFixed(1)} rad/s`, `${double.value.toFixed(2)} s`);
