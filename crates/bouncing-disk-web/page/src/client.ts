@@ -2,6 +2,7 @@
 
 import { Cancelled, Refused, type Client } from "./contract";
 import type { Refusal, Request, Response } from "./protocol";
+import { say, WORDS } from "./words";
 import type { FromWorker, ModuleSource, ToWorker } from "./worker";
 
 /** Where the page has its worker's script and its module. */
@@ -64,9 +65,7 @@ interface Running {
 /** One honest sentence about a worker's end. */
 function sentence(message: string, starting: boolean): Error {
   const what = message.replace(/^\w*Error: /, "").replace(/\.$/, "");
-  return starting
-    ? new Error(`The computing module does not start in this browser (${what}); it needs WebAssembly with SIMD.`)
-    : new Error(`The computation broke down (${what}); a fresh worker has taken over, and other requests still work.`);
+  return new Error(say(starting ? WORDS.client.no_start : WORDS.client.broken, { what }));
 }
 
 /** A worker that is replaced when what it does is not wanted any more, and the requests that wait for it. */
@@ -113,7 +112,7 @@ class Lane {
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      if (this.worker === worker) this.fail(event.message || "no reason given", !this.ready);
+      if (this.worker === worker) this.fail(event.message || WORDS.client.no_reason, !this.ready);
     };
     this.tell({ kind: "start", module: this.workshop.module });
   }

@@ -172,23 +172,23 @@ export function choices(title: string, name: string, words: string, choicesNow: 
 export const shortcutsOn = (): boolean => kept("keys") !== "off";
 
 export function helpDialog(): HTMLDialogElement {
-  const words = WORDS.shell.help;
+  const texts = WORDS.shell.help;
   const box = element("input", { type: "checkbox", id: "keys-on", checked: shortcutsOn() });
   box.addEventListener("change", () => kept("keys", box.checked ? "on" : "off"));
-  const keys = words.keys.map(([key = "", what = ""]) => {
+  const keys = texts.keys.map(([key = "", what = ""]) => {
     const caps = key.split(" ").map((one) => element("kbd", {}, one));
     return element("div", {}, element("dt", {}, ...caps), element("dd", {}, what));
   });
   const paragraph = (...parts: (Node | string)[]): HTMLElement => element("p", {}, ...parts);
-  const [before = "", after = ""] = words.model.split("{paper}");
+  const [before = "", after = ""] = texts.model.split("{paper}");
   return dialog(
-    words.title,
+    texts.title,
     "help",
     element("dl", { class: "keys" }, ...keys),
-    paragraph(element("label", {}, box, ` ${words.on}`)),
-    element("h3", {}, words.what),
-    paragraph(say(words.about, { opening: WORDS.opening.sentence })),
-    paragraph(before, element("cite", {}, words.paper), after),
-    paragraph(words.licence),
+    paragraph(element("label", {}, box, ` ${texts.on}`)),
+    element("h3", {}, texts.what),
+    paragraph(say(texts.about, WORDS.opening)),
+    paragraph(before, element("cite", {}, texts.paper), after),
+    paragraph(texts.licence),
   );
 }

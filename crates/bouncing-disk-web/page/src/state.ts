@@ -3,6 +3,7 @@
 import { DRIVES, type Change, type Quantity, type State, type ViewName } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
+import { say, WORDS } from "./words";
 
 export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
@@ -77,7 +78,7 @@ const NUMBER: Form<number> = {
   print: printed,
   read(text) {
     const value = readNumber(text);
-    if (value === null) throw new Unreadable("a number");
+    if (value === null) throw new Unreadable(WORDS.address.number);
     return value;
   },
 };
@@ -88,7 +89,7 @@ function within(low: number, high: number, whole: boolean): Form<number> {
     read(text) {
       const value = NUMBER.read(text);
       if (value >= low && value <= high && (!whole || Number.isInteger(value))) return value;
-      throw new Unreadable(`a ${whole ? "whole " : ""}number from ${low} to ${high}`);
+      throw new Unreadable(say(whole ? WORDS.address.whole : WORDS.address.bounded, { low, high }));
     },
   };
 }
@@ -98,7 +99,7 @@ function oneOf<Name extends string>(names: readonly Name[]): Form<Name> {
     print: (name) => name,
     read(text) {
       const name = names.find((known) => known === text);
-      if (name === undefined) throw new Unreadable(`one of ${names.join(", ")}`);
+      if (name === undefined) throw new Unreadable(say(WORDS.address.one_of, { names: names.join(", ") }));
       return name;
     },
   };
@@ -114,10 +115,8 @@ function range(lowest: number): Form<Range> {
     print: (ends) => ends.map(printed).join(","),
     read(text) {
       const [low, high, more] = text.split(",").map(readNumber);
-      if (low == null || high == null || more !== undefined || low >= high || low < lowest) {
-        const bound = lowest === -Infinity ? "" : ` from ${lowest} up`;
-        throw new Unreadable(`two numbers${bound}, the lower one first, with a comma between them`);
-      }
+      if (low == null || high == null || more !== undefined || low >= high || low < lowest)
+        throw new Unreadable(lowest === -Infinity ? WORDS.address.range : say(WORDS.address.range_from, { lowest }));
       return [low, high];
     },
   };
@@ -138,9 +137,7 @@ const THROW: Form<FlightStart> = {
   read(text) {
     const [phase, gap, relative_velocity, angular_speed, more] = text.split(",").map(readNumber);
     if (phase == null || gap == null || relative_velocity == null || angular_speed == null || more !== undefined || gap < 0)
-      throw new Unreadable(
-        "none, or four numbers with commas between them: phase, gap from 0 up, relative velocity, angular speed",
-      );
+      throw new Unreadable(WORDS.address.throw);
     return { phase, gap, relative_velocity, angular_speed };
   },
 }; // prettier-ignore
@@ -205,9 +202,9 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
     const [name = "", text = ""] = unescaped(part).split(/=(.*)/s);
     const key = Object.hasOwn(KEYS, name) ? KEYS[name] : undefined;
     if (key === undefined) {
-      problems.push(`The address has a part "${shortened(part)}", which means nothing here.`);
+      problems.push(say(WORDS.address.unknown, { part: shortened(part) }));
     } else if (seen.has(name)) {
-      problems.push(`The address has "${name}" twice; the first one counts.`);
+      problems.push(say(WORDS.address.twice, { name }));
     } else {
       seen.add(name);
       try {
@@ -216,10 +213,8 @@ export function fromHash(hash: string): { state: State; problems: string[] } {
         else state = changed(state, change);
       } catch (error) {
         if (!(error instanceof Unreadable)) throw error;
-        problems.push(
-          `The address says "${shortened(part)}", but ${name} has to be ${error.message}; ` +
-            `${key.print(DEFAULT_STATE)} is taken instead.`,
-        );
+        const found = { part: shortened(part), name, form: error.message, value: key.print(DEFAULT_STATE) };
+        problems.push(say(WORDS.address.unreadable, found));
       }
     }
   }

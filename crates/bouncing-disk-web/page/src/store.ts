@@ -3,6 +3,7 @@
 import { Cancelled, messageOf, Refused, type Change, type Client, type State } from "./contract";
 import type { MotionStart, Refusal, Summary } from "./protocol";
 import { changed, DEFAULT_STATE } from "./state";
+import { say, WORDS } from "./words";
 
 export interface ChangeOptions {
   settled?: boolean;
@@ -89,8 +90,7 @@ export class Store {
         this.listener.refused(refusal.message);
         break;
       }
-      const problem = `The address asks for what is not possible (${refusal.message}); a default is taken instead.`;
-      this.listener.refused(problem);
+      this.listener.refused(say(WORDS.address.impossible, { message: refusal.message }));
       candidate = changed(candidate, { thrown, ...mended(refusal, tries) });
     }
     this.opening = false;

@@ -10,3 +10,7 @@ export const WORDS = words;
 /** A text with its values. */
 export const say = (text: string, values: Readonly<Record<string, string | number>>): string =>
   text.replace(/\{(\w+)\}/g, (hole, name: string) => String(values[name] ?? hole));
+
+/** A number with its noun, in the form that goes with it. */
+export const counted = (forms: Readonly<Record<"one" | "many", string>>, count: number): string =>
+  say(count === 1 ? forms.one : forms.many, { count });

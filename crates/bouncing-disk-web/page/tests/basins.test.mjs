@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { onPage, pixelsOf, svgOf, type, whenKind, whenText } from "./browser.mjs";
+import { patternOf, WORDS } from "./module.mjs";
 
 /** What is asked by one of the calls in `window.holds` waits until `window.release()`, and other calls from then on. */
 function holdable() {
@@ -71,23 +72,22 @@ onPage("where no basins can be computed, none are shown", "#view=basins", async 
   assert.ok((await page.locator(".attractors li").count()) > 1);
 }); // prettier-ignore
 
-onPage("the share of the window leads, and the sample is described", DOUBLING, async (page) => {
+onPage("the share of the window is the answer, and that of all starts has a line of its own", DOUBLING, async (page) => {
   const entries = await page.locator(".attractors li").allTextContents();
-  for (const entry of entries) assert.match(entry, /[\d.]+ % of this window; [\d.]+ % .*of the sample\.$/);
+  const { window, all, all_undecided, note } = WORDS.basins;
+  const told = [`[\\d.]+ %${patternOf(window.replace("{share}", ""))}${patternOf(all)}$`, patternOf(all_undecided)];
+  entries.forEach((entry, index) => assert.match(entry, new RegExp(told[index === entries.length - 1 ? 1 : 0])));
   for (const bold of await page.locator(".attractors b").allTextContents()) {
     assert.ok((await caption(page)).includes(bold), bold);
   }
-  assert.match(
-    await page.textContent("#view-basins .panel"),
-    /1,024 starts spread evenly over all phases and all normalised speeds up to the bound/,
-  );
+  assert.match(await page.textContent("#view-basins .panel"), new RegExp(patternOf(note, { starts: "1,024" })));
   // A window within the basin of the orbit of period 1.
   await page.evaluate(() => {
     location.hash = location.hash
       .replace(/basins_phase=[^&]*/, "basins_phase=0.116,0.118")
       .replace(/basins_speed=[^&]*/, "basins_speed=1.457,1.459");
   });
-  await whenText(page, ".attractors", /100\.0 % of this window/);
+  await whenText(page, ".attractors", new RegExp(patternOf(window, { share: "100\\.0 %" })));
   const shares = (await page.locator(".attractors b").allTextContents()).map((text) => parseFloat(text));
   assert.equal(shares.reduce((sum, share) => sum + share), 100, `${shares}`);
   assert.equal(shares.length, await page.locator(".attractors li").count());

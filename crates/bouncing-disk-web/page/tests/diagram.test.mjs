@@ -26,15 +26,15 @@ test("a window of any place and width is answered", async () => {
 
 test("what is said of a window is what its orbits do for good, and its bifurcations", async () => {
   await within("diagram_forcing=0.484,0.487", async (page) => {
-    assert.match(await words(page), /for good: period 1 at 0\.484\d+, period 1 at .* period 2 at 0\.486\d+\./);
-    assert.match(await words(page), /orbits have not settled after 3,000 impacts.*the lines are where they end/);
+    assert.match(await words(page), /In the long run: period 1 at 0\.484\d+, period 1 at .* period 2 at 0\.486\d+\./);
+    assert.match(await words(page), /orbits have not settled after 3,000 impacts.*The lines show where they end\./);
     assert.match(await words(page), /On the branches: doubling at 0\.48600/);
   });
   await within("diagram_forcing=0.54,0.62", async (page) => {
     assert.match(await words(page), /doubling at 0\.5401, doubling at 0\.5421, doubling at 0\.5426/);
   });
   await within("diagram_forcing=0.45,0.450000000001", async (page) => {
-    assert.match(await words(page), /for Γ from 0\.45 to 0\.450000000001 /);
+    assert.match(await words(page), /for Γ from 0\.45 to 0\.450000000001,/);
   });
 });
 
@@ -44,14 +44,14 @@ test("another motion of the platform is drawn and said, without the branches and
     assert.match(await words(page), /The platform moves as triangle\.($| .*still on their way\.)/);
     assert.ok(await page.isDisabled("#view-diagram input[type=checkbox]"));
     await page.selectOption("#view-diagram [aria-label='Motion of the platform']", "sine");
-    await page.waitForFunction(() => /for good/.test(document.querySelector("#view-diagram .alternative").textContent));
+    await page.waitForFunction(() => /In the long run/.test(document.querySelector("#view-diagram .alternative").textContent));
   });
 });
 
 test("a disk that takes up no spin has a sentence and a range instead of rounding", async () => {
   for (const nothing of ["friction=0", "twist_amplitude=0"])
     await within(`diagram_quantity=angular_speed&${nothing}`, async (page) => {
-      assert.match(await page.textContent("#view-diagram .remark"), /hands no spin on to the disk/);
+      assert.match(await page.textContent("#view-diagram .remark"), /the platform cannot turn the disk/);
     });
 });
 

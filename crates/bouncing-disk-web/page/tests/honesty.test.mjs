@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { fact, pixelsOf, type, whenText, onPage } from "./browser.mjs";
+import { patternOf, WORDS } from "./module.mjs";
 
 /** The default system with the amplitude of this forcing. */
 const forcing = (value) => `amplitude=${(value * Math.PI * 9.8) / 225}`;
@@ -15,8 +16,8 @@ const ROUNDED = forcing(2.73);
 for (const scheme of ["light", "dark"])
   onPage(`undecided cells are striped and said: ${scheme}`, { hash: FOLD, colorScheme: scheme }, async (page) => {
     const entry = await page.locator(".attractors li:has(.undecided)").textContent();
-    const [, share] = /([\d.]+) % of this window/.exec(entry);
-    assert.match(entry, /^Undecided: not on any of these/);
+    const [, share] = new RegExp(patternOf(WORDS.basins.window, { share: "([\\d.]+) %" })).exec(entry);
+    assert.ok(entry.startsWith(WORDS.basins.undecided), entry);
     assert.ok(share > 1 && share < 10, entry);
     assert.match(await page.textContent("#view-basins .alternative"), new RegExp(`${share} % are undecided\\.$`));
     const names = ["--undecided", "--undecided-line"];
@@ -38,7 +39,7 @@ for (const scheme of ["light", "dark"])
 
 onPage("a window that is decided says so, and shares have intervals", "#view=basins", async (page) => {
   assert.match(await page.textContent("#view-basins .alternative"), /; 0\.0 % are undecided\.$/);
-  assert.match(await page.locator(".attractors li").first().textContent(), /% \(95 %: .* % to .* %\)/);
+  assert.match(await page.locator(".attractors small").first().textContent(), /% \(95 %: .* % to .* %\)/);
 });
 
 onPage("a cycle that rounding chose is called so under the cursor", ONE_FORCING, async (page) => {

@@ -1,8 +1,9 @@
 /** What the lessons and the tour say, computed by the module of the page. */
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { asker, sourceOf } from "./module.mjs";
+import { asker, sourceOf, WORDS } from "./module.mjs";
 
 const { COURSES } = await sourceOf("courses.ts");
 const { axialForcing } = await sourceOf("state.ts");
@@ -41,6 +42,14 @@ async function thrown({ system, start }, change = {}) {
   const [, phase, , , angular_speed] = numbers.subarray(9 * json.samples + 6 * event);
   return { phase, angular_speed };
 }
+
+test("what a lesson names stands on the page", () => {
+  const strings = (one) => (typeof one === "string" ? [one] : Object.values(one).flatMap(strings));
+  const { courses, ...others } = WORDS;
+  const page = readFileSync(new URL("../index.html", import.meta.url), "utf8");
+  const known = new Set([...strings(others), ...[...page.matchAll(/>([^<>]+)<\/button>/g)].map(([, name]) => name)]);
+  for (const [, name] of strings(courses).join().matchAll(/“(.*?)”/g)) assert.ok(known.has(name), name);
+});
 
 test("doubling: period one, period two, and the multiplier between them", async () => {
   const { state, says } = step("doubling", 3);
@@ -114,8 +123,15 @@ test("hand: the speeds of the tosses", async () => {
   lag.says(`only ${await spin(lag.state)}`, `${await spin(lag.state, { phase_lag: Math.PI / 4 })} with θ = π/4`);
   lag.says(`${await spin(lag.state, { phase_lag: 0 })} with θ = 0`);
   const { state, says } = step("hand", 3);
-  says(`${await spin(state, { amplitude: 0.1463, twist_amplitude: 1.5016 })} instead of ${await spin(state)}`);
-  says(await spin(step("hand", 1).state), `${(0.55 / Math.PI).toFixed(3)}π`);
+  const { amplitude, contact_radius, twist_amplitude } = state.system;
+  const stroke = Math.hypot(amplitude, contact_radius * twist_amplitude);
+  const at = (share) => {
+    const [up, around] = [Math.cos(share * Math.PI), Math.sin(share * Math.PI)].map((one) => one * stroke);
+    return spin(state, { amplitude: up, twist_amplitude: around / contact_radius });
+  };
+  const [low, high] = [await at(0.28), await at(0.35)].map((one) => one.replace(" rad/s", ""));
+  says(`${await at(0.301)} instead of ${await spin(state)}`, `${low} and ${high} rad/s`);
+  says(await spin(step("hand", 1).state), `φ_L = ${(0.55 / Math.PI).toFixed(3)}π`);
   const friction = step("hand", 4);
   for (const value of [0.7, 0.5]) friction.says(`${await spin(friction.state, { friction: value })} with μ = ${value}`);
 });
@@ -144,7 +160,7 @@ test("motor: what the sheet, the run-up and the curve say", async () => {
   const { numbers } = await ask(request);
   const powers = load_torques.map((_, row) => numbers[10 * row + 3]).filter(Number.isFinite);
   const best = powers.indexOf(Math.max(...powers));
-  step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e3 * powers[best]).toFixed(2)} mW`);
+  step("motor", 3).says(`near ${micro(load_torques[best])}`, `${(1e6 * powers[best]).toFixed(0)} µW`);
   assert.ok(Math.abs(load_torques[best] / stall.torque - 0.5) < 0.06);
   const double = await reads(4);
   step("motor", 4).says(micro(double.stall.torque), `${double.steady.toFixed(1)} rad/s`, `${double.value.toFixed(2)} s`);

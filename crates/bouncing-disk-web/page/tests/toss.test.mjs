@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import {
   course, fact, onPage, pixelsOf, placeOfDisk, preset, settled, stateOf, svgOf, type, whenAddress, whenText, within,
 } from "./browser.mjs"; // prettier-ignore
+import { WORDS } from "./module.mjs";
 
 const now = async (page) => Number.parseFloat(await fact(page, "toss", "Time"));
 
@@ -45,7 +46,7 @@ onPage("Fig. 9: the energy of a contact without an end is counted", {}, async (p
   assert.equal(await fact(page, "toss", "Angular speed"), "0 rad/s", "what rounding leaves is nothing");
   assert.match(
     await page.textContent("#view-toss .alternative"),
-    /the disk (sticks to|slides \w+ on) the platform and turns at 0 rad\/s; the platform at 0 rad\/s\.$/,
+    /the disk (sticks to|slides \w+ on) the platform and turns at 0 rad\/s\. The platform turns at 0 rad\/s\.$/,
   );
 });
 
@@ -124,12 +125,12 @@ onPage("a throw is in the address, and a link of it shows the same motion", {}, 
     assert.deepEqual(await balanceOf(copy), await balanceOf(page));
   });
   // Going back leads to the motion before, and so does the button.
-  await page.getByRole("button", { name: "Start with the shared impact" }).click();
+  await page.getByRole("button", { name: WORDS.toss.back_to_impact }).click();
   await whenAddress(page, "throw", "none");
   await page.goBack();
   await whenAddress(page, "throw", state.throw);
   // The address is there before its state is.
-  await page.getByRole("button", { name: "Start with the shared impact" }).waitFor();
+  await page.getByRole("button", { name: WORDS.toss.back_to_impact }).waitFor();
   // Another start takes the place of a throw.
   await type(page, "normalised_speed", "1.2");
   await whenAddress(page, "throw", "none");

@@ -4,6 +4,7 @@ import type { Offer } from "../contract";
 import { element, placeOn, setText } from "../elements";
 import { plain, withError } from "../numbers";
 import type { Range } from "../protocol";
+import { say, WORDS } from "../words";
 import {
   clamp, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
 } from "./axes"; // prettier-ignore
@@ -182,7 +183,7 @@ export function chartOffers(name: string, title: string, charts: readonly Chart[
 }
 
 const SIZE = 12;
-const KEYS = "Left and right read the values one by one, Home and End the first and the last.";
+const KEYS = WORDS.drawing.chart_keys;
 
 /** A chart on the screen. The pointer and the keys move a cursor, whose values are read below the curves. */
 export class ScreenChart {
@@ -210,7 +211,7 @@ export class ScreenChart {
     this.chart = chart;
     this.word.replaceWith(layers.root);
     layers.root.style.height = `${this.height()}px`;
-    layers.surface.setAttribute("aria-label", `Chart: ${chart.title}. ${alternative} ${KEYS}`);
+    layers.surface.setAttribute("aria-label", say(WORDS.drawing.chart, { title: chart.title, text: alternative, keys: KEYS }));
     setText(this.caption, alternative);
     layers.fit();
     const { width, height } = layers;

@@ -2,6 +2,7 @@
 
 import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
+import { WORDS } from "../words";
 import {
   clamp, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Plot,
 } from "./axes"; // prettier-ignore
@@ -34,8 +35,7 @@ export interface PictureHost {
   pick(at: Point): void;
 }
 
-const ZOOM_KEYS = "Plus and minus zoom, arrows move, 0 shows all; ";
-const KEYS = "Shift with an arrow moves the cross, Enter chooses what is under it.";
+const TEXTS = WORDS.drawing;
 
 const LETTERS = 13;
 const SMALL_LETTERS = 12;
@@ -51,15 +51,15 @@ export class WindowPicture {
   private readonly redrawCursor = oncePerFrame(() => this.paintCursor());
 
   constructor(readonly host: PictureHost) {
-    const keys = host.move === undefined ? KEYS : ZOOM_KEYS + KEYS;
-    this.layers = new Layers(host.className, `${host.label} ${keys}`);
+    const label = [host.label, ...(host.move === undefined ? [] : [TEXTS.zoom_keys]), TEXTS.cross_keys].join(" ");
+    this.layers = new Layers(host.className, label);
     const gestures = new Gestures(this);
     this.tools = element(
       "div",
-      { class: "picture-tools", role: "group", "aria-label": "Zoom" },
-      button("+", () => gestures.zoom(0.5), { "aria-label": "Zoom in", title: "Zoom in (+)" }),
-      button("\u2212", () => gestures.zoom(2), { "aria-label": "Zoom out", title: "Zoom out (-)" }),
-      button("All", () => host.reset?.(), { "aria-label": "Show all", title: "Show all (0)" }),
+      { class: "picture-tools", role: "group", "aria-label": TEXTS.zoom },
+      button("+", () => gestures.zoom(0.5), { "aria-label": TEXTS.in, title: `${TEXTS.in} (+)` }),
+      button("\u2212", () => gestures.zoom(2), { "aria-label": TEXTS.out, title: `${TEXTS.out} (-)` }),
+      button(TEXTS.all, () => host.reset?.(), { "aria-label": TEXTS.all_label, title: `${TEXTS.all_label} (0)` }),
     );
   }
 

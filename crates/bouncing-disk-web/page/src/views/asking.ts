@@ -69,7 +69,7 @@ export class RoundingCaution {
     private readonly slot: string,
     text: string,
   ) {
-    this.root = element("p", { class: "caution", hidden: true }, `Rounding-dependent: ${text}`);
+    this.root = element("p", { class: "caution", hidden: true }, say(WORDS.asking.rounding, { what: text }));
   }
 
   /** A map of which no verdict comes has no caution, and its own view says why; nor have contacts that take time. */

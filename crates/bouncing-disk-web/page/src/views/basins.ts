@@ -8,11 +8,13 @@ import type { Pen } from "../drawing/pen";
 import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
-import { WORDS } from "../words";
+import { say, WORDS } from "../words";
 import type { AttractorsJson, ImpactStart, Range } from "../protocol";
 import { mapOf, RoundingCaution, tellFailure, type MapParameters } from "./asking";
 import { Cells, computeCells, gridsOf, type Grid } from "./basins/cells";
 import { describe, labelsOf, Legend, printedLegend, undecidedShare } from "./basins/legend";
+
+const TEXTS = WORDS.basins;
 
 const SPEEDS: Range = [0, 1000];
 const PHASES: Range = [-1, 2];
@@ -23,10 +25,7 @@ const TITLE_HEIGHT = 1.5 * PRINT_SIZE;
 
 class BasinsView implements View {
   private readonly picture: WindowPicture;
-  private readonly rounding = new RoundingCaution(
-    "basins-rest",
-    "the cycle in which this disk comes to rest again and again was chosen by rounding.",
-  );
+  private readonly rounding = new RoundingCaution("basins-rest", WORDS.asking.rounding_basins);
   private readonly legend = new Legend(this.rounding.root);
   private readonly alternative = element("p", { class: "alternative" });
   private found: AttractorsJson | null = null;
@@ -47,7 +46,7 @@ class BasinsView implements View {
   ) {
     this.picture = new WindowPicture({
       className: "picture-basins",
-      label: "Basins of attraction.",
+      label: TEXTS.label,
       axes: () => this.axes(),
       paint: (pen, plot) => this.paint(pen, plot),
       window: () => ({ x: this.basins.phase_periods, y: this.basins.normalised_speed }),
@@ -56,9 +55,8 @@ class BasinsView implements View {
       point: (at) => this.point(at),
       pick: (at) => this.choose(at),
     });
-    const hint = "× one impact of a periodic attractor, + the shared start. A click runs that start in the first view.";
     host.append(
-      div("bar", element("span", { class: "remark" }, hint), this.picture.tools),
+      div("bar", element("span", { class: "remark" }, TEXTS.hint), this.picture.tools),
       div("beside", div("main-part", this.picture.layers.root, this.alternative), this.legend.root),
     );
   }
@@ -89,14 +87,14 @@ class BasinsView implements View {
     const legend = printedLegend(found, cells.shares());
     return [
       ...tableOffers({
-        name: "basins",
+        name: TEXTS.file,
         parameters: { picture: "basins", ...map, basins, ...found },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
       }),
       ...pictureOffers({
-        name: "basins",
-        title: "Basins of attraction",
+        name: TEXTS.file,
+        title: TEXTS.title,
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.9 + legend.height,
         paint: (pen, width, height) => {
@@ -125,8 +123,8 @@ class BasinsView implements View {
   private axes(): Axes {
     const { phase_periods, normalised_speed } = this.basins;
     return {
-      x: { label: "phase of impact *τ*_{imp}/2π (periods)", range: phase_periods },
-      y: { label: "normalised impact speed |*w*_{A}Γ/(*ωA*)|", range: normalised_speed },
+      x: { label: WORDS.axes.phase, range: phase_periods },
+      y: { label: WORDS.axes.speed, range: normalised_speed },
     };
   }
 
@@ -146,24 +144,23 @@ class BasinsView implements View {
     if (key === this.asked) return;
     this.asked = key;
     this.complete = false;
-    this.context.status("Computing attractors and basins", "busy");
-    const at = `Γ = ${brief(wanted.axial_forcing)} and a restitution of ${brief(wanted.restitution)}`;
-    setText(this.alternative, `The basins at ${at} are being computed.`);
+    this.context.status(TEXTS.computing, "busy");
+    const at = { forcing: brief(wanted.axial_forcing), restitution: brief(wanted.restitution) };
+    setText(this.alternative, say(TEXTS.coming, at));
     const began = performance.now();
     try {
       await this.fill(await this.attractorsOf(wanted), wanted, grids, laid.columns);
       this.complete = true;
       this.previous = null;
       const seconds = ((performance.now() - began) / 1000).toFixed(2);
-      const starts = `${fine.phases} × ${fine.speeds} starts`;
-      this.context.status(`${starts} at Γ = ${brief(wanted.axial_forcing)} in ${seconds} s.`);
+      this.context.status(say(TEXTS.computed, { ...at, phases: fine.phases, speeds: fine.speeds, seconds }));
       this.describe();
     } catch (error) {
       if (this.asked === key) this.asked = "";
       // Nor does a picture of another map stand where there is none of this one.
       if (!(error instanceof Cancelled)) {
         this.clear();
-        setText(this.alternative, `There are no basins at ${at}.`);
+        setText(this.alternative, say(TEXTS.none, at));
         this.picture.redraw();
       }
       tellFailure(this.context, error);
@@ -205,7 +202,8 @@ class BasinsView implements View {
         this.layers = layers;
       }
       layers[index]?.add(labels, from);
-      if (index === 1) this.context.status(`Computing basins: ${percent(from / grids[1].speeds, 0)}`, "busy");
+      const done = say(TEXTS.progress, { percent: percent(from / grids[1].speeds, 0) });
+      if (index === 1) this.context.status(done, "busy");
       this.picture.redraw();
     });
     this.legend.show(found, layers[1]?.shares() ?? null);
@@ -230,14 +228,14 @@ class BasinsView implements View {
     const label = this.layers[1]?.at(...at) ?? this.layers[0]?.at(...at) ?? null;
     if (label === null) return;
     const [phase, speed] = at;
-    const text = nameOf(label, this.found) ?? "undecided.";
-    this.legend.point(`Phase ${plain(phase, 4)} periods, speed ${plain(speed, 4)}: ${text}`);
+    const end = nameOf(label, this.found) ?? TEXTS.undecided_here;
+    this.legend.point(say(TEXTS.pointed, { phase: plain(phase, 4), speed: plain(speed, 4), end }));
   }
 
   private choose([phase, speed]: Point): void {
     const whole = phase - Math.floor(phase);
     const start = { impact_phase: whole * 2 * Math.PI, normalised_speed: Math.max(speed, LEAST_SPEED) };
-    this.context.announce(`Start at phase ${plain(whole, 3)} periods and speed ${plain(speed, 3)}`);
+    this.context.announce(say(TEXTS.chosen, { phase: plain(whole, 3), speed: plain(speed, 3) }));
     this.context.change({ start, view: "toss" });
   }
 
@@ -245,18 +243,15 @@ class BasinsView implements View {
     const { found } = this;
     const fine = this.layers[1];
     if (found === null || fine === undefined) return;
-    const { phase_periods: x, normalised_speed: y } = fine.grid;
+    const { phase_periods, normalised_speed } = fine.grid;
+    const [from = "", to = "", low = "", high = ""] = [...phase_periods, ...normalised_speed].map((end) => brief(end));
     const shares = fine.shares();
     const parts = [...shares].flatMap(([label, share]) => {
       const name = nameOf(label, found);
-      return name === null ? [] : [`${percent(share)} end so: ${name.replace(/\.$/, "")}`];
+      return name === null ? [] : [say(TEXTS.end, { share: percent(share), end: name.replace(/\.$/, "") })];
     });
-    setText(
-      this.alternative,
-      `Of the starts with phases from ${brief(x[0])} to ${brief(x[1])} periods and normalised speeds from ` +
-        `${brief(y[0])} to ${brief(y[1])}, ${parts.join("; ")}; ` +
-        `${percent(undecidedShare(found, shares) ?? 0)} are undecided.`,
-    );
+    const undecided = percent(undecidedShare(found, shares) ?? 0);
+    setText(this.alternative, say(TEXTS.seen, { from, to, low, high, shares: parts.join("; "), undecided }));
   }
 }
 

@@ -1,6 +1,5 @@
 /** The orbit diagram: what impacts repeat, over the forcing. */
 
-import { DRIVES } from "../contract";
 import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
 import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
@@ -8,7 +7,7 @@ import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
-import { WORDS } from "../words";
+import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
@@ -18,6 +17,8 @@ import {
 import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
+
+const TEXTS = WORDS.diagram;
 
 /** More columns than this no eye tells apart, and a telephone has to compute them. */
 const MOST_COLUMNS = 2048;
@@ -52,7 +53,7 @@ class DiagramView implements View {
     this.verdict = new Verdict(context);
     this.picture = new WindowPicture({
       className: "picture-wide",
-      label: "Orbit diagram.",
+      label: TEXTS.label,
       axes: () => this.axes(),
       paint: (pen, plot) => this.paint(pen, plot),
       window: () => ({ x: this.diagram.axial_forcing, y: this.dots.range(this.diagram) }),
@@ -63,23 +64,23 @@ class DiagramView implements View {
       },
       pick: ([forcing]) => void this.choose(forcing),
     });
-    const options = Object.entries(DESCRIBED).map(([value, { name }]) => element("option", { value }, name));
+    const optionsOf = (names: Readonly<Record<string, string>>) =>
+      Object.entries(names).map(([value, name]) => element("option", { value }, name));
+    const options = optionsOf(TEXTS.quantities);
     const choose = () => context.change({ diagram: { quantity: this.quantity.value as Quantity, range: null } });
-    this.quantity = element("select", { "aria-label": "Quantity over the forcing", onchange: choose }, ...options);
-    const drives = DRIVES.map((value) => element("option", { value }, value));
+    this.quantity = element("select", { "aria-label": TEXTS.quantity_label, onchange: choose }, ...options);
+    const drives = optionsOf(TEXTS.drives);
     const move = () => context.change({ diagram: { drive: this.drive.value as Drive } });
-    this.drive = element("select", { "aria-label": "Motion of the platform", onchange: move }, ...drives);
+    this.drive = element("select", { "aria-label": TEXTS.platform_label, onchange: move }, ...drives);
     const show = () => context.change({ diagram: { branches: this.branchesBox.checked } });
     this.branchesBox = element("input", { type: "checkbox", onchange: show });
-    const legend = element("p", { class: "legend" });
-    legend.innerHTML =
-      '<span class="line full"></span> stable, <span class="line dashed"></span> unstable branch; ' +
-      "○ doubling, □ fold, × graze or vanishing impact. Darker dots (lighter on a dark page): more impacts. " +
-      "A click gives the shared system that forcing.";
+    const parts = TEXTS.legend.split(/\{(\w+)\}/);
+    const lines = parts.map((part, index) => (index % 2 === 0 ? part : element("span", { class: `line ${part}` })));
+    const legend = element("p", { class: "legend" }, ...lines);
     const choices = [
-      ["Quantity ", this.quantity],
-      ["Platform ", this.drive],
-      [this.branchesBox, " Branches"],
+      [`${TEXTS.quantity} `, this.quantity],
+      [`${TEXTS.platform} `, this.drive],
+      [this.branchesBox, ` ${TEXTS.branches}`],
     ] as const;
     const picture = div("main-part", this.picture.layers.root, this.note);
     host.append(
@@ -122,7 +123,7 @@ class DiagramView implements View {
     const fine = this.dots.columns.filter(({ coarse }) => !coarse);
     return [
       ...tableOffers({
-        name: "orbit diagram",
+        name: TEXTS.file,
         parameters: {
           picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED, patience: PATIENCE,
         }, // prettier-ignore
@@ -132,8 +133,8 @@ class DiagramView implements View {
         },
       }),
       ...plotOffers({
-        name: "orbit diagram",
-        title: "Orbit diagram",
+        name: TEXTS.file,
+        title: TEXTS.title,
         width: TWO_COLUMNS,
         height: TWO_COLUMNS * 0.5,
         axes: this.axes(),
@@ -152,7 +153,7 @@ class DiagramView implements View {
   private axes(): Axes {
     const { label, widest } = DESCRIBED[this.diagram.quantity];
     return {
-      x: { label: "axial forcing parameter Γ = *Aω*²/(π*g*)", range: this.diagram.axial_forcing },
+      x: { label: WORDS.axes.forcing, range: this.diagram.axial_forcing },
       y: { label, range: this.dots.range(this.diagram), widest },
     };
   }
@@ -212,7 +213,7 @@ class DiagramView implements View {
     this.context.client.cancel(BRANCHES);
     this.dots.begin(name, wanted.count);
     const began = performance.now();
-    this.context.status("Computing the orbit diagram", "busy");
+    this.context.status(TEXTS.computing, "busy");
     this.orbits = await computeColumns(this.context, wanted, (columns) => {
       this.dots.take(columns, this.diagram, rows);
       this.picture.redraw();
@@ -221,15 +222,14 @@ class DiagramView implements View {
     this.picture.redraw();
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
     const { resting, left_out } = this.orbits;
-    const rest = resting === 0 ? "" : ` ${resting} of them end at rest on the platform and have no dots.`;
-    const longer = left_out > TRANSIENT ? `\u2013${left_out}` : "";
-    const impacts = `${RECORDED} impacts of each after ${TRANSIENT}${longer}`;
-    this.sentence = `${wanted.count} forcings, ${impacts}, in ${seconds} s.${rest}`;
+    const transient = left_out > TRANSIENT ? `${TRANSIENT}\u2013${left_out}` : TRANSIENT;
+    this.sentence = say(TEXTS.computed, { count: wanted.count, seconds, recorded: RECORDED, transient });
+    if (resting > 0) this.sentence += ` ${say(TEXTS.resting, { count: resting })}`;
   }
 
   private async fetchBranches(state: State): Promise<void> {
     this.told = false;
-    this.context.status("Continuing the branches", "busy");
+    this.context.status(TEXTS.computing_branches, "busy");
     const branches = await branchesOf(this.context, state);
     this.lines = { ...branches, restitution: state.system.restitution };
     this.picture.redraw();
@@ -260,8 +260,8 @@ class DiagramView implements View {
     try {
       await this.context.client.ask("diagram-check", { call: "check", system: { ...system, amplitude } });
       this.context.change({ system: { amplitude } });
-      this.context.status(`The system has Γ = ${plain(forcing, 6)} now: an amplitude of ${plain(amplitude, 5)} m.`);
-      this.context.announce(`Forcing ${plain(forcing, 4)} chosen`);
+      this.context.status(say(TEXTS.chosen, { forcing: plain(forcing, 6), amplitude: plain(amplitude, 5) }));
+      this.context.announce(say(TEXTS.chosen_short, { forcing: plain(forcing, 4) }));
     } catch (error) {
       tellFailure(this.context, error);
     }
@@ -271,10 +271,9 @@ class DiagramView implements View {
 /** What there is to say below a diagram of angular speeds. */
 function noteOf(state: State): string {
   const { system } = state;
-  if (!isPlain(state)) return "Angular speeds are those of the sine with rigid impacts: there is nothing to draw.";
-  const idle = system.friction === 0 ? "Without friction" : system.twist_amplitude === 0 ? "Without a twist" : null;
-  if (idle !== null) return `${idle} the platform hands no spin on to the disk: there is nothing to draw.`;
-  return "Branches are those of the vertical motion, and have no angular speed.";
+  if (!isPlain(state)) return TEXTS.sine_only;
+  if (system.friction === 0) return TEXTS.no_friction;
+  return system.twist_amplitude === 0 ? TEXTS.no_twist : TEXTS.no_branches;
 }
 
 /** What the columns depend on: the amplitude of the system does not count, for the forcing takes its place. */

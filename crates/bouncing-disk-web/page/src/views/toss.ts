@@ -6,7 +6,7 @@ import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, div, element, oncePerFrame, section, setText } from "../elements";
 import { plain } from "../numbers";
-import { WORDS } from "../words";
+import { say, WORDS } from "../words";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
 import { RoundingCaution, tellFailure } from "./asking";
 import { Controls, Player } from "./toss/player";
@@ -15,6 +15,8 @@ import { describeMoment, Readings } from "./toss/readings";
 import { Recording, traces, type Moment } from "./toss/recording";
 import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
 import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
+
+const TEXTS = WORDS.toss;
 
 /** The slowest rotor of Fig. 9 takes 40 periods to stop. */
 const FIRST_PERIODS = 48;
@@ -29,17 +31,11 @@ const COLUMNS = [
 ] as const; // prettier-ignore
 
 class TossView implements View {
-  private readonly scene = new Layers(
-    "picture-scene",
-    "Disk and platform in perspective. Space plays or pauses, left and right move in time, Home goes to the start.",
-  );
+  private readonly scene = new Layers("picture-scene", TEXTS.scene);
   private readonly readings = new Readings();
   private readonly gains = element("p", { class: "remark" });
   private readonly thrown = element("p", { class: "remark", hidden: true });
-  private readonly rounding = new RoundingCaution(
-    "toss-rest",
-    "once this disk has come to rest, rounding decides after how many impacts it rests again.",
-  );
+  private readonly rounding = new RoundingCaution("toss-rest", WORDS.asking.rounding_toss);
   private readonly alternative = element("p", { class: "alternative", "aria-live": "polite" });
   private readonly heights = new ScreenChart(() => this.chartHeight());
   private readonly spins = new ScreenChart(() => this.chartHeight());
@@ -89,15 +85,10 @@ class TossView implements View {
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = [this.heights.root, this.spins.root];
     const readings = [...this.readings.elements, throwForm(throwing)];
-    const key =
-      "Each impact so far; the ring is the last one, the plus the shared start. A click starts the motion there.";
-    const portrait = [
-      element("h3", {}, "Impacts"),
-      this.portrait.picture.layers.root,
-      element("p", { class: "remark" }, key),
-    ];
-    const left = div("toss-left", element("div", {}, ...scene), section("Time traces", null, ...charts));
-    const right = [section("Readings", "panel", ...readings), section("Phase portrait", null, ...portrait)];
+    const key = element("p", { class: "remark" }, TEXTS.impacts_key);
+    const portrait = [element("h3", {}, TEXTS.impacts), this.portrait.picture.layers.root, key];
+    const left = div("toss-left", element("div", {}, ...scene), section(TEXTS.traces, null, ...charts));
+    const right = [section(TEXTS.readings, "panel", ...readings), section(TEXTS.portrait, null, ...portrait)];
     host.append(div("toss", left, div("toss-right", ...right)));
   }
 
@@ -130,25 +121,25 @@ class TossView implements View {
     const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
     const parameters = { system: this.context.state().system, start: this.start(), periods: recording.periods };
     return [
-      ...tableOffers({ name: "motion", parameters, columns: COLUMNS, rows: () => recording.table() }),
+      ...tableOffers({ name: TEXTS.files.motion, parameters, columns: COLUMNS, rows: () => recording.table() }),
       ...tableOffers({
-        name: "impacts",
+        name: TEXTS.files.impacts,
         parameters,
         columns: ["time_s", "impact_phase_rad", "normalised_speed"],
         rows: () => recording.impacts.map(({ time, phase, normalised_speed }) => [time, phase, normalised_speed]),
       }),
-      ...chartOffers("time traces", "Heights and angular speeds of disk and platform", charts, ONE_COLUMN * 0.6),
+      ...chartOffers(TEXTS.files.traces, TEXTS.titles.traces, charts, ONE_COLUMN * 0.6),
       ...plotOffers({
-        name: "path of the platform",
-        title: "Path of a point of the platform: height over angle",
+        name: TEXTS.files.path,
+        title: TEXTS.titles.path,
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.8,
         axes: pathAxes(recording.system),
         paint: (pen, plot) => paintPath(pen, plot, recording),
       }),
       ...plotOffers({
-        name: "phase portrait",
-        title: "Phases and speeds of the impacts",
+        name: TEXTS.files.portrait,
+        title: TEXTS.titles.portrait,
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.8,
         axes: this.portrait.axes(),
@@ -205,7 +196,7 @@ class TossView implements View {
       this.player.now = 0;
       this.stage = null;
       const { thrown } = this.context.state();
-      this.context.status(thrown === null ? "The motion begins with the shared impact." : describeThrow(thrown));
+      this.context.status(thrown === null ? TEXTS.begins : describeThrow(thrown));
       // A motion is seen to move, unless that is unwelcome; then its first periods stand there at once.
       if (!window.matchMedia("(prefers-reduced-motion: reduce)").matches) this.player.play();
       else if (!this.player.playing) this.player.now = Math.min(7, recording.periods);
@@ -246,7 +237,7 @@ class TossView implements View {
   private stopAtEnd(recording: Recording): void {
     this.player.pause();
     this.controls.show(recording.periods);
-    this.context.status(`The end of ${recording.periods} periods. Back to the start to see them again.`);
+    this.context.status(say(TEXTS.ends, { periods: recording.periods }));
     this.describe();
   }
 
@@ -256,8 +247,8 @@ class TossView implements View {
     const radius = Math.max(Math.SQRT2 * gyration_radius, contact_radius);
     const heights = recording.extent("height", "platform_height");
     const stage = new Stage(this.scene.width, this.scene.height, radius, heights, twist_amplitude);
-    const words = [stage.describe(), describePath(recording.system), "Drag the disk upwards or sideways to throw it."];
-    if (recording.system.contact_time > 0) words.push("Below the platform's surface it is in the contact, which yields.");
+    const words = [stage.describe(), describePath(recording.system), TEXTS.drag];
+    if (recording.system.contact_time > 0) words.push(TEXTS.contact);
     setText(this.gains, words.join(" "));
     return stage;
   }
@@ -284,14 +275,13 @@ class TossView implements View {
     this.thrown.hidden = thrown === null;
     if (thrown === null || thrown === this.throwTold) return;
     this.throwTold = thrown;
-    const back = button("Start with the shared impact", () => this.context.change({ thrown: null }));
+    const back = button(TEXTS.back_to_impact, () => this.context.change({ thrown: null }));
     this.thrown.replaceChildren(describeThrow(thrown), " ", back);
   }
 
   private choose([phase, speed]: Point): void {
     this.context.change({ start: { impact_phase: phase * 2 * Math.PI, normalised_speed: Math.max(speed, 1e-9) } });
-    const at = `${plain(phase, 3)} periods and a normalised speed of ${plain(speed, 3)}`;
-    this.context.status(`The motion starts with an impact at ${at}.`);
+    this.context.status(say(TEXTS.begins_at, { phase: plain(phase, 3), speed: plain(speed, 3) }));
   }
 
   /** Not while it moves: a screen reader would never come to an end. */

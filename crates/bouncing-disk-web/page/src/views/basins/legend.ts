@@ -5,51 +5,53 @@ import { measureRuns, PRINT_FONT, type Pen } from "../../drawing/pen";
 import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
+import { say, WORDS } from "../../words";
 import { categoryColour } from "./cells";
 
 type Shares = ReadonlyMap<number, number>;
 
-const HINT = "Point at a start to read where it ends.";
+const TEXTS = WORDS.basins;
 
 export class Legend {
   readonly root: HTMLElement;
   private readonly list = element("ol", { class: "attractors" });
-  private readonly pointed = element("p", { class: "pointed", "aria-live": "polite" }, HINT);
+  private readonly pointed = element("p", { class: "pointed", "aria-live": "polite" }, TEXTS.point);
   private readonly note = element("p", { class: "remark" });
 
   /** `caution` stands below the list. */
   constructor(caution: HTMLElement) {
-    const parts = [element("h3", {}, "Attractors"), this.pointed, this.list, caution, this.note];
-    this.root = section("Attractors", "panel", ...parts);
+    const parts = [element("h3", {}, TEXTS.attractors), this.pointed, this.list, caution, this.note];
+    this.root = section(TEXTS.attractors, "panel", ...parts);
   }
 
   /** Nothing, where no attractors are known. */
   clear(): void {
     this.list.replaceChildren();
     this.note.textContent = "";
-    this.point(HINT);
+    this.point(TEXTS.point);
     this.dim(false);
   }
 
   /** Those of another map are being looked for. */
   dim(stale: boolean): void {
     this.root.classList.toggle("stale", stale);
-    if (stale) this.point(HINT);
+    if (stale) this.point(TEXTS.point);
   }
 
   /** `shares` are those of the cells of the window; null as long as they are not computed. */
   show(found: AttractorsJson, shares: Shares | null): void {
     this.dim(false);
-    this.note.textContent = describeSample(found);
+    const starts = grouped(String(found.starts));
+    this.note.textContent = say(TEXTS.note, { starts, fastest: brief(found.fastest_start, 3) });
     const items = found.attractors.map((attractor, index) => {
       const style = `background:var(${categoryColour(index)})`;
-      const [low, high] = attractor.interval;
-      const sample = `${percent(attractor.share)} (95 %: ${percent(low)} to ${percent(high)})`;
-      return item({ class: "swatch", style }, describe(attractor, found), windowShare(attractor, shares), sample);
+      const [share = "", low = "", high = ""] = [attractor.share, ...attractor.interval].map((one) => percent(one));
+      const all = say(TEXTS.all, { share, low, high });
+      return item({ class: "swatch", style }, describe(attractor, found), windowShare(attractor, shares), all);
     });
-    const undecided = "Undecided: not on any of these after the allowed number of impacts.";
     const share = undecidedShare(found, shares);
-    items.push(item({ class: "swatch undecided" }, undecided, share, percent(found.undecided)));
+    const all = say(TEXTS.all_undecided, { share: percent(found.undecided) });
+    items.push(item({ class: "swatch undecided" }, TEXTS.undecided, share, all));
     this.list.replaceChildren(...items);
   }
 
@@ -58,10 +60,11 @@ export class Legend {
   }
 }
 
-/** First the share of what is seen, if it is known, then that of the sample of the library. */
-function item(swatch: Record<string, string>, words: string, share: number | null, sample: string): HTMLElement {
-  const own = share === null ? [] : [element("b", {}, percent(share)), " of this window; "];
-  const text = element("span", {}, words, " ", ...own, `${sample} of the sample.`);
+/** The share of what is seen, as soon as it is known, is the answer; that of all starts has a line of its own. */
+function item(swatch: Record<string, string>, words: string, share: number | null, all: string): HTMLElement {
+  const [before = "", after = ""] = TEXTS.window.split("{share}");
+  const own = share === null ? [] : [" ", before, element("b", {}, percent(share)), after];
+  const text = element("span", {}, words, ...own, element("small", {}, all));
   return element("li", {}, element("span", { ...swatch, "aria-hidden": "true" }), text);
 }
 
@@ -72,10 +75,10 @@ export function labelsOf(found: AttractorsJson): number[] {
 
 export function describe(attractor: AttractorJson, found: AttractorsJson): string {
   const text = attractor.text.replace(/\.$/, "");
-  if (attractor.lasts) return `${text}.`;
-  if (attractor.leads_to === null) return `${text}; it does not last.`;
-  const target = found.attractors[attractor.leads_to]?.text.replace(/\.$/, "") ?? "another attractor";
-  return `${text}; it does not last, and leads to: ${target}.`;
+  if (attractor.lasts) return say(TEXTS.lasts, { text });
+  if (attractor.leads_to === null) return say(TEXTS.ends, { text });
+  const target = found.attractors[attractor.leads_to]?.text.replace(/\.$/, "") ?? TEXTS.another;
+  return say(TEXTS.leads, { text, target });
 }
 
 /** The share of the cells of the window; null where it is not known. An attractor that has none of them has 0. */
@@ -87,15 +90,6 @@ export function undecidedShare(found: AttractorsJson, shares: Shares | null): nu
   if (shares === null) return null;
   const known = labelsOf(found);
   return [...shares].reduce((sum, [label, share]) => sum + (known.includes(label) ? 0 : share), 0);
-}
-
-/** Of which starts the shares are. */
-function describeSample({ starts, fastest_start }: AttractorsJson): string {
-  return (
-    "Shares of this window are of its cells. The sample is the library's own, whatever the window is: " +
-    `${grouped(String(starts))} starts spread evenly over all phases and all normalised speeds up to the bound that no ` +
-    `attractor exceeds at that phase (${brief(fastest_start, 3)} at most); the intervals are those of a random sample.`
-  );
 }
 
 const LEFT = PRINT_SIZE;
@@ -111,7 +105,7 @@ const MOST = 12;
 export function printedLegend(found: AttractorsJson, shares: Shares) {
   const entry = (swatch: string | null, words: string, share: number | null) => ({
     swatch,
-    lines: wrapped(`${percent(share ?? 0)}: ${words}`),
+    lines: wrapped(say(TEXTS.printed_share, { share: percent(share ?? 0), text: words })),
   });
   const known = found.attractors.map((attractor, index) => ({
     share: windowShare(attractor, shares) ?? 0,
@@ -123,16 +117,16 @@ export function printedLegend(found: AttractorsJson, shares: Shares) {
   const rest = sorted.slice(MOST);
   if (rest.length > 0) {
     const together = rest.reduce((sum, { share }) => sum + share, 0);
-    entries.push(entry(null, `on ${rest.length} other attractors.`, together));
+    entries.push(entry(null, say(TEXTS.others, { count: rest.length }), together));
   }
-  entries.push(entry("--undecided", "undecided.", undecidedShare(found, shares)));
+  entries.push(entry("--undecided", TEXTS.undecided_here, undecidedShare(found, shares)));
   const lines = entries.reduce((sum, { lines: { length } }) => sum + length, 0);
   return {
     height: (lines + 2) * LINE + GAP * entries.length,
     paint(pen: Pen, top: number): void {
       const ink = { colour: "--picture-text", size: PRINT_SIZE, baseline: "top" } as const;
       let y = top + GAP;
-      pen.text("Shares of the starts in this window by what they end on:", LEFT, y, ink);
+      pen.text(TEXTS.printed, LEFT, y, ink);
       y += 1.3 * LINE;
       for (const { swatch, lines } of entries) {
         const frame = { fill: swatch ?? "", stroke: "--picture-frame", width: 0.6 };

@@ -5,6 +5,7 @@ import { crossAt, pixelX, pixelY, type Plot } from "../../drawing/axes";
 import type { Pen } from "../../drawing/pen";
 import { minus } from "../../numbers";
 import { BRANCH_COLUMNS, type BranchesJson, type Range } from "../../protocol";
+import { say, WORDS } from "../../words";
 import { axisValue, columnOf } from "./columns";
 
 export const BRANCHES = "diagram-branches";
@@ -104,12 +105,16 @@ function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Q
 
 /** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */
 export function describeBifurcations({ json }: Branches, window: Range): string {
-  const words = json.bifurcations.map(({ kind, axial_forcing }) => `${kind} at ${forcingText(axial_forcing, window)}`);
+  const texts = WORDS.diagram;
+  const kinds: Readonly<Record<string, string>> = texts.bifurcation_kinds;
+  const words = json.bifurcations.map(({ kind, axial_forcing }) =>
+    say(texts.bifurcation, { kind: kinds[kind] ?? kind, forcing: forcingText(axial_forcing, window) }),
+  );
   const distinct = [...new Set(words)];
-  if (json.branches === 0) return "No branch that can be continued lies in this window.";
-  if (distinct.length === 0) return "No bifurcation of the branches lies in this window.";
-  const more = distinct.length > 6 ? `, and ${distinct.length - 6} more` : "";
-  return `On the branches: ${distinct.slice(0, 6).join(", ")}${more}.`;
+  if (json.branches === 0) return texts.no_branch;
+  if (distinct.length === 0) return texts.no_bifurcation;
+  const more = distinct.length > 6 ? [say(texts.more, { count: distinct.length - 6 })] : [];
+  return say(texts.bifurcations, { list: [...distinct.slice(0, 6), ...more].join(", ") });
 }
 
 /** Four decimals, or three more than the width of the window has zeros. */

@@ -2,9 +2,9 @@
 
 import type { Context, Drive, Quantity } from "../../contract";
 import type { DiagramJson, ImpactStart, Range, Request, SystemParameters } from "../../protocol";
+import { WORDS } from "../../words";
 
 export interface Described {
-  readonly name: string;
   /** With markup and unit. */
   readonly label: string;
   /** A number as wide as those of usual ranges: the plot's width, and with it the columns, must not depend on these. */
@@ -17,22 +17,19 @@ export interface Described {
 /** In the order in which they are offered. */
 export const DESCRIBED: Readonly<Record<Quantity, Described>> = {
   impact_phase: {
-    name: "phase of impact",
-    label: "phase of impact *τ*_{imp}/2π (periods)",
+    label: WORDS.axes.phase,
     widest: "0.0",
     widths: [1e-9, 1],
     bounds: [-1, 2],
   },
   normalised_speed: {
-    name: "normalised impact speed",
-    label: "normalised impact speed |*w*_{A}Γ/(*ωA*)|",
+    label: WORDS.axes.speed,
     widest: "00.0",
     widths: [1e-9, 1000],
     bounds: [0, 1000],
   },
   angular_speed: {
-    name: "angular speed after the impact",
-    label: "angular speed after the impact / *ω*Φ",
+    label: WORDS.axes.spin,
     widest: "\u221200.0",
     widths: [1e-9, 100],
     bounds: [-100, 100],

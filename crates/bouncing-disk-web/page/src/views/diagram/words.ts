@@ -5,30 +5,30 @@ import { debounced, element, Facts, section, setText } from "../../elements";
 import { brief, grouped, plain, withError } from "../../numbers";
 import type { DiagramJson, VerdictJson } from "../../protocol";
 import { contactPeriods } from "../../state";
+import { counted, say, WORDS } from "../../words";
 import { impactOf, mapOf, tellFailure, verdictOf } from "../asking";
 import { areDrawn, endText, forcingText, isPlain } from "./branches";
-import { DESCRIBED, RECORDED, TRANSIENT } from "./columns";
+import { RECORDED, TRANSIENT } from "./columns";
 
-const NAMES = ["Γ", "Orbit", "Period", "Multipliers", "Exponent per impact"] as const;
-const HINT = "Point at the diagram: the orbit of that forcing from the shared start.";
-const CAUTION =
-  "Rounding-dependent: after a rest the orbit is in the same state again, and the cycle shown was chosen by rounding.";
+const TEXTS = WORDS.diagram;
+const NAMES = TEXTS.facts;
+const CAUTION = say(WORDS.asking.rounding, { what: WORDS.asking.rounding_orbit });
 
 export class Verdict {
   readonly root: HTMLElement;
-  private readonly facts = new Facts(NAMES, "Orbit under the cursor");
-  private readonly sentence = element("p", {}, HINT);
+  private readonly facts = new Facts(Object.values(NAMES), TEXTS.orbit);
+  private readonly sentence = element("p", {}, TEXTS.hint);
   private readonly caution = element("p", { class: "caution", hidden: true }, CAUTION);
   private readonly ask = debounced(90, (forcing: number, state: State) => void this.fetch(forcing, state));
 
   constructor(private readonly context: Context) {
-    const title = element("h3", {}, "Orbit under the cursor");
+    const title = element("h3", {}, TEXTS.orbit);
     const parts = [title, this.facts.root, this.sentence, this.caution];
-    this.root = section("Orbit under the cursor", "panel", ...parts);
+    this.root = section(TEXTS.orbit, "panel", ...parts);
   }
 
   point(forcing: number, state: State): void {
-    this.facts.set("Γ", plain(forcing, 6));
+    this.facts.set(NAMES.forcing, plain(forcing, 6));
     this.ask(forcing, state);
   }
 
@@ -48,22 +48,21 @@ export class Verdict {
 
   private tell(forcing: number, verdict: VerdictJson): void {
     const { impacts, platform_periods: periods } = verdict;
-    const kind = verdict.kind.replace("-", " ");
-    const round = impacts === null ? "–" : `${count(impacts, "impact")} in ${count(periods ?? 0, "period")}`;
-    this.facts.set("Orbit", kind);
-    this.facts.set("Period", round);
-    this.facts.set("Multipliers", verdict.multipliers?.map(complex).join(", ") ?? "–");
-    this.facts.set("Exponent per impact", withError(verdict.exponent, verdict.exponent_error));
+    const orbit = TEXTS.kinds[verdict.kind];
+    const round =
+      impacts === null
+        ? "–"
+        : say(TEXTS.round, { impacts: counted(TEXTS.impacts, impacts), periods: counted(TEXTS.periods, periods ?? 0) });
+    this.facts.set(NAMES.orbit, orbit);
+    this.facts.set(NAMES.period, round);
+    this.facts.set(NAMES.multipliers, verdict.multipliers?.map(complex).join(", ") ?? "–");
+    this.facts.set(NAMES.exponent, withError(verdict.exponent, verdict.exponent_error));
     // The library writes for terminals, too.
     setText(this.sentence, verdict.text.replaceAll("+-", "±"));
     this.caution.hidden = !verdict.rounding_dependent;
-    const words = verdict.rounding_dependent ? ", rounding-dependent" : "";
-    this.context.announce(`Γ ${plain(forcing, 4)}: ${kind}, ${round}${words}`);
+    const spoken = verdict.rounding_dependent ? TEXTS.spoken_rounding : TEXTS.spoken;
+    this.context.announce(say(spoken, { forcing: plain(forcing, 4), orbit, round }));
   }
-}
-
-function count(number: number, word: string): string {
-  return `${number} ${word}${number === 1 ? "" : "s"}`;
 }
 
 function complex([real, imaginary]: readonly [number, number]): string {
@@ -94,20 +93,23 @@ export function describeDiagram(
   told: DiagramJson,
 ): string {
   const { axial_forcing, quantity, drive } = state.diagram;
-  const [low, high] = axial_forcing;
+  const [low, high] = axial_forcing.map((end) => endText(end, axial_forcing)) as [string, string];
+  const restitution = brief(state.system.restitution);
+  const transient = leftOut(told);
   const samples = samplesOf(state);
-  const does = verdicts.map(
-    (verdict, index) => `${behaviour(verdict)} at ${forcingText(samples[index] ?? NaN, axial_forcing)}`,
+  const orbits = verdicts.map((verdict, index) =>
+    say(TEXTS.at, { orbit: behaviour(verdict), forcing: forcingText(samples[index] ?? NaN, axial_forcing) }),
   );
-  const forGood = `What the vertical motion does for good: ${does.join(", ")}`;
-  const contact = state.system.contact_time === 0 ? "" : `; a contact lasts ${brief(contactPeriods(state.system), 3)} periods, ` +
-    "and a dot is a release, as the impact of which it is the rigid rebound";
-  const end = isPlain(state) ? forGood : `The platform moves as ${drive}${contact}`;
-  return (
-    `The ${DESCRIBED[quantity].name} of the orbits from the shared start, ${RECORDED} impacts of each after ` +
-    `${leftOut(told)}, for Γ from ${endText(low, axial_forcing)} to ${endText(high, axial_forcing)} at a coefficient ` +
-    `of restitution of ${brief(state.system.restitution)}. ${end}.${unsettled(count, told, areDrawn(state))}`
-  );
+  const { contact_time } = state.system;
+  const driven = [
+    say(TEXTS.driven, { drive: TEXTS.drives[drive] }),
+    ...(contact_time === 0 ? [] : [say(TEXTS.contact, { periods: brief(contactPeriods(state.system), 3) })]),
+  ];
+  return [
+    say(TEXTS.seen, { quantity: TEXTS.quantities[quantity], low, high, restitution, recorded: RECORDED, transient }),
+    ...(isPlain(state) ? [say(TEXTS.long_run, { orbits: orbits.join(", ") })] : driven),
+    ...unsettled(count, told, areDrawn(state)),
+  ].join(" ");
 }
 
 function samplesOf({ diagram }: State): number[] {
@@ -116,21 +118,16 @@ function samplesOf({ diagram }: State): number[] {
 }
 
 function leftOut({ left_out }: DiagramJson): string {
-  const more = left_out > TRANSIENT ? ` (where that is not enough, up to ${grouped(String(left_out))})` : "";
-  return `${TRANSIENT}${more}`;
+  if (left_out <= TRANSIENT) return String(TRANSIENT);
+  return say(TEXTS.transient_up_to, { transient: TRANSIENT, most: grouped(String(left_out)) });
 }
 
-function unsettled(count: number, { unsettled: number, left_out }: DiagramJson, lines: boolean): string {
-  if (number === 0) return "";
-  const some = `${number} of the ${count} orbits ${number === 1 ? "has" : "have"} not`;
-  const of = number === count ? "None of the orbits has" : some;
-  const end = lines ? "; the lines are where they end." : ".";
-  return ` ${of} settled after ${grouped(String(left_out))} impacts: their dots are still on their way${end}`;
+function unsettled(orbits: number, { unsettled: count, left_out }: DiagramJson, lines: boolean): string[] {
+  if (count === 0) return [];
+  const { one, many } = TEXTS.unsettled;
+  const text = count === orbits ? TEXTS.none_settled : count === 1 ? one : many;
+  return [say(text, { count, orbits, impacts: grouped(String(left_out)) }), ...(lines ? [TEXTS.lines] : [])];
 }
 
-function behaviour({ kind, impacts }: VerdictJson): string {
-  if (kind === "periodic") return `period ${impacts ?? 0}`;
-  if (kind === "chaotic") return "chaos";
-  if (kind === "chattering") return `a rest every ${count(impacts ?? 0, "impact")}`;
-  return kind === "at-rest" ? "rest for ever" : "undecided";
-}
+export const behaviour = ({ kind, impacts }: VerdictJson): string =>
+  say(TEXTS.does[kind], { number: impacts ?? 0, impacts: counted(TEXTS.impacts, impacts ?? 0) });

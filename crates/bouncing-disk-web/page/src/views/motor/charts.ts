@@ -6,7 +6,10 @@ import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/ch
 import { ONE_COLUMN, rowsOf, tableOffers } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
+import { say, WORDS } from "../../words";
 import { membersOf, SEED, type Operation, type Transient } from "./sheet";
+
+const { charts: TEXTS, files: FILES, titles: TITLES } = WORDS.motor;
 
 const finite = (value: number): number => (Number.isFinite(value) ? value : 0);
 
@@ -18,19 +21,19 @@ export function transientChart({ json, numbers }: Transient, own: Operation | nu
   const last = times[json.points - 1] ?? 1;
   const time = prefixOf(last);
   const edges = [-2, 2].flatMap((errors) => speed.map((value, row) => value + errors * (error[row] ?? 0)));
-  const curves: Curve[] = [{ label: "run-up", y: speed, error, colour: "--curve-speed" }];
+  const curves: Curve[] = [{ label: TEXTS.run_up_curve, y: speed, error, colour: "--curve-speed" }];
   if (own?.status === 0) {
     edges.push(...[-2, 2].map((errors) => own.speed + errors * finite(own.speed_error)));
     const y = speed.map(() => own.speed);
     const same = speed.map(() => own.speed_error);
-    curves.push({ label: "steady speed", y, error: same, colour: "--curve-power", dash: [6, 3] });
+    curves.push({ label: TEXTS.steady, y, error: same, colour: "--curve-power", dash: [6, 3] });
   }
   const constant = json.rise?.form === "exponential" ? json.rise.constant.value : Infinity;
-  const line = { x: constant * time.factor, label: "time constant", colour: "--picture-muted" };
+  const line = { x: constant * time.factor, label: TEXTS.constant, colour: "--picture-muted" };
   return {
-    title: "Run-up",
-    x: { label: `time (${time.symbol}s)`, range: [0, last * time.factor] },
-    y: { label: "mean angular speed (rad/s)", range: padded(extent([...edges, 0]) ?? [0, 1]) },
+    title: TEXTS.run_up,
+    x: { label: say(TEXTS.time, { prefix: time.symbol }), range: [0, last * time.factor] },
+    y: { label: TEXTS.mean_speed, range: padded(extent([...edges, 0]) ?? [0, 1]) },
     at: times.map((value) => value * time.factor),
     curves,
     lines: constant > last ? [] : [line],
@@ -39,7 +42,8 @@ export function transientChart({ json, numbers }: Transient, own: Operation | nu
 
 interface Kind {
   readonly title: string;
-  readonly label: (prefix: string) => string;
+  /** Of the axis. */
+  readonly label: string;
   readonly curves: readonly {
     name: "speed" | "mechanical_power" | "input_power" | "efficiency";
     label: string;
@@ -52,23 +56,23 @@ interface Kind {
 
 const KINDS: readonly Kind[] = [
   {
-    title: "Speed against load",
-    label: () => "steady angular speed (rad/s)",
-    curves: [{ name: "speed", label: "speed", colour: "--curve-speed" }],
+    title: TEXTS.speed,
+    label: TEXTS.speed_axis,
+    curves: [{ name: "speed", label: TEXTS.speed_curve, colour: "--curve-speed" }],
     factor: 1,
   },
   {
-    title: "Power against load",
-    label: (prefix) => `power (${prefix}W)`,
+    title: TEXTS.power,
+    label: TEXTS.power_axis,
     curves: [
-      { name: "mechanical_power", label: "to the load", colour: "--curve-power" },
-      { name: "input_power", label: "from the stator", colour: "--curve-input", dash: [6, 3] },
+      { name: "mechanical_power", label: TEXTS.to_load, colour: "--curve-power" },
+      { name: "input_power", label: TEXTS.from_stator, colour: "--curve-input", dash: [6, 3] },
     ],
   },
   {
-    title: "Efficiency against load",
-    label: () => "efficiency (%)",
-    curves: [{ name: "efficiency", label: "efficiency", colour: "--curve-efficiency" }],
+    title: TEXTS.efficiency,
+    label: TEXTS.efficiency_axis,
+    curves: [{ name: "efficiency", label: TEXTS.efficiency_curve, colour: "--curve-efficiency" }],
     factor: 100,
   },
 ];
@@ -83,7 +87,7 @@ export function loadCharts(
   const torque = prefixOf(Math.max(Math.abs(loads[0]), Math.abs(loads[1])));
   const shown = [...operations].sort((one, two) => one.load_torque - two.load_torque);
   const span = padded([loads[0] * torque.factor, loads[1] * torque.factor], 0.03);
-  const x = { label: `load (${torque.symbol}N m)`, range: span };
+  const x = { label: say(TEXTS.load, { prefix: torque.symbol }), range: span };
   const beyond = largestTorque * torque.factor;
   const stop = (stall?.torque ?? NaN) * torque.factor;
   const stopError = finite(stall?.torque_error ?? 0) * torque.factor;
@@ -113,7 +117,7 @@ export function loadCharts(
       title,
       x,
       // Without any value but zero there is no scale to take from the numbers.
-      y: { label: label(prefix.symbol), range: padded(greatest > 0 ? range : [0, 1], 0.08) },
+      y: { label: say(label, { prefix: prefix.symbol }), range: padded(greatest > 0 ? range : [0, 1], 0.08) },
       at: shown.map(({ load_torque }) => load_torque * torque.factor),
       curves: curves.map(({ name, ...curve }) => ({
         ...curve,
@@ -122,8 +126,8 @@ export function loadCharts(
         points: true,
       })),
       marks,
-      lines: Number.isNaN(stop) ? [] : [{ x: stop, error: stopError, label: "stall", colour: "--stall" }],
-      ...(span[1] > beyond * 1.001 ? { shade: { range: [beyond, span[1]], label: "friction cannot hold" } } : {}),
+      lines: Number.isNaN(stop) ? [] : [{ x: stop, error: stopError, label: TEXTS.stall, colour: "--stall" }],
+      ...(span[1] > beyond * 1.001 ? { shade: { range: [beyond, span[1]], label: TEXTS.runaway } } : {}),
     };
   });
 }
@@ -145,12 +149,12 @@ interface MotorParts {
 
 export function motorOffers({ sheet, text, transient, operations, runUp, curves }: MotorParts): Offer[] {
   const written = async () => new Blob([text], { type: "application/json" });
-  const offers: Offer[] = [{ name: "motor data sheet", kind: "json", make: written }];
+  const offers: Offer[] = [{ name: FILES.sheet, kind: "json", make: written }];
   if (transient !== null) {
     const parameters = { sheet, members: membersOf(sheet), seed: SEED };
     const columns = ["time_s", "speed_rad_per_s", "speed_error_rad_per_s"];
     const rows = () => rowsOf(transient.numbers, TRANSIENT_COLUMNS.length);
-    offers.push(...tableOffers({ name: "motor run-up", parameters, columns, rows }));
+    offers.push(...tableOffers({ name: FILES.run_up, parameters, columns, rows }));
   }
   if (operations.length > 0) {
     const cell = (row: Operation, name: (typeof OPERATION_COLUMNS)[number]) =>
@@ -158,11 +162,11 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
     const rows = () =>
       operations.map((row) => [...OPERATION_COLUMNS.map((name) => cell(row, name)), row.wanted, row.shortfall ?? ""]);
     const columns = [...LOAD_UNITS, "relative_error_wanted", "shortfall"];
-    offers.push(...tableOffers({ name: "motor load curve", parameters: { sheet, seed: SEED }, columns, rows }));
+    offers.push(...tableOffers({ name: FILES.curve, parameters: { sheet, seed: SEED }, columns, rows }));
   }
   const each = ONE_COLUMN * 0.62;
-  if (runUp !== null) offers.push(...chartOffers("motor run-up", "Run-up of the motor", [runUp], each));
+  if (runUp !== null) offers.push(...chartOffers(FILES.run_up, TITLES.run_up, [runUp], each));
   if (curves.length > 0)
-    offers.push(...chartOffers("motor load curve", "Speed, power and efficiency against load", curves, each));
+    offers.push(...chartOffers(FILES.curve, TITLES.curve, curves, each));
   return offers;
 }

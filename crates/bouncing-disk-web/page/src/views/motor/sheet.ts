@@ -7,6 +7,7 @@ import {
   OPERATION_COLUMNS, type MotorSheet, type ReportJson, type SheetJson, type StallJson, type StatorSheet,
   type TransientJson,
 } from "../../protocol"; // prettier-ignore
+import { say, WORDS } from "../../words";
 import { tellFailure } from "../asking";
 
 /** Of all that is asked of a motor, one after the other. */
@@ -80,11 +81,7 @@ export async function stallOf({ client }: Context, sheet: MotorSheet): Promise<S
 
 /** A data sheet has some dozen numbers. */
 const LONGEST_SHEET = 100_000;
-const YIELDS =
-  "Amplitude and twist of the system are then those without a rotor, at resonance. They are in the sheet, not in the " +
-  "link, and the other views do not have them.";
-const REMARK =
-  "The sheet of the shared system and mass, as the command line and Python read it. Paste another one, or edit it.";
+const TEXTS = WORDS.motor.sheet;
 
 const numberField = (name: string, placeholder: string, onchange: () => void): HTMLInputElement =>
   element("input", { type: "text", inputmode: "decimal", size: 8, placeholder, "aria-label": name, onchange });
@@ -95,15 +92,15 @@ const label = (words: string, field: HTMLElement): HTMLElement => element("label
 export class SheetPanel {
   readonly root: HTMLElement;
   private readonly text = element("textarea", {
-    rows: 9, spellcheck: "false", "aria-label": "Data sheet as JSON", class: "sheet-text",
+    rows: 9, spellcheck: "false", "aria-label": TEXTS.label, class: "sheet-text",
     oninput: () => (this.typed = true),
   }); // prettier-ignore
   private readonly file = element("input", {
     type: "file", accept: ".json,application/json", hidden: true, onchange: () => void this.readFile(),
   }); // prettier-ignore
   private typed = false;
-  private readonly mass = numberField("Effective mass (g)", "does not yield", () => this.yield());
-  private readonly quality = numberField("Quality factor", "300", () => this.yield());
+  private readonly mass = numberField(TEXTS.mass, TEXTS.rigid, () => this.yield());
+  private readonly quality = numberField(TEXTS.quality, "300", () => this.yield());
   private readonly twists = element("input", { type: "checkbox", onchange: () => void this.yield() });
 
   constructor(
@@ -112,19 +109,19 @@ export class SheetPanel {
   ) {
     const bar = div(
       "bar",
-      button("Use this sheet", () => void this.read(this.text.value)),
-      button("Open a file", () => this.file.click()),
-      button("Save as JSON", () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
+      button(TEXTS.use, () => void this.read(this.text.value)),
+      button(TEXTS.open, () => this.file.click()),
+      button(TEXTS.save, () => save(new Blob([this.text.value], { type: "application/json" }), "motor.json")),
       this.file,
     );
     const stator = element(
-      "fieldset", {}, element("legend", {}, "Stator that yields"), label("Effective mass (g)", this.mass),
-      label("Quality factor", this.quality), label("The mode also twists", this.twists),
-      element("p", { class: "remark" }, YIELDS),
+      "fieldset", {}, element("legend", {}, TEXTS.stator), label(TEXTS.mass, this.mass),
+      label(TEXTS.quality, this.quality), label(TEXTS.twists, this.twists),
+      element("p", { class: "remark" }, TEXTS.yields),
     ); // prettier-ignore
-    const remark = element("p", { class: "remark" }, REMARK);
-    const parts = [element("h3", {}, "Data sheet"), stator, this.text, bar, remark];
-    this.root = section("Data sheet", "panel", ...parts);
+    const remark = element("p", { class: "remark" }, TEXTS.remark);
+    const parts = [element("h3", {}, TEXTS.title), stator, this.text, bar, remark];
+    this.root = section(TEXTS.title, "panel", ...parts);
   }
 
   /** Shows a text, unless somebody is about to write another one. */
@@ -146,7 +143,7 @@ export class SheetPanel {
     try {
       sheet = JSON.parse(this.text.value) as typeof sheet;
     } catch {
-      this.context.status("The data sheet is no JSON.", "error");
+      this.context.status(TEXTS.no_json, "error");
       return;
     }
     if (this.mass.value === "") delete sheet.stator;
@@ -162,14 +159,14 @@ export class SheetPanel {
 
   private async read(text: string): Promise<void> {
     if (text.length > LONGEST_SHEET) {
-      this.context.status("This is too long for a data sheet.", "error");
+      this.context.status(TEXTS.too_long, "error");
       return;
     }
     try {
       const { json } = await this.context.client.ask<SheetJson>("motor-read", { call: "sheet_read", text });
       this.typed = false;
       this.take(json);
-      this.context.status("The data sheet is read: system and mass are those of it now.");
+      this.context.status(TEXTS.read);
     } catch (error) {
       tellFailure(this.context, error);
     }
@@ -180,7 +177,7 @@ export class SheetPanel {
     this.file.value = "";
     if (file === undefined) return;
     if (file.size > LONGEST_SHEET) {
-      this.context.status(`${file.name} is too long for a data sheet.`, "error");
+      this.context.status(say(TEXTS.file_too_long, { name: file.name }), "error");
       return;
     }
     this.text.value = await file.text();

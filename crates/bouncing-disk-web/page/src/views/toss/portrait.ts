@@ -4,6 +4,7 @@ import { crossAt, pixelX, pixelY, roundUp, type Axes, type Plot } from "../../dr
 import type { Pen } from "../../drawing/pen";
 import { WindowPicture, type Point } from "../../drawing/window";
 import type { ImpactStart } from "../../protocol";
+import { WORDS } from "../../words";
 import type { Impact, Recording } from "./recording";
 
 export class Portrait {
@@ -18,7 +19,7 @@ export class Portrait {
   constructor(pick: (at: Point) => void) {
     this.picture = new WindowPicture({
       className: "picture-portrait",
-      label: "Phase portrait of the impacts.",
+      label: WORDS.toss.portrait_label,
       axes: () => this.axes(),
       paint: (pen, plot) => paintImpacts(pen, plot, this.recording?.impacts.slice(0, this.shown) ?? []),
       paintMarks: (pen, plot) => this.paintMarks(pen, plot),
@@ -44,8 +45,8 @@ export class Portrait {
 
   axes(): Axes {
     return {
-      x: { label: "phase of impact *τ*_{imp}/2π (periods)", range: [0, 1] },
-      y: { label: "impact speed |*w*_{A}Γ/(*ωA*)|", range: [0, this.top] },
+      x: { label: WORDS.axes.phase, range: [0, 1] },
+      y: { label: WORDS.axes.speed_short, range: [0, this.top] },
     };
   }
 

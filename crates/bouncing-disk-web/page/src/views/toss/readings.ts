@@ -2,25 +2,19 @@
 
 import { element, Facts, setText } from "../../elements";
 import { plain, quantity } from "../../numbers";
+import { say, WORDS } from "../../words";
 import { ROUNDING, type Moment, type Recording } from "./recording";
 
-const READOUTS = [
-  "Mode", "Time", "Height above the platform", "Angular speed", "Impacts so far",
-  "Kinetic, axial", "Kinetic, rotary", "Potential",
-] as const; // prettier-ignore
-const LEDGER = {
-  "Work of the platform": "platform_work",
-  "Lost in restitution": "restitution_loss",
-  "Lost in friction": "friction_loss",
-  "Work against the load": "load_work",
-  "Stored in the disk": "stored",
-} as const;
+const TEXTS = WORDS.toss;
+/** What a mode is called, and what the disk does in it. */
+const MODES: Readonly<Record<string, string>> = TEXTS.modes;
+const DOES: Readonly<Record<string, string>> = TEXTS.does;
 
 export class Readings {
-  private readonly facts = new Facts(READOUTS, "Present state; energies per mass of the disk");
-  private readonly ledger = new Facts(Object.keys(LEDGER), "Energy balance per mass of the disk");
-  private readonly ledgerTitle = element("h3", {}, "Energy balance");
-  readonly elements = [element("h3", {}, "Now"), this.facts.root, this.ledgerTitle, this.ledger.root];
+  private readonly facts = new Facts(Object.values(TEXTS.facts), TEXTS.now_label);
+  private readonly ledger = new Facts(Object.values(TEXTS.energy), TEXTS.balance_label);
+  private readonly ledgerTitle = element("h3");
+  readonly elements = [element("h3", {}, TEXTS.now), this.facts.root, this.ledgerTitle, this.ledger.root];
 
   show(moment: Moment, periods: number, impacts: number, recording: Recording): void {
     const { preload_acceleration: g, gyration_radius } = recording.system;
@@ -28,46 +22,41 @@ export class Readings {
     const spin = recording.settled(moment.angular_speed, "angular_speed", "platform_angular_speed");
     const velocity = recording.settled(moment.axial_velocity, "axial_velocity", "platform_velocity");
     const height = recording.settled(moment.height, "height", "platform_height");
-    const texts = [
-      moment.mode,
-      `${periods.toFixed(2)} periods, ${quantity(moment.time, "s")}`,
-      quantity(recording.system.contact_time > 0 ? gap : Math.max(gap, 0), "m"),
-      `${plain(spin, 3)} rad/s`,
-      String(impacts),
-      quantity(velocity ** 2 / 2, "J/kg"),
-      quantity((gyration_radius * spin) ** 2 / 2, "J/kg"),
-      quantity(g * height, "J/kg"),
-    ];
-    READOUTS.forEach((name, index) => this.facts.set(name, texts[index] ?? ""));
+    const values: Record<keyof typeof TEXTS.facts, string> = {
+      mode: MODES[moment.mode] ?? moment.mode,
+      time: say(TEXTS.time, { periods: periods.toFixed(2), time: quantity(moment.time, "s") }),
+      height: quantity(recording.system.contact_time > 0 ? gap : Math.max(gap, 0), "m"),
+      angular_speed: `${plain(spin, 3)} rad/s`,
+      impacts: String(impacts),
+      axial: quantity(velocity ** 2 / 2, "J/kg"),
+      rotary: quantity((gyration_radius * spin) ** 2 / 2, "J/kg"),
+      potential: quantity(g * height, "J/kg"),
+    };
+    for (const name of Object.keys(values) as (keyof typeof values)[]) this.facts.set(TEXTS.facts[name], values[name]);
   }
 
   balance({ energy, periods }: Recording): void {
-    setText(this.ledgerTitle, `Energy balance of ${periods} periods`);
+    setText(this.ledgerTitle, say(TEXTS.balance, { periods }));
     // What is below the rounding of the largest of them is nothing.
     const largest = Math.max(...Object.values(energy).map(Math.abs));
-    for (const [name, part] of Object.entries(LEDGER)) {
-      const value = energy[part];
-      this.ledger.set(name, quantity(Math.abs(value) <= ROUNDING * largest ? 0 : value, "J/kg"));
+    for (const part of Object.keys(TEXTS.energy) as (keyof typeof energy)[]) {
+      const value = Math.abs(energy[part]) <= ROUNDING * largest ? 0 : energy[part];
+      this.ledger.set(TEXTS.energy[part], quantity(value, "J/kg"));
     }
   }
 }
-
-const WORDS: Readonly<Record<string, string>> = {
-  flight: "is in flight",
-  sticking: "sticks to the platform",
-  "sliding forward": "slides forward on the platform",
-  "sliding backward": "slides backward on the platform",
-  held: "is held",
-};
 
 export function describeMoment(moment: Moment, periods: number, impacts: number, recording: Recording): string {
   const gap = recording.settled(moment.height - moment.platform_height, "height", "platform_height");
   const speed = (value: number) => plain(recording.settled(value, "angular_speed", "platform_angular_speed"), 3);
   const indented = gap < 0 && recording.system.contact_time > 0;
-  const place =
-    gap > 0 || indented ? `, ${quantity(Math.abs(gap), "m")} ${indented ? "into the contact" : "above the platform"},` : "";
-  return (
-    `After ${periods.toFixed(2)} periods and ${impacts} impacts the disk ${WORDS[moment.mode] ?? moment.mode}${place} ` +
-    `and turns at ${speed(moment.angular_speed)} rad/s; the platform at ${speed(moment.platform_angular_speed)} rad/s.`
-  );
+  const place = gap > 0 || indented ? say(indented ? TEXTS.into : TEXTS.above, { gap: quantity(Math.abs(gap), "m") }) : "";
+  return say(TEXTS.moment, {
+    periods: periods.toFixed(2),
+    impacts,
+    does: DOES[moment.mode] ?? moment.mode,
+    place,
+    speed: speed(moment.angular_speed),
+    platform: speed(moment.platform_angular_speed),
+  });
 }

@@ -6,6 +6,7 @@ import { prefixOf } from "../../numbers";
 import {
   EVENT_COLUMNS, MODES, MOTION_COLUMNS, type MotionJson, type Range, type Response, type SystemParameters,
 } from "../../protocol"; // prettier-ignore
+import { say, WORDS } from "../../words";
 
 const WIDTH = MOTION_COLUMNS.length;
 const EVENT_WIDTH = EVENT_COLUMNS.length;
@@ -121,6 +122,8 @@ export class Recording {
   }
 }
 
+const TEXTS = WORDS.toss;
+
 /** Periods of a chart. */
 const SHOWN = 8;
 
@@ -129,22 +132,22 @@ export function traces(recording: Recording, now: number): [Chart, Chart] {
   const { period } = recording;
   const from = Math.max(0, now - SHOWN + 1);
   const [start, end] = [from * period, now * period];
-  const x = { label: "time (periods of the platform)", range: [from, from + SHOWN] as Range };
+  const x = { label: WORDS.axes.time, range: [from, from + SHOWN] as Range };
   const at = recording.span("time", start, end, 1 / period);
   const heights = recording.extent("height", "platform_height");
   const metre = prefixOf(Math.max(...heights.map(Math.abs)));
   // Both have one axis of time.
   const widest = "−00.00";
   const curves = (disk: Column, platform: Column, factor: number): Curve[] => [
-    { label: "disk", y: recording.span(disk, start, end, factor), colour: "--disk" },
-    { label: "platform", y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
+    { label: TEXTS.disk, y: recording.span(disk, start, end, factor), colour: "--disk" },
+    { label: TEXTS.platform, y: recording.span(platform, start, end, factor), colour: "--platform-line", dash: [6, 3] },
   ];
   return [
     {
-      title: "Heights",
+      title: TEXTS.heights,
       x,
       y: {
-        label: `height (${metre.symbol}m)`,
+        label: say(WORDS.axes.height, { prefix: metre.symbol }),
         range: padded([heights[0] * metre.factor, heights[1] * metre.factor]),
         widest,
       },
@@ -152,10 +155,10 @@ export function traces(recording: Recording, now: number): [Chart, Chart] {
       curves: curves("height", "platform_height", metre.factor),
     },
     {
-      title: "Angular speeds",
+      title: TEXTS.angular_speeds,
       x,
       y: {
-        label: "angular speed (rad/s)",
+        label: WORDS.axes.angular_speed,
         range: padded(recording.extent("angular_speed", "platform_angular_speed")),
         widest,
       },

@@ -4,6 +4,7 @@ import { layOut, NO_TICKS, padded, paintAxes, pixelX, pixelY, roundUp, type Axes
 import type { Pen } from "../../drawing/pen";
 import { plain, prefixOf, quantity } from "../../numbers";
 import type { Range, SystemParameters } from "../../protocol";
+import { say, WORDS } from "../../words";
 import type { Moment, Recording } from "./recording";
 
 /** Where both are: heights in m, angles in rad. */
@@ -72,9 +73,9 @@ export class Stage {
 
   describe(): string {
     const { heightGain, angleGain } = this;
-    if (heightGain === 1 && angleGain === 1) return "Heights and angles are drawn as they are.";
-    const times = (gain: number) => (gain === 1 ? "as they are" : `${plain(gain, 1)} times as large`);
-    return `Heights are drawn ${times(heightGain)}, angles ${times(angleGain)}.`;
+    if (heightGain === 1 && angleGain === 1) return WORDS.toss.true_size;
+    const times = (gain: number) => (gain === 1 ? WORDS.toss.as_it_is : say(WORDS.toss.times, { gain: plain(gain, 1) }));
+    return say(WORDS.toss.enlarged, { heights: times(heightGain), angles: times(angleGain) });
   }
 
   /** Where the middle of the disk's upper side is on the canvas. */
@@ -177,8 +178,8 @@ export function pathAxes({ amplitude, twist_amplitude }: Platform): Axes {
   const metre = prefixOf(amplitude);
   const around = (size: number) => padded([-size, size]);
   return {
-    x: { label: `angle (${radian.symbol}rad)`, range: around(twist_amplitude), factor: radian.factor },
-    y: { label: `height (${metre.symbol}m)`, range: around(amplitude), factor: metre.factor },
+    x: { label: say(WORDS.axes.angle, { prefix: radian.symbol }), range: around(twist_amplitude), factor: radian.factor },
+    y: { label: say(WORDS.axes.height, { prefix: metre.symbol }), range: around(amplitude), factor: metre.factor },
   };
 }
 
@@ -218,9 +219,6 @@ export function paintPath(pen: Pen, plot: Plot, recording: Recording): void {
 }
 
 export function describePath({ amplitude, twist_amplitude }: Platform): string {
-  const wide = twist_amplitude >= LARGE ? `${plain(twist_amplitude, 3)} rad` : quantity(twist_amplitude, "rad");
-  return (
-    "In the corner: the path of a point of the platform, its height over its angle, " +
-    `to ${wide} and ${quantity(amplitude, "m")} on both sides.`
-  );
+  const angle = twist_amplitude >= LARGE ? `${plain(twist_amplitude, 3)} rad` : quantity(twist_amplitude, "rad");
+  return say(WORDS.toss.path, { angle, height: quantity(amplitude, "m") });
 }

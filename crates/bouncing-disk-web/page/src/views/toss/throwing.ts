@@ -4,6 +4,7 @@ import { clamp } from "../../drawing/axes";
 import { button, div, element, placeOn } from "../../elements";
 import { plain, quantity, typed } from "../../numbers";
 import type { FlightStart, SystemParameters } from "../../protocol";
+import { say, WORDS } from "../../words";
 import type { Pose, Stage } from "./scene";
 
 /** The longest flight that a throw may make, in periods. */
@@ -93,17 +94,16 @@ function bounded({ angular_frequency, preload_acceleration: g }: SystemParameter
 }
 
 export function describeThrow({ gap, relative_velocity, angular_speed }: FlightStart): string {
-  const way = relative_velocity < 0 ? "downwards" : "upwards";
-  return (
-    `Thrown ${quantity(gap, "m")} above the platform, ${quantity(Math.abs(relative_velocity), "m/s")} ${way} ` +
-    `relative to it, turning at ${plain(angular_speed, 3)} rad/s.`
-  );
+  const [height, velocity] = [quantity(gap, "m"), quantity(Math.abs(relative_velocity), "m/s")];
+  const text = relative_velocity < 0 ? WORDS.toss.thrown_down : WORDS.toss.thrown_up;
+  return say(text, { gap: height, velocity, speed: plain(angular_speed, 3) });
 }
 
+const TEXTS = WORDS.toss.throw;
 const ENTRIES = [
-  ["Height above the platform (mm)", "100"],
-  ["Relative velocity upwards (mm/s)", "500"],
-  ["Angular speed (rad/s)", "5"],
+  [TEXTS.gap, "100"],
+  [TEXTS.velocity, "500"],
+  [TEXTS.speed, "5"],
 ] as const;
 
 /** Three numbers and a button: a throw without a pointer. */
@@ -121,21 +121,21 @@ export function throwForm({ system, phase, start }: Pick<ThrowHost, "system" | "
     const fastest = bounded(system(), { ...thrown, relative_velocity: Infinity }).relative_velocity;
     // From the platform itself the disk can only leave upwards.
     const slowest = gap > 0 ? -fastest : 0;
-    const speeds = `${quantity(slowest, "m/s")} to ${quantity(fastest, "m/s")}`;
+    const speeds = [quantity(slowest, "m/s"), quantity(fastest, "m/s")] as const;
     const ranges = [
-      [gap >= 0 && gap <= highest * 1000, `0 to ${quantity(highest, "m")}`],
-      [velocity >= slowest * 1000 && velocity <= fastest * 1000, speeds],
-      [Math.abs(spin) <= FASTEST, `−${FASTEST} to ${FASTEST} rad/s`],
+      [gap >= 0 && gap <= highest * 1000, "0", quantity(highest, "m")],
+      [velocity >= slowest * 1000 && velocity <= fastest * 1000, ...speeds],
+      [Math.abs(spin) <= FASTEST, `−${FASTEST}`, `${FASTEST} rad/s`],
     ] as const;
     const wrong = entries.flatMap(({ label, input }, index) => {
-      const [legal, range] = ranges[index] as (typeof ranges)[number];
+      const [legal, low, high] = ranges[index] as (typeof ranges)[number];
       input.setAttribute("aria-invalid", String(!legal));
-      return legal ? [] : `${label}: "${input.value.slice(0, 24)}" is refused, it has to be from ${range}.`;
+      return legal ? [] : say(TEXTS.refused, { name: label, text: input.value.slice(0, 24), low, high });
     });
     problem.textContent = wrong.join(" ");
     problem.hidden = wrong.length === 0;
     if (wrong.length === 0) start(bounded(system(), thrown));
   };
-  const fields = div("fields", ...entries.map(({ row }) => row), problem, button("Throw", throwIt));
-  return element("details", { class: "throw" }, element("summary", {}, "Throw by numbers"), fields);
+  const fields = div("fields", ...entries.map(({ row }) => row), problem, button(TEXTS.act, throwIt));
+  return element("details", { class: "throw" }, element("summary", {}, TEXTS.title), fields);
 }
