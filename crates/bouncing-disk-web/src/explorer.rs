@@ -40,6 +40,7 @@ impl Explorer {
             Request::Motion { system, start, periods, samples_per_period } => {
                 motion::answer(&system.build()?, start, periods, samples_per_period)
             }
+            Request::Toss { system } => orbit::toss(&system.build()?),
             Request::Diagram(request) => diagram::answer(&request),
             Request::Orbit { axial_forcing, restitution, contact_periods, start } => {
                 rigid(contact_periods)?;

@@ -1,10 +1,11 @@
-//! Derived quantities of a system, and the long-term motion of one orbit.
+//! Derived quantities of a system, its single toss, and the long-term motion of one orbit.
 
 use std::f64::consts::TAU;
 
 use bouncing_disk::System;
 use bouncing_disk::core::attractors::{UndecidedReason, Verdict, VerdictSettings};
 use bouncing_disk::parameters::ContactStatement;
+use bouncing_disk::toss::{InitialSpin, single_toss};
 use serde_json::json;
 
 use crate::reply::{Refusal, Reply};
@@ -24,6 +25,12 @@ pub(crate) fn summary(system: &System) -> Result<Reply, Refusal> {
         "bounces": system.dimensionless().vibration().separation_phase().is_some(),
         "contact": system.contact_statement(None).map(|own| ContactStatement::rows(Some(&own))),
     }))
+}
+
+/// The performance of the toss of Sec. III, of a disk that does not turn before; SI. A platform that never falls away
+/// from the disk, and contacts that take time, are refused.
+pub(crate) fn toss(system: &System) -> Result<Reply, Refusal> {
+    Reply::short(&single_toss(system, InitialSpin::AbsoluteRest)?)
 }
 
 /// Impacts and platform periods of a round are null where nothing repeats; the two Floquet multipliers are

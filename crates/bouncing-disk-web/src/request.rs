@@ -83,6 +83,10 @@ pub(crate) enum Request {
         periods: u64,
         samples_per_period: u64,
     },
+    /// The single toss of a disk that rests on the platform at its lowest point.
+    Toss {
+        system: SystemParameters,
+    },
     Diagram(DiagramRequest),
     /// The long-term motion of the orbit from a start.
     Orbit {

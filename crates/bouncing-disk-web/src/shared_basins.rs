@@ -4,6 +4,7 @@ use bouncing_disk::core::Unobserved;
 use bouncing_disk::core::attractors::{
     Attractor, AttractorKind, AttractorSearch, Attractors, Axis, BasinSettings, Grid,
 };
+use bouncing_disk::core::numerics::fraction::Fraction;
 use serde_json::{Value, json};
 
 use crate::reply::{Refusal, Reply};
@@ -27,7 +28,8 @@ impl SharedAttractors {
     /// intervals. A label is what `rows` has in its cells, null beyond the 251 that a byte holds; an
     /// attractor that does not last may lead to another one; a periodic one has one of its impacts. The
     /// sample has so many starts, evenly over all phases and the speeds up to the bound that no attractor
-    /// exceeds at that phase; `fastest_start` is the largest of that bound.
+    /// exceeds at that phase; `fastest_start` is the largest of that bound. `kinds` has the share, and its interval,
+    /// of the starts that rest, are periodic or chaotic for good: where a rest leads to another attractor, that counts.
     pub(crate) fn list(&mut self, axial_forcing: f64, restitution: f64) -> Result<Reply, Refusal> {
         let found = self.of(axial_forcing, restitution)?;
         let attractors = found.all().iter().enumerate();
@@ -35,6 +37,7 @@ impl SharedAttractors {
             attractors.map(|(number, one)| described(found.label(number), one)).collect();
         Reply::short(&json!({
             "attractors": attractors,
+            "kinds": kinds(found)?,
             "undecided": found.undecided().value(),
             "starts": found.search().starts(),
             "fastest_start": found.map().impact_speed_bound() / std::f64::consts::PI,
@@ -54,6 +57,24 @@ impl SharedAttractors {
         let basins = found.basins_of_rows(grid, from..to, BasinSettings::default(), &Unobserved)?;
         Reply::new(&(), Vec::new(), basins.labels().to_vec())
     }
+}
+
+fn kinds(found: &Attractors) -> Result<Value, Refusal> {
+    let kind = |one: &Attractor| {
+        let after = match &one.kind {
+            AttractorKind::Rest(after) => after.leads_to().and_then(|number| found.all().get(number)),
+            _ => None,
+        };
+        after.map_or(one.kind.name(), |last| last.kind.name())
+    };
+    let share = |name: &str| {
+        let own = found.all().iter().filter(|one| kind(one) == name);
+        let count = own.map(|one| one.starts.count()).sum();
+        let share = Fraction::new(count, u64::from(found.search().starts()))?;
+        let (low, high) = share.interval();
+        Ok::<_, Refusal>(json!({ "value": share.value(), "low": low, "high": high }))
+    };
+    Ok(json!({ "rest": share("rest")?, "periodic": share("periodic")?, "chaotic": share("chaotic")? }))
 }
 
 fn described(label: Option<u8>, attractor: &Attractor) -> Value {

@@ -327,6 +327,49 @@ fn columns_are_followed_until_they_have_settled() {
 }
 
 #[test]
+fn a_single_toss_is_that_of_the_library() {
+    let own = System::pizza_toss();
+    let toss = |changes| json!({ "call": "toss", "system": with(pizza(), changes) });
+    let mut parameters = json!(own.platform().parameters());
+    parameters = with(parameters, json!(own.disk().parameters()));
+    let (json, _) = answered(&toss(parameters));
+    let expected = bouncing_disk::toss::single_toss(&own, InitialSpin::AbsoluteRest).expect("thrown");
+    assert_eq!(json, json!(expected));
+    assert!((number(&json, "airborne_speed") - 14.0).abs() < 0.5, "{json}");
+    let gentle = refused(&toss(json!({ "amplitude": 0.03 })));
+    assert!(gentle["message"].as_str().is_some_and(|text| text.contains("never")), "{gentle}");
+    assert_eq!(refused(&toss(json!({ "contact_time": 0.03 })))["kind"], "computation");
+}
+
+#[test]
+fn shares_of_kinds_are_those_of_the_attractors_that_starts_end_on() {
+    let request =
+        |forcing: f64| json!({ "call": "attractors", "axial_forcing": forcing, "restitution": 0.5 });
+    for (forcing, lasting) in
+        [(0.45, &["rest", "periodic"][..]), (0.55, &["rest", "chaotic"]), (0.2, &["rest"])]
+    {
+        let (json, _) = answered(&request(forcing));
+        let share = |name: &str| number(&json, &format!("/kinds/{name}/value"));
+        for kind in ["rest", "periodic", "chaotic"] {
+            let own = list(&json, "attractors").iter().filter(|one| one["kind"] == kind);
+            let sum: f64 = own.map(|one| number(one, "share")).sum();
+            assert!((share(kind) - sum).abs() < 1e-12, "{kind} at {forcing}: {json}");
+            assert_eq!(share(kind) > 0.0, lasting.contains(&kind), "{kind} at {forcing}: {json}");
+            let [low, high] = ["low", "high"].map(|end| number(&json, &format!("/kinds/{kind}/{end}")));
+            assert!(low <= share(kind) && share(kind) <= high && high - low < 0.1, "{json}");
+        }
+    }
+    // A disk at rest is thrown onto a periodic orbit there.
+    let (json, _) = answered(&request(0.51));
+    assert!(
+        json["attractors"][0]["leads_to"].is_u64() && number(&json, "/attractors/0/share") > 0.5,
+        "{json}"
+    );
+    assert!(number(&json, "/kinds/rest/value") <= 0.0, "{json}");
+    assert!(number(&json, "/kinds/periodic/value") > 0.9, "{json}");
+}
+
+#[test]
 fn rows_of_basins_do_not_depend_on_which_are_asked_for_together() {
     let mut explorer = Explorer::new();
     let whole = ask(&basins([0, 20]));
