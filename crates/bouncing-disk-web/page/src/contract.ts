@@ -2,13 +2,21 @@
 
 import type { FlightStart, ImpactStart, Range, Refusal, Request, Response, SystemParameters } from "./protocol";
 
-export type ViewName = "toss" | "diagram" | "basins" | "motor";
+export type ViewName = "toss" | "diagram" | "basins" | "motor" | "compare" | "scan";
 
 export type Quantity = "impact_phase" | "normalised_speed" | "angular_speed";
 
 /** How the platform moves in the orbit diagram. */
 export const DRIVES = ["sine", "triangle", "sawtooth", "parabolas"] as const;
 export type Drive = (typeof DRIVES)[number];
+
+/** What a scan computes at each of its points. */
+export const RESULTS = [
+  "toss_speed", "toss_efficiency", "toss_ratio", "orbit_exponent", "orbit_period", "share_periodic", "share_chaotic",
+  "share_rest", "motor_speed", "motor_power", "motor_efficiency",
+] as const; // prettier-ignore
+export type ResultName = (typeof RESULTS)[number];
+export const OPTIMA = ["largest", "smallest"] as const;
 
 /**
  * All that the pictures depend on. It is never altered: a change makes another one. In the hash of the address numbers stand
@@ -31,6 +39,14 @@ export interface State {
   readonly basins: Readonly<{ phase_periods: Range; normalised_speed: Range }>;
   /** Loads of the curve as shares of the largest mean torque of friction, and the run-up's length in rise times. */
   readonly motor: Readonly<{ loads: Range; points: number; rise_times: number }>;
+  /** What state B has instead of the shared state A; how many periods both are followed, and from which one on they
+   * are shown (null: where they part). */
+  readonly compare: Readonly<{ parameter: string; value: number; periods: number; from: number | null }>;
+  /** A result at points of a range of one parameter, for some values of a second one (null: none). */
+  readonly scan: Readonly<
+    { over: string; range: Range; points: number; result: ResultName; optimum: (typeof OPTIMA)[number];
+      family: string | null; values: readonly number[] }
+  >; // prettier-ignore
 }
 
 export type Change = { [Key in keyof State]?: State[Key] extends object ? Partial<State[Key]> : State[Key] };

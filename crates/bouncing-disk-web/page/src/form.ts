@@ -75,7 +75,10 @@ const frictionScale = ({ system }: State): number =>
   (system.friction * system.contact_radius * system.preload_acceleration) / system.gyration_radius ** 2 || 1;
 
 /** Stroke and angle that set A = c cos(phi_L) and a_e Phi = c sin(phi_L), Eq. (13): as they were typed, if these did. */
-function strokeOf({ amplitude, twist_amplitude, contact_radius }: Readonly<SystemParameters>): StrokeSides {
+function strokeOf(system: Readonly<SystemParameters>): StrokeSides {
+  const known = STROKES.get(system);
+  if (known !== undefined) return known;
+  const { amplitude, twist_amplitude, contact_radius } = system;
   const [up, around] = [amplitude, contact_radius * twist_amplitude];
   const exact = { stroke: Math.hypot(up, around), angle: Math.atan2(around, up) };
   let found = exact;
@@ -85,8 +88,12 @@ function strokeOf({ amplitude, twist_amplitude, contact_radius }: Readonly<Syste
     if (sets) found = { stroke, angle };
     return sets;
   });
+  STROKES.set(system, found);
   return found;
 }
+
+/** A scan asks a thousand times for that of one system. */
+const STROKES = new WeakMap<Readonly<SystemParameters>, StrokeSides>();
 
 type StrokeSides = Readonly<Record<"stroke" | "angle", number>>;
 

@@ -18,13 +18,15 @@ import { SYSTEM_NAMES } from "./protocol";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
 import { basins } from "./views/basins";
+import { compare } from "./views/compare";
 import { diagram } from "./views/diagram";
 import { motor } from "./views/motor";
+import { scan } from "./views/scan";
 import { toss } from "./views/toss";
 import { say, WORDS } from "./words";
 
 /** In the order of their tabs. */
-const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor];
+const VIEWS: readonly ViewKind[] = [toss, diagram, basins, motor, compare, scan];
 
 /** No ultrasonic motor has a drive as slow as this (rad/s). */
 const SLOWEST_MOTOR = 2e3 * Math.PI;
@@ -99,10 +101,13 @@ function begin(): void {
     const guest = aside !== null && SYSTEM_NAMES.every((name) => system[name] === MOTOR_STATE.system[name]);
     if (view === "motor" && system.angular_frequency < SLOWEST_MOTOR) {
       aside = store.state();
-      open(MOTOR_STATE);
+      open({ ...MOTOR_STATE, compare: aside.compare, scan: aside.scan });
       context.announce(WORDS.status.motor_put_in);
-    } else if (guest && aside !== null && view !== "motor") open({ ...aside, view });
-    else store.change({ view });
+    } else if (guest && aside !== null && view !== "motor" && view !== "scan") {
+      // A scan may be that of the motor.
+      const { compare, scan } = store.state();
+      open({ ...aside, view, compare, scan });
+    } else store.change({ view });
   };
   const tabs = new Tabs(byId("tabs"), VIEWS, visit);
   const side = byId("parameters");

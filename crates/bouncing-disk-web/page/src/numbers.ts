@@ -72,7 +72,7 @@ export function stepped(value: number, direction: 1 | -1, coarse: boolean, small
 
 export const minus = (text: string): string => text.replace("-", "\u2212");
 
-function superscript(power: number): string {
+export function superscript(power: number): string {
   return [...String(power)].map((digit) => (digit === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)])).join("");
 }
 

@@ -129,6 +129,7 @@ export interface AttractorJson {
 
 export interface AttractorsJson {
   readonly attractors: readonly AttractorJson[];
+  readonly kinds: Readonly<Record<"rest" | "periodic" | "chaotic", IntervalJson>>;
   readonly undecided: number;
   readonly starts: number;
   readonly fastest_start: number;
@@ -154,6 +155,9 @@ export interface ReportJson {
   readonly system: SystemParameters;
   readonly trap: TrapJson | null;
 }
+
+/** The performance of a single toss; the library's `TossPerformance`. */
+export type TossJson = Readonly<Record<"airborne_speed" | "efficiency", number>> & { readonly speed_ratio: number | null };
 
 export type TrapJson = Readonly<Record<"preload_acceleration" | "relative_distance", number>> & {
   readonly caught: boolean;

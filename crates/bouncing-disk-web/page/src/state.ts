@@ -1,16 +1,19 @@
 /** The state that a link reproduces: its defaults, changes of it, and its form in the hash of the address. */
 
-import { DRIVES, type Change, type Quantity, type State, type ViewName } from "./contract";
+import { DRIVES, OPTIMA, RESULTS, type Change, type Quantity, type State, type ViewName } from "./contract";
 import { SYSTEM_NAMES, type FlightStart, type Range, type SystemParameters } from "./protocol";
 import tables from "./tables.json";
 import { say, WORDS } from "./words";
 
-export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor"];
+export const VIEW_NAMES: readonly ViewName[] = ["toss", "diagram", "basins", "motor", "compare", "scan"];
 const QUANTITIES: readonly Quantity[] = ["impact_phase", "normalised_speed", "angular_speed"];
 
 /** Loads of a curve, and rise times of a run-up, beyond which a page would compute for minutes. */
-const MOST_POINTS = 200;
+export const MOST_POINTS = 200;
 const MOST_RISE_TIMES = 1000;
+export const MOST_PERIODS = 500;
+/** Curves of a scan, which have to be told apart. */
+export const MOST_VALUES = 5;
 
 /** The parameters of a system among the numbers of a table, in the order of the address; 0 where the table has none. */
 export function systemOf(table: Readonly<Record<string, number>>): SystemParameters {
@@ -39,7 +42,20 @@ export const DEFAULT_STATE: State = {
   diagram: { axial_forcing: [0.32, 0.62], quantity: "impact_phase", range: null, branches: true, drive: "sine" },
   basins: { phase_periods: [0, 1], normalised_speed: [0, 5] },
   motor: { loads: [0, 1], points: 9, rise_times: 6 },
+  compare: { parameter: "normalised_speed", value: 0, periods: 120, from: null },
+  scan: {
+    over: "amplitude_angle",
+    range: [0, 1.2],
+    points: 41,
+    result: "toss_speed",
+    optimum: "largest",
+    family: "phase_lag",
+    values: [-2, -1, 0, 1, 2].map((quarters) => (quarters * Math.PI) / 4),
+  },
 };
+
+/** What a scan or a comparison can vary. */
+const PARAMETER_NAMES: readonly string[] = Object.keys(WORDS.form.labels);
 
 /** A state with this change. A start that is chosen takes the place of a throw. */
 export function changed(state: State, change: Change): State {
@@ -52,6 +68,8 @@ export function changed(state: State, change: Change): State {
     diagram: { ...state.diagram, ...change.diagram },
     basins: { ...state.basins, ...change.basins },
     motor: { ...state.motor, ...change.motor },
+    compare: { ...state.compare, ...change.compare },
+    scan: { ...state.scan, ...change.scan },
   };
 }
 
@@ -122,6 +140,16 @@ function range(lowest: number): Form<Range> {
   };
 }
 
+const NUMBERS: Form<readonly number[]> = {
+  print: (values) => values.map(printed).join(","),
+  read(text) {
+    const values = text.split(",").map(readNumber);
+    const known = values.filter((value) => value !== null);
+    if (known.length === values.length && known.length <= MOST_VALUES) return known;
+    throw new Unreadable(say(WORDS.address.up_to, { most: MOST_VALUES }));
+  },
+};
+
 /** A word for what is not there. */
 function orNone<Value>(word: string, { print, read }: Form<Value>): Form<Value | null> {
   return {
@@ -152,7 +180,7 @@ const whole = <Part extends "view" | "mass" | "thrown">(part: Part, { print, rea
   read: (text) => ({ [part]: read(text) }),
 });
 
-type Parts = Pick<State, "system" | "start" | "diagram" | "basins" | "motor">;
+type Parts = Pick<State, "system" | "start" | "diagram" | "basins" | "motor" | "compare" | "scan">;
 
 function keyOf<Part extends keyof Parts, Name extends keyof Parts[Part]>(
   part: Part,
@@ -181,6 +209,17 @@ const KEYS: Readonly<Record<string, Key>> = {
   motor_loads: keyOf("motor", "loads", range(-Infinity)),
   motor_points: keyOf("motor", "points", within(2, MOST_POINTS, true)),
   motor_rise_times: keyOf("motor", "rise_times", within(0.01, MOST_RISE_TIMES, false)),
+  compare_parameter: keyOf("compare", "parameter", oneOf(PARAMETER_NAMES)),
+  compare_value: keyOf("compare", "value", NUMBER),
+  compare_periods: keyOf("compare", "periods", within(1, MOST_PERIODS, true)),
+  compare_from: keyOf("compare", "from", orNone("parting", within(0, MOST_PERIODS, false))),
+  scan_over: keyOf("scan", "over", oneOf(PARAMETER_NAMES)),
+  scan_range: keyOf("scan", "range", range(-Infinity)),
+  scan_points: keyOf("scan", "points", within(2, MOST_POINTS, true)),
+  scan_result: keyOf("scan", "result", oneOf(RESULTS)),
+  scan_optimum: keyOf("scan", "optimum", oneOf(OPTIMA)),
+  scan_family: keyOf("scan", "family", orNone("none", oneOf(PARAMETER_NAMES))),
+  scan_values: keyOf("scan", "values", NUMBERS),
 };
 
 /** `#view=toss&amplitude=0.0616&...`: all of the state, so that a link outlives other defaults. */

@@ -54,7 +54,7 @@ onPage("everything that can be used is reached by Tab, and the focus is seen", {
 onPage("a screen reader is told a name of every control and picture", {}, async (page, context) => {
   const controls = ["button", "slider", "textbox", "checkbox", "combobox", "tab", "application", "tabpanel", "dialog",
     "DisclosureTriangle", "region", "complementary"]; // prettier-ignore
-  const pictures = { toss: 4, diagram: 1, basins: 1, motor: 4 };
+  const pictures = { toss: 4, diagram: 1, basins: 1, motor: 4, compare: 3, scan: 1 };
   for (const view of VIEWS) {
     await visit(page, view);
     const told = await spoken(page, context);
@@ -63,8 +63,8 @@ onPage("a screen reader is told a name of every control and picture", {}, async 
     const tabs = told.filter(({ role }) => role === "tab");
     assert.deepEqual(
       tabs.map(({ name, selected }) => [name, selected]),
-      [["Toss and bounce", "toss"], ["Orbit diagram", "diagram"], ["Basins", "basins"], ["Motor", "motor"]].map(
-        ([name, key]) => [name, key === view],
+      ["Toss and bounce", "Orbit diagram", "Basins", "Motor", "Compare", "Scan"].map((name, index) =>
+        [name, VIEWS[index] === view],
       ),
     ); // prettier-ignore
     const shown = told.filter(({ role }) => role === "application");

@@ -8,7 +8,7 @@ import { file } from "./module.mjs";
 
 const address = pathToFileURL(file).href;
 
-export const VIEWS = ["toss", "diagram", "basins", "motor"];
+export const VIEWS = ["toss", "diagram", "basins", "motor", "compare", "scan"];
 
 let browser;
 before(async () => {

@@ -18,7 +18,7 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
   for (let round = 0; round < 25; round++) {
     const positive = () => 10 ** (random() * 2 - 1) * (1 + random());
     const wanted = {
-    view: ["toss", "diagram", "basins"][Math.floor(3 * random())],
+    view: ["toss", "diagram", "basins", "compare"][Math.floor(4 * random())],
     amplitude: 0.06 * (1 + random() / 3), twist_amplitude: positive(), angular_frequency: 15,
     phase_lag: -3 * random(),
     contact_radius: positive(), gyration_radius: positive(), friction: random() / 3, restitution: random() * 0.9,
@@ -32,6 +32,11 @@ onPage("states with awkward numbers come back to the bit", {}, async (page) => {
     basins_phase: `${random() / 3},${0.5 + random() / 3}`, basins_speed: `${random()},${3 + random()}`,
     motor_loads: `${random() / 9},${0.5 + random() / 3}`, motor_points: "7",
     motor_rise_times: String(1 + 5 * random()),
+    compare_parameter: ["restitution", "stroke", "mass"][round % 3], compare_value: random(), compare_periods: "30",
+    compare_from: round % 2 ? "parting" : 9 * random(),
+    scan_over: ["contact_time", "impact_phase"][round % 2], scan_range: `${-random()},${random()}`, scan_points: "2",
+    scan_result: ["orbit_period", "motor_power"][round % 2], scan_optimum: ["largest", "smallest"][round % 2],
+    scan_family: ["none", "phase_lag"][round % 2], scan_values: `${random()},${-5e-324 * (round % 2)}`,
   }; // prettier-ignore
     const hash = `#${Object.entries(wanted)
       .map(([key, value]) => `${key}=${Object.is(value, -0) ? "-0" : value}`)
@@ -94,6 +99,16 @@ const LINKS = [
     { throw: "none", friction: "0.3", normalised_speed: "1.1" },
     said,
   ]),
+  [
+    "compare_parameter=colour&compare_value=x&compare_periods=0&compare_from=-1&scan_over=&scan_range=2,1&friction=0.3",
+    { compare_parameter: "normalised_speed", compare_from: "parting", scan_over: "amplitude_angle", friction: "0.3" },
+    ["colour", "compare_value", "compare_periods", "compare_from", "scan_over", "2,1"],
+  ],
+  [
+    "scan_points=1.5&scan_result=weight&scan_optimum=best&scan_family=all&scan_values=1,2,3,4,5,6&friction=0.3",
+    { scan_points: "41", scan_result: "toss_speed", scan_family: "phase_lag", friction: "0.3" },
+    ["1.5", "weight", "best", "scan_family", "up to 5 numbers"],
+  ],
   ["restitution=0&contact_time=0.03&friction=0.3", { restitution: "0.5", friction: "0.3" }, ["restitution of a contact"]],
   ["contact_time=-1&friction=0.3", { contact_time: "0", friction: "0.3" }, ["contact.time = -1"]],
   // A throw counts wherever it stands, and a link without one begins with the impact.

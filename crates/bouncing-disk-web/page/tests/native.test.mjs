@@ -99,7 +99,7 @@ async function statesToShow() {
 
 const CALLS = [
   "attractors", "basins", "branches", "check", "diagram", "motion", "motor_loads", "motor_report", "motor_stall",
-  "motor_transient", "orbit", "sheet_of_system", "sheet_write",
+  "motor_transient", "orbit", "sheet_of_system", "sheet_write", "toss",
 ]; // prettier-ignore
 const TITLE = "every answer in every figure and table has the digest of the native library";
 

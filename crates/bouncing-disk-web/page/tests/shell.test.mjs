@@ -14,7 +14,9 @@ onPage("all can be done with the keyboard alone", {}, async (page) => {
   await page.keyboard.press("ArrowRight");
   await whenAddress(page, "view", "diagram");
   await page.keyboard.press("End");
-  await whenAddress(page, "view", "motor");
+  await whenAddress(page, "view", "scan");
+  await page.keyboard.press("5");
+  await whenAddress(page, "view", "compare");
   await page.keyboard.press("1");
   await whenAddress(page, "view", "toss");
   await page.keyboard.press("p");

@@ -1,6 +1,6 @@
 /** The frame of a picture: where it lies, its ticks, numbers and labels. */
 
-import { minus } from "../numbers";
+import { minus, superscript } from "../numbers";
 import type { Range } from "../protocol";
 import type { Box, Pen } from "./pen";
 
@@ -10,6 +10,8 @@ export interface Axis {
   readonly range: Range;
   /** From the values of the range to the numbers beside the ticks. */
   readonly factor?: number;
+  /** The values are exponents of ten: ticks stand at whole ones. */
+  readonly powers?: boolean;
   /** The numbers beside a vertical axis have at least the place of this one. */
   readonly widest?: string;
 }
@@ -37,7 +39,8 @@ export function layOut(pen: Pen, width: number, height: number, { x, y }: Axes, 
   const top = Math.round(size * 0.9);
   const bottom = Math.round(size * 3.4);
   const plotHeight = Math.max(height - top - bottom, 20);
-  const yTicks = ticks(y.range, Math.max(Math.floor(plotHeight / (size * 3.2)), 2), y.factor);
+  const rows = Math.max(Math.floor(plotHeight / (size * 3.2)), 2);
+  const yTicks = y.powers === true ? powersOfTen(y.range, rows) : ticks(y.range, rows, y.factor);
   const labels = [y.widest ?? "", ...yTicks.major.map((tick) => tick.label)];
   const numbers = Math.max(...labels.map((label) => pen.measure(label, size)), size);
   const left = Math.ceil(numbers + size * 2.5);
@@ -194,6 +197,11 @@ export function ticks([low, high]: Range, count: number, factor = 1): Ticks {
       .filter((index) => index % parts !== 0)
       .map((index) => (index * (size / parts)) / factor),
   };
+}
+
+function powersOfTen(range: Range, count: number): Ticks {
+  const whole = ticks(range, count).major.filter(({ value }) => Number.isInteger(value));
+  return { major: whole.map(({ value }) => ({ value, label: `10${superscript(value)}` })), minor: [] };
 }
 
 function tickLabel(value: number, step: number, decimals: number): string {

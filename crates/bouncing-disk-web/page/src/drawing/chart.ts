@@ -17,10 +17,13 @@ export interface Curve {
   readonly y: ArrayLike<number>;
   /** Standard errors: a band of twice this is drawn. */
   readonly error?: ArrayLike<number>;
+  /** The ends of an interval of 95 %, which need not have the value in its middle. */
+  readonly between?: readonly [low: ArrayLike<number>, high: ArrayLike<number>];
   /** The name of a custom property of `theme.css`. */
   readonly colour: string;
   readonly dash?: readonly number[];
-  readonly points?: boolean;
+  /** Each value has a dot; or that alone, where what lies between two of them means nothing. */
+  readonly points?: boolean | "alone";
 }
 
 /** A vertical line with a word. */
@@ -55,8 +58,9 @@ export interface Chart {
 function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {
   // A legend stands above the curves, not on them.
   const [low, high] = y.range;
-  const room = curves.length > 1 ? ((1.3 * curves.length + 2) * size) / height : 0;
-  return layOut(pen, width, height, { x, y: { ...y, range: [low, high + room * 1.4 * (high - low)] } }, size);
+  const legend = curves.length > 1 ? ((1.3 * curves.length + 1.4) * size) / (height - 4.3 * size) : 0;
+  const room = legend < 0.6 ? legend / (1 - legend) : 1.5;
+  return layOut(pen, width, height, { x, y: { ...y, range: [low, high + room * (high - low)] } }, size);
 }
 
 function paintChart(pen: Pen, chart: Chart, width: number, height: number, size: number): void {
@@ -117,17 +121,18 @@ function paintExtras(pen: Pen, chart: Chart, plot: Plot): void {
   for (const curve of chart.curves) paintBand(pen, chart, curve, plot);
 }
 
-/** Two standard errors on either side of a curve. */
-function paintBand(pen: Pen, { at }: Chart, { y, error, colour }: Curve, plot: Plot): void {
-  if (error === undefined) return;
+/** Two standard errors on either side of a curve, or its interval. */
+function paintBand(pen: Pen, { at }: Chart, { y, error, between, colour }: Curve, plot: Plot): void {
+  if (error === undefined && between === undefined) return;
   const upper: number[] = [];
   const lower: number[] = [];
   for (let index = 0; index < at.length; index += 1) {
     const x = pixelX(plot, at[index] as number);
-    const [value, by] = [y[index] ?? NaN, 2 * (error[index] ?? NaN)];
-    if (!Number.isFinite(value + by)) continue;
-    upper.push(x, pixelY(plot, value + by));
-    lower.unshift(x, pixelY(plot, value - by));
+    const [value, by] = [y[index] ?? NaN, 2 * (error?.[index] ?? NaN)];
+    const [low, high] = between?.map((ends) => ends[index] ?? NaN) ?? [value - by, value + by];
+    if (!Number.isFinite(low) || !Number.isFinite(high)) continue;
+    upper.push(x, pixelY(plot, high as number));
+    lower.unshift(x, pixelY(plot, low as number));
   }
   if (upper.length > 2) pen.path([...upper, ...lower], { fill: colour, opacity: 0.25, close: true });
 }
@@ -138,8 +143,8 @@ function paintCurve(pen: Pen, { at }: Chart, { y, colour, dash, points: marked }
     const value = y[index] ?? NaN;
     points.push(...(Number.isFinite(value) ? [pixelX(plot, at[index] as number), pixelY(plot, value)] : [NaN, NaN]));
   }
-  pen.path(points, { stroke: colour, width: 1.3, dash: dash ?? [] });
-  if (marked !== true) return;
+  if (marked !== "alone") pen.path(points, { stroke: colour, width: 1.3, dash: dash ?? [] });
+  if (marked === undefined || marked === false) return;
   for (let index = 0; index < points.length; index += 2) {
     const x = points[index] as number;
     if (!Number.isNaN(x)) pen.circle(x, points[index + 1] as number, 1.6, { fill: colour });
@@ -185,10 +190,17 @@ export function chartOffers(name: string, title: string, charts: readonly Chart[
 const SIZE = 12;
 const KEYS = WORDS.drawing.chart_keys;
 
+/** What a point of a curve leads to, with the sentence of its keys and what is read of the curve that is chosen. */
+interface Picking {
+  readonly keys: string;
+  hint(curve: string): string;
+  pick(at: number, curve: number): void;
+}
+
 /** A chart on the screen. The pointer and the keys move a cursor, whose values are read below the curves. */
 export class ScreenChart {
   readonly root: HTMLElement;
-  private readonly layers = new Layers("picture-chart", KEYS);
+  private readonly layers = new Layers("picture-chart", "");
   private readonly reading = element("p", { class: "reading", "aria-live": "polite" });
   private readonly caption = element("figcaption", { class: "alternative" });
   /** Stands in the place of a picture that is not there yet, or that there is none of. */
@@ -197,13 +209,22 @@ export class ScreenChart {
   private plot: Plot | null = null;
   /** The number of the values under the cursor. */
   private at: number | null = null;
+  /** The curve of which a point would be picked. */
+  private chosen = 0;
 
-  constructor(private readonly height: () => number) {
+  constructor(
+    private readonly height: () => number,
+    private readonly picking?: Picking,
+  ) {
     const { surface } = this.layers;
     this.root = element("figure", { class: "chart" }, this.word, this.reading, this.caption);
     surface.addEventListener("keydown", (event) => this.key(event));
     surface.addEventListener("pointermove", (event) => this.point(event));
     surface.addEventListener("pointerleave", () => this.read(null));
+    surface.addEventListener("click", (event) => {
+      this.point(event);
+      this.pick();
+    });
   }
 
   show(chart: Chart, alternative = ""): void {
@@ -211,7 +232,8 @@ export class ScreenChart {
     this.chart = chart;
     this.word.replaceWith(layers.root);
     layers.root.style.height = `${this.height()}px`;
-    layers.surface.setAttribute("aria-label", say(WORDS.drawing.chart, { title: chart.title, text: alternative, keys: KEYS }));
+    const keys = [KEYS, ...(this.picking === undefined ? [] : [this.picking.keys])].join(" ");
+    layers.surface.setAttribute("aria-label", say(WORDS.drawing.chart, { title: chart.title, text: alternative, keys }));
     setText(this.caption, alternative);
     layers.fit();
     const { width, height } = layers;
@@ -237,6 +259,13 @@ export class ScreenChart {
 
   private key(event: KeyboardEvent): void {
     if (this.chart === null) return;
+    const across = this.picking && { ArrowUp: -1, ArrowDown: 1 }[event.key];
+    if (event.key === "Enter") this.pick();
+    if (across !== undefined) {
+      event.preventDefault();
+      this.chosen = clamp(this.chosen + across, 0, this.chart.curves.length - 1);
+      this.read(this.at ?? 0);
+    }
     const last = this.chart.at.length - 1;
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
     const from = this.at ?? (by === 1 ? -1 : last + 1);
@@ -246,12 +275,17 @@ export class ScreenChart {
     this.read(target);
   }
 
-  private point(event: PointerEvent): void {
+  private pick(): void {
+    if (this.at !== null && this.chart !== null) this.picking?.pick(this.at, this.chosen);
+  }
+
+  private point(event: MouseEvent): void {
     const { chart, plot } = this;
     if (chart === null || plot === null) return;
-    const value = valueX(plot, placeOn(this.layers.surface, event).x);
-    const apart = Array.from(chart.at, (place) => Math.abs(place - value));
-    if (apart.length > 0) this.read(apart.indexOf(Math.min(...apart)));
+    const { x, y } = placeOn(this.layers.surface, event);
+    const at = nearest(chart.at, valueX(plot, x));
+    this.chosen = Math.max(nearest(chart.curves.map((curve) => pixelY(plot, curve.y[at] ?? NaN)), y), 0);
+    if (at >= 0) this.read(at);
   }
 
   private read(at: number | null): void {
@@ -263,16 +297,33 @@ export class ScreenChart {
     const { chart, plot, at } = this;
     const pen = this.layers.cursor();
     const known = chart !== null && plot !== null && at !== null && at < chart.at.length;
-    setText(this.reading, known ? readingOf(chart, at) : "");
+    const hint = known ? this.picking?.hint(plainText(chart.curves[this.chosen]?.label ?? "")) : undefined;
+    setText(this.reading, known ? [readingOf(chart, at), hint ?? ""].join(" ").trim() : "");
     if (!known) return;
     const x = pixelX(plot, chart.at[at] as number);
     pen.path([x, plot.top, x, plot.top + plot.height], { stroke: "--picture-cursor", width: 1 });
-    for (const { y, colour } of chart.curves) pen.circle(x, pixelY(plot, y[at] ?? NaN), 3.5, { fill: colour });
+    chart.curves.forEach(({ y, colour }, index) => {
+      const radius = this.picking !== undefined && index === this.chosen ? 6 : 3.5;
+      pen.circle(x, pixelY(plot, y[at] ?? NaN), radius, { fill: colour });
+    });
   }
 }
 
-/** "time (s) 0.25: speed 1.2 ± 0.1": the values of one place with their standard errors. */
-function readingOf({ x, at, curves }: Chart, index: number): string {
-  const values = curves.map(({ label, y, error }) => `${label} ${withError(y[index] ?? null, error?.[index] ?? null)}`);
+/** The number of the value that is nearest to one; -1 where there are none. */
+function nearest(values: ArrayLike<number>, to: number): number {
+  let found = -1;
+  for (let index = 0; index < values.length; index += 1)
+    if (Math.abs((values[index] as number) - to) < Math.abs((values[found] ?? Infinity) - to)) found = index;
+  return found;
+}
+
+/** "time (s) 0.25: speed 1.2 ± 0.1": the values of one place with their standard errors or intervals. */
+function readingOf({ x, y: axis, at, curves }: Chart, index: number): string {
+  const values = curves.map(({ label, y, error, between }) => {
+    const [low, high] = between?.map((ends) => plain(ends[index])) ?? [];
+    const value = axis.powers === true ? 10 ** (y[index] ?? NaN) : (y[index] ?? null);
+    const interval = low === undefined || high === undefined ? "" : say(WORDS.drawing.interval, { low, high });
+    return `${plainText(label)} ${withError(value, error?.[index] ?? null)}${interval}`;
+  });
   return `${plainText(x.label)} ${plain(at[index])}: ${values.join(", ")}`;
 }

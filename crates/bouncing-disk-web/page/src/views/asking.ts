@@ -2,7 +2,7 @@
 
 import { Cancelled, messageOf, type Context, type State } from "../contract";
 import { element } from "../elements";
-import type { ImpactStart, VerdictJson } from "../protocol";
+import type { ImpactStart, MotionStart, VerdictJson } from "../protocol";
 import { axialForcing, contactPeriods } from "../state";
 import { say, WORDS } from "../words";
 
@@ -20,6 +20,10 @@ export const impactOf = ({ start: { impact_phase, normalised_speed } }: State): 
   impact_phase,
   normalised_speed,
 });
+
+/** How the motion of a state begins. */
+export const motionStartOf = ({ start, thrown }: State): MotionStart =>
+  thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
 
 export async function verdictOf(
   context: Context,

@@ -8,7 +8,7 @@ import { button, div, element, oncePerFrame, section, setText } from "../element
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import type { FlightStart, MotionJson, MotionStart } from "../protocol";
-import { RoundingCaution, tellFailure } from "./asking";
+import { motionStartOf, RoundingCaution, tellFailure } from "./asking";
 import { Controls, Player } from "./toss/player";
 import { paintImpacts, Portrait } from "./toss/portrait";
 import { describeMoment, Readings } from "./toss/readings";
@@ -149,8 +149,7 @@ class TossView implements View {
   }
 
   private start(): MotionStart {
-    const { start, thrown } = this.context.state();
-    return thrown === null ? { kind: "impact", ...start } : { kind: "flight", ...thrown };
+    return motionStartOf(this.context.state());
   }
 
   /** What tells motions apart. */

@@ -1,0 +1,342 @@
+/** Two states that differ in one parameter, side by side: the shared one, A, and B. */
+
+import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
+import { clamp, extent, padded } from "../drawing/axes";
+import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
+import { ONE_COLUMN, tableOffers } from "../drawing/files";
+import { button, debounced, div, element, oncePerFrame, rich, setText } from "../elements";
+import { plain, prefixOf, shown } from "../numbers";
+import { bouncing } from "../presets";
+import { MOTION_COLUMNS, type MotionJson, type Range, type VerdictJson } from "../protocol";
+import { DEFAULT_STATE, MOST_PERIODS } from "../state";
+import { say, WORDS } from "../words";
+import { Asked, impactOf, mapOf, motionStartOf, tellFailure, verdictOf } from "./asking";
+import { GROWING, nextDouble, partingOf, type Parting } from "./compare/parting";
+import { behaviour } from "./diagram/words";
+import { exactText, labelled, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
+
+const SAMPLES = 48;
+/** Periods that the heights and spins are shown for, and how many of them before the parting. */
+const SHOWN = 14;
+const BEFORE = 2;
+/** Points of the chart of the difference: more of them nobody sees. */
+const MOST_DRAWN = 2500;
+/** The next double of a parameter may give the same system, where that follows from it by rounding. */
+const MOST_STEPS = 64;
+
+const TEXT = WORDS.compare;
+
+type Column = (typeof MOTION_COLUMNS)[number];
+
+/** The same of A and of B. */
+type Both<Value> = readonly [a: Value, b: Value];
+
+/** Two motions that were sampled alike. */
+interface Pair {
+  /** The shared state, A. */
+  readonly state: State;
+  column(name: Column): Both<Float64Array>;
+  /** |difference of heights| over the amplitude of A. */
+  readonly apart: Float64Array;
+  readonly parting: Parting;
+  /** The value that A has of the parameter. */
+  readonly own: number;
+  /** What the library says that both do for good. */
+  readonly ends: Both<string> | null;
+}
+
+class CompareView implements View {
+  private readonly charts = [0, 1, 2].map(() => new ScreenChart(() => clamp(window.innerHeight / 2 - 230, 210, 520)));
+  private readonly parameter = parameterChoice(TEXT.parameter, (name) => void this.choose(name));
+  private readonly value: NumberField;
+  private readonly periods: NumberField;
+  private readonly from: NumberField;
+  private readonly sentence = element("p", { class: "differs" });
+  private readonly words = element("ul", { class: "remark optima", "aria-live": "polite" });
+  private readonly asked = new Asked<void>();
+  private pair: Pair | null = null;
+  private problem = "";
+  private readonly compute = debounced(100, () => void this.fetch());
+  private readonly draw = oncePerFrame(() => this.paint());
+
+  constructor(
+    host: HTMLElement,
+    private readonly context: Context,
+  ) {
+    this.value = new NumberField(TEXT.value, context, ([value = 0]) => context.change({ compare: { value } }));
+    this.periods = new NumberField(TEXT.periods, context, ([periods = 0]) => this.follow(periods));
+    this.from = new NumberField(TEXT.from, context, ([from = 0]) =>
+      context.change({ compare: { from: Math.max(from, 0) } }),
+    );
+    const bars = [
+      div("bar", element("span", {}, TEXT.readyMade), ...READY.map((one) => button(one.label, () => context.change(one.change)))),
+      div("bar", labelled(TEXT.parameter, this.parameter), this.value.root,
+        button(TEXT.next, () => void this.next())),
+      div("bar", this.periods.root, this.from.root,
+        button(TEXT.parting, () => context.change({ compare: { from: null } }))),
+    ]; // prettier-ignore
+    host.append(
+      settings(TEXT.settings, bars),
+      this.sentence,
+      this.words,
+      div("compare", ...this.charts.map(({ root }) => root)),
+    );
+  }
+
+  show(state: State): void {
+    const { parameter, value, periods } = state.compare;
+    this.parameter.value = parameter;
+    this.value.show([value], varied(parameter));
+    this.periods.show([periods]);
+    this.compute();
+    this.draw();
+  }
+
+  hide(): void {
+    this.compute.stop();
+    for (const slot of SLOTS) this.context.client.cancel(slot);
+    this.asked.forget();
+  }
+
+  redraw(): void {
+    this.draw();
+  }
+
+  offers(): Offer[] {
+    const { pair } = this;
+    if (pair === null) return [];
+    const [times] = pair.column("time");
+    const columns = [...pair.column("height"), ...pair.column("angular_speed"), pair.apart];
+    const rows = function* () {
+      for (const [row, time] of times.entries()) yield [time, ...columns.map((column) => column[row] ?? NaN)];
+    };
+    const { system, start, thrown, compare } = pair.state;
+    return [
+      ...tableOffers({ name: "comparison", parameters: { system, start, thrown, compare }, columns: COLUMNS, rows }),
+      ...chartOffers("comparison", TEXT.title, this.chartsOf(pair), ONE_COLUMN * 0.6),
+    ];
+  }
+
+  private follow(periods: number): void {
+    if (Number.isInteger(periods) && periods >= 1 && periods <= MOST_PERIODS)
+      this.context.change({ compare: { periods } });
+    else this.context.status(say(TEXT.wrongPeriods, { most: MOST_PERIODS }), "error");
+  }
+
+  /** Another parameter of B, which is A as long as nobody gives it another value. */
+  private async choose(name: string): Promise<void> {
+    const { context } = this;
+    try {
+      const value = await valueIn(context, SLOTS[0], varied(name), context.state());
+      context.change({ compare: { parameter: name, value } });
+    } catch (error) {
+      tellFailure(context, error);
+    }
+  }
+
+  /** The next value that is another system at all. */
+  private async next(): Promise<void> {
+    const { context } = this;
+    const state = context.state();
+    const parameter = varied(state.compare.parameter);
+    try {
+      let value = await valueIn(context, SLOTS[0], parameter, state);
+      const same = JSON.stringify(state);
+      for (let step = 0; step < MOST_STEPS; step += 1) {
+        value = nextDouble(value);
+        if (JSON.stringify(withValue(parameter, value, state)) !== same) break;
+      }
+      context.change({ compare: { value } });
+    } catch (error) {
+      tellFailure(context, error);
+    }
+  }
+
+  private async fetch(): Promise<void> {
+    const { context } = this;
+    const state = context.state();
+    const { system, mass, start, thrown, compare: { parameter, value, periods } } = state; // prettier-ignore
+    const wanted = [system, mass, start, thrown, parameter, value, periods];
+    try {
+      await this.asked.get(wanted, async () => {
+        context.status(TEXT.busy, "busy");
+        this.pair = await pairOf(context, state);
+        this.problem = "";
+        context.status(say(TEXT.done, { periods, samples: SAMPLES }));
+        this.draw();
+      });
+    } catch (error) {
+      tellFailure(context, error);
+      if (!(error instanceof Cancelled) && context.state() === state) this.fail(messageOf(error));
+    }
+  }
+
+  private fail(problem: string): void {
+    this.pair = null;
+    this.problem = problem;
+    this.draw();
+  }
+
+  private paint(): void {
+    const { pair } = this;
+    this.words.replaceChildren();
+    setText(this.sentence, "");
+    if (pair === null) {
+      for (const chart of this.charts) chart.showWord(this.problem || TEXT.coming);
+      return;
+    }
+    const { parameter: name, value } = pair.state.compare;
+    const parameter = varied(name);
+    const values = { value: exactText(parameter, value), own: exactText(parameter, pair.own) };
+    this.sentence.append(...rich(say(TEXT.differs, { symbol: parameter.symbol, ...values })));
+    this.from.show([this.windowOf(pair)[0]]);
+    this.words.append(...describe(pair).map((text) => element("li", {}, text)));
+    this.chartsOf(pair).forEach((chart, index) => this.charts[index]?.show(chart, index === 2 ? TEXT.caption : ""));
+  }
+
+  /** The periods that heights and spins are shown for. */
+  private windowOf({ parting: { first }, state: { compare } }: Pair): Range {
+    const start = this.context.state().compare.from ?? Math.floor((first ?? 0) - BEFORE);
+    const low = clamp(Math.floor(start), 0, Math.max(compare.periods - SHOWN, 0));
+    return [low, low + SHOWN];
+  }
+
+  private chartsOf(pair: Pair): Chart[] {
+    const window = this.windowOf(pair);
+    const greatest = Math.max(
+      ...pair
+        .column("height")
+        .flatMap((heights) => extent(heights) ?? [])
+        .map(Math.abs),
+    );
+    const { factor, symbol } = prefixOf(greatest);
+    return [
+      motionChart(pair, window, `${TEXT.heights} (${symbol}m)`, "height", "platform_height", factor),
+      motionChart(pair, window, `${TEXT.spins} (rad/s)`, "angular_speed", "platform_angular_speed", 1),
+      differenceChart(pair, window),
+    ];
+  }
+}
+
+/** A quantity of both disks, and of the platform or, where these move differently, of both platforms. */
+function motionChart(pair: Pair, window: Range, label: string, disk: Column, platform: Column, factor: number): Chart {
+  const [from, to] = window.map((period) => period * SAMPLES) as Range;
+  const part = (column: Float64Array) => column.slice(from, to + 1).map((value) => value * factor);
+  const [a, b] = pair.column(disk).map(part) as [Float64Array, Float64Array];
+  const [one, other] = pair.column(platform).map(part) as [Float64Array, Float64Array];
+  const bound = 1e-9 * Math.max(...one.map(Math.abs));
+  const alike = one.every((value, index) => Math.abs(value - (other[index] as number)) <= bound);
+  const curves: Curve[] = [
+    { label: alike ? TEXT.platform : TEXT.platformA, y: one, colour: "--picture-muted", dash: [6, 3] },
+    ...(alike ? [] : [{ label: TEXT.platformB, y: other, colour: "--platform-line", dash: [2, 3] }]),
+    { label: "A", y: a, colour: "--curve-speed" },
+    { label: "B", y: b, colour: "--curve-power", dash: [7, 3] },
+  ];
+  const range = padded(extent(curves.flatMap(({ y }) => extent(y) ?? [])) ?? [0, 1]);
+  const at = a.map((_, index) => (from + index) / SAMPLES);
+  return { title: label, x: { label: TEXT.time, range: window }, y: { label, range, widest: WIDEST }, at, curves };
+}
+
+/** The difference on an axis of powers of ten, with the line of its growth. */
+function differenceChart({ apart, parting: { largest, growth }, state }: Pair, window: Range): Chart {
+  const step = Math.ceil(apart.length / MOST_DRAWN);
+  const logs = new Float64Array(Math.floor(apart.length / step)).map((_, bin) =>
+    Math.log10(Math.max(...apart.subarray(bin * step, (bin + 1) * step))),
+  );
+  const at = logs.map((_, bin) => (bin * step) / SAMPLES);
+  const [low, high] = extent(logs.filter(Number.isFinite)) ?? [-16, 0];
+  const ofPeriod = (value: (period: number) => number) => at.map((time) => value(Math.floor(time)));
+  const curves: Curve[] = [
+    { label: say(TEXT.instants, { step }), y: logs, colour: "--picture-muted" },
+    { label: TEXT.largest, y: ofPeriod((period) => Math.log10(largest[period] ?? NaN)), colour: "--curve-efficiency" },
+  ];
+  if (growth !== null) {
+    const line = ofPeriod((period) => (period < growth.from || period > growth.to ? NaN : growth.log(period)));
+    curves.push({ label: TEXT.estimate, y: line, colour: "--curve-power", dash: [6, 3] });
+  }
+  return {
+    title: TEXT.difference,
+    x: { label: TEXT.time, range: [0, state.compare.periods] },
+    y: { label: TEXT.differenceAxis, range: [Math.floor(low), Math.ceil(high + 1e-9)], powers: true, widest: WIDEST },
+    at,
+    curves,
+    shade: { range: window, label: TEXT.window },
+  };
+}
+
+/** Why a disk at rest never reaches the fast orbit, and what the last digit of a number does to a chaotic one. */
+const READY = (
+  [
+    [TEXT.ready.rest, 0.45, "normalised_speed", 0],
+    [TEXT.ready.digit, 0.55, "restitution", nextDouble(0.5)],
+  ] as const
+).map(([label, forcing, parameter, value]) => {
+  const compare = { ...DEFAULT_STATE.compare, parameter, value };
+  return { label, change: { ...bouncing(forcing), view: "compare", compare } as const };
+});
+
+/** All charts have one place for their numbers. */
+const WIDEST = "−00.00";
+const SLOTS = ["compare-a", "compare-b"] as const;
+const COLUMNS = [
+  "time_s", "height_A_m", "height_B_m", "angular_speed_A_rad_per_s", "angular_speed_B_rad_per_s", "difference_over_A",
+] as const; // prettier-ignore
+
+async function pairOf(context: Context, state: State): Promise<Pair> {
+  const { compare: { parameter, value, periods } } = state; // prettier-ignore
+  const other = withValue(varied(parameter), value, state);
+  const both = async <Value>(ask: (own: State, slot: string) => Promise<Value>): Promise<Both<Value>> =>
+    Promise.all([ask(state, SLOTS[0]), ask(other, SLOTS[1])]);
+  const motions = await both((own, slot) => {
+    const motion = { system: own.system, start: motionStartOf(own), periods, samples_per_period: SAMPLES };
+    return context.client.ask<MotionJson>(slot, { call: "motion", ...motion });
+  });
+  const columns = new Map<Column, Both<Float64Array>>();
+  const column = (name: Column) => {
+    const place = MOTION_COLUMNS.indexOf(name);
+    const of = ({ json, numbers }: (typeof motions)[number]) =>
+      new Float64Array(json.samples).map((_, row) => numbers[row * MOTION_COLUMNS.length + place] as number);
+    const found = columns.get(name) ?? [of(motions[0]), of(motions[1])];
+    columns.set(name, found);
+    return found;
+  };
+  const [a, b] = column("height");
+  const apart = a.map((height, row) => Math.abs(height - (b[row] as number)) / state.system.amplitude);
+  const own = await valueIn(context, SLOTS[0], varied(parameter), state);
+  // Contacts that take time have no verdict, nor has a disk that was thrown: it begins with no impact.
+  const judged = [state, other].every(({ thrown, system }) => thrown === null && system.contact_time === 0);
+  const verdicts = judged ? await both((one, slot) => verdictOf(context, slot, mapOf(one), impactOf(one))) : null;
+  const ends = verdicts && ([endOf(verdicts[0]), endOf(verdicts[1])] as const);
+  return { state, column, apart, own, parting: partingOf(apart, SAMPLES), ends };
+}
+
+const endOf = (verdict: VerdictJson): string => behaviour(verdict) + (verdict.rounding_dependent ? TEXT.rounding : "");
+
+/** What there is to say of two motions. */
+function describe({ column, parting: { first, largest, growth }, ends, state: { compare } }: Pair): string[] {
+  const { periods } = compare;
+  const [heights, spins] = (["height", "angular_speed"] as const).map((name) => {
+    const [a, b] = column(name);
+    return a.every((value, row) => value === b[row]);
+  });
+  const lasting = ends === null ? TEXT.noVerdict : say(TEXT.ends, { a: ends[0], b: ends[1] });
+  if (heights) return [say(spins ? TEXT.identical : TEXT.sameHeights, { periods }), lasting];
+  const most = Math.max(...largest);
+  if (most < GROWING[0]) return [lasting, say(TEXT.rounded, { periods })];
+  const bounds = { low: shown(GROWING[0], 1), high: shown(GROWING[1], 1) };
+  const grows = growth && { factor: shown(growth.factor, 2), from: growth.from, to: growth.to, ...bounds };
+  const { together, atOnce, apart, noGrowth, shrinks, grows: rises } = TEXT;
+  return [
+    lasting,
+    first === null
+      ? say(together, { periods, largest: plain(most, 2) })
+      : first * SAMPLES < 2 ? atOnce : say(apart, { first: plain(first, 3) }),
+    grows === null ? say(noGrowth, bounds) : say(growth !== null && growth.factor > 1 ? rises : shrinks, grows),
+  ];
+} // prettier-ignore
+
+export const compare: ViewKind = {
+  name: "compare",
+  ...WORDS.views.compare,
+  make: (host, context) => new CompareView(host, context),
+};

@@ -1,0 +1,177 @@
+/** The curves of a scan: their points, their chart, and their optima in words. */
+
+import type { State } from "../../contract";
+import { extent, padded } from "../../drawing/axes";
+import type { Chart } from "../../drawing/chart";
+import { plain, prefixOf, shown, withError } from "../../numbers";
+import type { Range } from "../../protocol";
+import { say, WORDS } from "../../words";
+import { axisOf, valueText, varied, withValue } from "../varied";
+import { RESULT, type Outcome, type Reading } from "./results";
+
+const COLOURS = ["--curve-speed", "--curve-power", "--curve-efficiency", "--stall", "--curve-input"] as const;
+const DASHES: readonly (readonly number[])[] = [[], [7, 3], [2, 2], [9, 3, 2, 3], [4, 4]];
+
+interface Line {
+  readonly label: string;
+  /** Of the second parameter; null where there is none. */
+  readonly value: number | null;
+  /** The states of its points, and their requests as JSON, by which answers are known. */
+  readonly states: readonly State[];
+  readonly keys: readonly string[];
+}
+
+export interface Plan {
+  readonly scan: State["scan"];
+  readonly at: readonly number[];
+  readonly lines: readonly Line[];
+}
+
+export function planOf(state: State): Plan {
+  const { scan } = state;
+  const { points, values } = scan;
+  const [low, high] = scan.range;
+  const at = Array.from({ length: points }, (_, index) => low + ((high - low) * index) / (points - 1));
+  const over = varied(scan.over);
+  const lineOf = (base: State, label: string, value: number | null): Line => {
+    const states = at.map((place) => withValue(over, place, base));
+    return { label, value, states, keys: states.map((one) => JSON.stringify(RESULT[scan.result].request(one))) };
+  };
+  const { family: name } = scan;
+  if (name === null) return { scan, at, lines: [lineOf(state, WORDS.scan.results[scan.result], null)] };
+  const family = varied(name);
+  const lines = values.map((value) => lineOf(withValue(family, value, state), valueText(family, value), value));
+  return { scan, at, lines };
+}
+
+/** The numbers of the curves, in the order of the plan's lines and places; null where there is no answer yet. */
+export function readingsOf({ scan, lines }: Plan, known: ReadonlyMap<string, Outcome>): (Reading | null)[][] {
+  const { read } = RESULT[scan.result];
+  const readingOf = (outcome: Outcome | undefined): Reading | null =>
+    outcome === undefined ? null : typeof outcome === "string" ? { value: NaN, lacks: outcome } : read(outcome);
+  return lines.map(({ keys }) => keys.map((key) => readingOf(known.get(key))));
+}
+
+export function chartOf({ scan, at, lines }: Plan, readings: readonly (readonly (Reading | null)[])[]): Chart {
+  const { unit } = RESULT[scan.result];
+  const words = WORDS.scan.results[scan.result];
+  const all = readings.flat().filter((reading) => reading !== null);
+  const greatest = Math.max(0, ...all.map(({ value }) => Math.abs(value)).filter(Number.isFinite));
+  const { factor, symbol } = unit === "W" ? prefixOf(greatest) : { factor: 1, symbol: "" };
+  const column = (line: readonly (Reading | null)[], of: (reading: Reading) => number | undefined) =>
+    line.map((reading) => (reading === null ? NaN : (of(reading) ?? NaN) * factor));
+  // What has not settled may have any error, which must not flatten the others.
+  const spans = all.flatMap((reading) => (reading.lacks === undefined ? endsOf(reading) : [reading.value]));
+  const ends = spans.map((end) => end * factor);
+  const places = padded(scan.range, 0.02);
+  return {
+    title: words,
+    x: { label: axisOf(varied(scan.over)), range: places },
+    y: { label: unit === "" ? words : `${words} (${symbol}${unit})`, range: padded(extent(ends) ?? [0, 1], 0.06) },
+    at,
+    curves: readings.map((line, index) => ({
+      label: (lines[index]?.label ?? "").replace(/_(\w+)/, "_{$1}"),
+      y: column(line, ({ value }) => value),
+      ...(line.some((reading) => reading?.between) && {
+        between: [column(line, ({ between }) => between?.[0]), column(line, ({ between }) => between?.[1])] as const,
+      }),
+      ...(line.some((reading) => reading?.error) && { error: column(line, ({ error }) => error) }),
+      colour: COLOURS[index] ?? COLOURS[0],
+      dash: DASHES[index] ?? [],
+      points: scan.result === "orbit_period" ? ("alone" as const) : true,
+    })),
+    marks: readings.flatMap((line, index) => {
+      const best = bestOf(line, scan.optimum);
+      const colour = COLOURS[index] ?? COLOURS[0];
+      return line.flatMap((reading, place) => {
+        const form = place === best ? "circle" : reading?.lacks !== undefined ? "cross" : null;
+        const [x, y] = [at[place] ?? NaN, (reading?.value ?? NaN) * factor];
+        return form === null || Number.isNaN(y) ? [] : [{ x, y, form, colour } as const];
+      });
+    }),
+  };
+}
+
+/** What rounding may change of a number, as a share of it. */
+const ROUNDING = 1e-12;
+
+/** Where a value lies by its error, two standard errors wide, or its interval. */
+function endsOf({ value, error = 0, between }: Reading): readonly number[] {
+  const by = 2 * error + ROUNDING * Math.abs(value);
+  return between ?? [value - by, value + by];
+}
+
+/** Whether a reading counts: there is one, and the library stands by it. */
+const counts = (reading: Reading | null | undefined): reading is Reading =>
+  reading != null && reading.lacks === undefined && Number.isFinite(reading.value);
+
+/** The first place of the best reading; -1 if none counts. */
+export function bestOf(line: readonly (Reading | null)[], optimum: State["scan"]["optimum"]): number {
+  const sign = optimum === "largest" ? 1 : -1;
+  const scores = line.map((reading) => (counts(reading) ? sign * reading.value : -Infinity));
+  const best = Math.max(...scores);
+  return best === -Infinity ? -1 : scores.indexOf(best);
+}
+
+/** A sentence on the optimum of each curve, which says what it was chosen from and what it cannot tell. */
+export function describeOptima({ scan, at, lines }: Plan, readings: readonly (readonly (Reading | null)[])[]): string[] {
+  const [over, { unit }] = [varied(scan.over), RESULT[scan.result]];
+  return readings.map((line, index) => {
+    const name = scan.family === null ? "" : `${lines[index]?.label ?? ""}: `;
+    const best = bestOf(line, scan.optimum);
+    const top = line[best];
+    if (!counts(top)) return `${name}${WORDS.scan.none}`;
+    const [value = "", low = "", high = ""] = [top.value, ...(top.between ?? [])].map((one) => plain(one, 3));
+    const number = top.between ? say(WORDS.scan.interval, { value, low, high }) : top.error === undefined ? shown(top.value, 4) : withError(top.value, top.error);
+    const found = say(WORDS.scan.best, {
+      optimum: WORDS.scan.optima[scan.optimum],
+      count: line.filter(counts).length,
+      value: unit === "" ? number : `${number.includes("±") ? `(${number})` : number} ${unit}`,
+      at: valueText(over, at[best] ?? NaN),
+    });
+    return [`${name}${found}`, ...caveats(scan.range, at, line, best)].join(" ");
+  });
+} // prettier-ignore
+
+/** Which points cannot be told from the best one, and where a better one may lie that was not computed. */
+function caveats(range: Range, at: readonly number[], line: readonly (Reading | null)[], best: number): string[] {
+  const [least = NaN, most = NaN] = endsOf(line[best] as Reading);
+  const alike = line.flatMap((reading, place) => {
+    if (place === best || !counts(reading)) return [];
+    const [low = NaN, high = NaN] = endsOf(reading);
+    return low <= most && high >= least ? [at[place] as number] : [];
+  });
+  const end = at[best] === range[0] || at[best] === range[1];
+  const between = { low: shown(at[best - 1] ?? NaN, 4), high: shown(at[best + 1] ?? NaN, 4) };
+  const among = { count: alike.length, low: shown(alike[0] ?? NaN, 4), high: shown(alike.at(-1) ?? NaN, 4) };
+  const { alike: several, alikeOne, atEnd, apart } = WORDS.scan;
+  return [
+    ...(alike.length > 0 ? [say(alike.length === 1 ? alikeOne : several, among)] : []),
+    ...(end ? [atEnd] : alike.length > 0 ? [] : [say(apart, between)]),
+  ];
+}
+
+/** "11 of 205 points are left out: ..." with a sentence for each reason, of which the numbers may differ. */
+export function describeGaps({ scan, at }: Plan, readings: readonly (readonly (Reading | null)[])[]): string {
+  const all = readings.flat();
+  const moved = all.flatMap((reading, place) => (reading?.moved ? [at[place % at.length] as number] : []));
+  const first = valueText(varied(scan.over), Math.min(...moved));
+  const reasons = new Map<string, string[]>();
+  for (const lacks of all.flatMap((reading) => reading?.lacks ?? [])) {
+    const key = lacks.replace(/[-\d.e+]+/g, "#");
+    reasons.set(key, [...(reasons.get(key) ?? []), lacks]);
+  }
+  // The library writes all digits of a number.
+  const short = (text: string) => text.replace(/\d+\.\d{5,}/g, (number) => shown(Number(number), 4));
+  const gaps = [...reasons.values()].map((texts) => {
+    const [text = ""] = texts;
+    const alike = texts.every((other) => other === text);
+    return say(alike ? WORDS.scan.gaps : WORDS.scan.gapsSuch, {
+      count: texts.length,
+      all: all.length,
+      text: short(text),
+    });
+  });
+  if (moved.length > 0) gaps.push(say(WORDS.scan.moved, { count: moved.length, all: all.length, at: first }));
+  return gaps.join(" ");
+}

@@ -1,0 +1,157 @@
+/** What a scan computes: the requests of its points, and the numbers in the answers. */
+
+import { Refused, type Change, type Context, type ResultName, type State } from "../../contract";
+import {
+  OPERATION_COLUMNS, type AttractorsJson, type Request, type Response, type SheetJson, type TossJson, type VerdictJson,
+} from "../../protocol"; // prettier-ignore
+import { say, WORDS } from "../../words";
+import { REST } from "../../presets";
+import { impactOf, mapOf } from "../asking";
+import { SEED } from "../motor/sheet";
+
+type Answer = Response<unknown>;
+
+/** A number with its standard error or its interval of 95 %; or why there is none. */
+export interface Reading {
+  readonly value: number;
+  readonly error?: number;
+  readonly between?: readonly [low: number, high: number];
+  /** Why it is not to be relied on, or missing. */
+  readonly lacks?: string;
+  /** Whether a disk at rest is thrown onto another attractor, which has all starts of both. */
+  readonly moved?: boolean;
+}
+
+const missing = (lacks: string): Reading => ({ value: NaN, lacks });
+
+interface Call {
+  request(state: State): Request;
+  /** The request that counts, where the first one prepares it. */
+  then?(answer: Answer): Request;
+  /** The view that shows a point, and what it needs besides the point's state. */
+  readonly opens: Change;
+}
+
+/** Steady speeds have this relative error, or the one that so many impacts leave: a second or so for each point. */
+const OPERATION = { relative_error: 0.02, most_impacts: 4_000_000, seed: SEED } as const;
+
+const toss: Call = {
+  request: ({ system }) => ({ call: "toss", system }),
+  opens: { view: "toss", start: REST },
+};
+const orbit: Call = {
+  request: (state) => ({ call: "orbit", ...mapOf(state), start: impactOf(state) }),
+  opens: { view: "diagram" },
+};
+const attractors: Call = {
+  request: (state) => ({ call: "attractors", ...mapOf(state) }),
+  opens: { view: "basins" },
+};
+const loads: Call = {
+  request: ({ system, mass }) => ({ call: "sheet_of_system", system, mass }),
+  then: ({ json }) => {
+    const { sheet } = json as SheetJson;
+    return { call: "motor_loads", sheet, load_torques: [sheet.load_torque], ...OPERATION };
+  },
+  opens: { view: "motor" },
+};
+
+interface Result extends Call {
+  readonly unit: string;
+  read(answer: Answer): Reading;
+}
+
+const ofToss = (unit: string, name: keyof TossJson): Result => ({
+  ...toss,
+  unit,
+  read({ json }) {
+    const value = (json as TossJson)[name];
+    return value === null ? missing(WORDS.scan.noTwist) : { value };
+  },
+});
+
+const ofOrbit = (read: (verdict: VerdictJson) => Reading | null): Result => ({
+  ...orbit,
+  unit: "",
+  read({ json }) {
+    const verdict = json as VerdictJson;
+    return read(verdict) ?? missing(say(WORDS.scan.orbitIs, { kind: WORDS.scan.kinds[verdict.kind] }));
+  },
+});
+
+const ofShare = (kind: keyof AttractorsJson["kinds"]): Result => ({
+  ...attractors,
+  unit: "",
+  read({ json }) {
+    const { kinds, attractors } = json as AttractorsJson;
+    const { value, low, high } = kinds[kind];
+    return { value, between: [low, high], moved: attractors.some(({ leads_to }) => leads_to !== null) };
+  },
+});
+
+const ofMotor = (unit: string, name: "speed" | "mechanical_power" | "efficiency"): Result => ({
+  ...loads,
+  unit,
+  read({ json, numbers }) {
+    const column = (wanted: (typeof OPERATION_COLUMNS)[number]) => numbers[OPERATION_COLUMNS.indexOf(wanted)] ?? NaN;
+    const [lacks = null] = (json as { shortfalls: (string | null)[] }).shortfalls;
+    const [value, error] = [column(name), column(`${name}_error`)];
+    return { value, error, ...(lacks !== null && { lacks }) };
+  },
+});
+
+export const RESULT: Readonly<Record<ResultName, Result>> = {
+  toss_speed: ofToss("rad/s", "airborne_speed"),
+  toss_efficiency: ofToss("", "efficiency"),
+  toss_ratio: ofToss("", "speed_ratio"),
+  orbit_exponent: ofOrbit(({ kind, exponent: value, exponent_error: error }) =>
+    value === null || kind === "undecided" ? null : error === null ? { value } : { value, error },
+  ),
+  orbit_period: ofOrbit(({ kind, impacts }) => (kind === "periodic" && impacts !== null ? { value: impacts } : null)),
+  share_periodic: ofShare("periodic"),
+  share_chaotic: ofShare("chaotic"),
+  share_rest: ofShare("rest"),
+  motor_speed: ofMotor("rad/s", "speed"),
+  motor_power: ofMotor("W", "mechanical_power"),
+  motor_efficiency: ofMotor("", "efficiency"),
+};
+
+/** The answer of a point, or the sentence with which the library refuses it. */
+export type Outcome = Answer | string;
+
+/** Answers for these states, one by one, each with its number. */
+export async function compute(
+  context: Context,
+  call: Call,
+  states: readonly State[],
+  take: (outcome: Outcome, index: number) => void,
+): Promise<void> {
+  const { then } = call;
+  const first = states.map((state) => call.request(state));
+  if (then === undefined) return askEach(context, first, take);
+  const prepared: [Request, number][] = [];
+  await askEach(context, first, (outcome, index) => {
+    if (typeof outcome === "string") take(outcome, index);
+    else prepared.push([then(outcome), index]);
+  });
+  return askEach(context, prepared.map(([request]) => request), (outcome, place) =>
+    take(outcome, (prepared[place] as [Request, number])[1]),
+  ); // prettier-ignore
+}
+
+/** A refused request ends a series; the one that follows begins behind it. */
+async function askEach(
+  { client }: Context,
+  requests: readonly Request[],
+  take: (outcome: Outcome, index: number) => void,
+): Promise<void> {
+  let next = 0;
+  while (next < requests.length) {
+    try {
+      await client.series("scan", requests.slice(next), (answer) => take(answer, next++));
+    } catch (error) {
+      if (!(error instanceof Refused)) throw error;
+      take(error.refusal.message, next++);
+    }
+  }
+}
