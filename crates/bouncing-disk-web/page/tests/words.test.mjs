@@ -5,41 +5,28 @@ import { readdirSync, readFileSync } from "node:fs";
 import { test } from "node:test";
 import { WORDS } from "./module.mjs";
 
-const FOLDER = new URL("../src/", import.meta.url);
-const FILES = readdirSync(FOLDER, { recursive: true }).filter((name) => name.endsWith(".ts"));
-/** `WORDS.a.b`, under this name or another one that a file gives to a part. */
-const CHAIN = (name) => new RegExp(`(const (\\w+) = |const \\{([^}]*)\\} = |\\b)${name}((?:\\.\\w+)*)(;?)`, "g");
-const DECLARED = /const (\{[^}]*\}|\w+) = WORDS[^;]*;/g;
+const SOURCES = new URL("../src/", import.meta.url);
 
-const leaves = (part, path) =>
-  typeof part === "string" ? [path] : Object.entries(part).flatMap(([name, one]) => leaves(one, `${path}.${name}`));
-
-/** Adds to `used` the paths of all texts that a source reaches by this name of the part at `path`. */
-function follow(source, name, path, used) {
-  for (const [, , alias, parts, rest, end] of source.matchAll(CHAIN(name))) {
-    const names = (path + rest).split(".").slice(1);
-    let [part, found] = [WORDS, "WORDS"];
-    for (const one of names) {
-      if (typeof part === "string" || !Object.hasOwn(part, one)) break;
-      [part, found] = [part[one], `${found}.${one}`];
-    }
-    const others = source.replace(DECLARED, "");
-    if (alias && end && typeof part !== "string") follow(others, alias, found, used);
-    else if (parts) {
-      for (const one of parts.split(",").map((text) => text.trim().split(/: ?/)))
-        if (one[1] && typeof part[one[0]] !== "string") follow(others, one[1], `${found}.${one[0]}`, used);
-        else if (!one[0].startsWith("...")) used.push(`${found}.${one[0]}`);
-    } else if (names.length > 0) used.push(found);
-  }
+/** A source with `WORDS.a.b` in the place of each name that it gives to a part of the texts. */
+function resolved(source) {
+  const found = /const (?:(\w+)|\{ ([^}]*) \}) = (WORDS[.\w]+);/.exec(source);
+  if (found === null) return source;
+  const [declaration, name, parts = "", path] = found;
+  const named = parts.split(", ").map((part) => part.split(": "));
+  const names = name ? [[name, path]] : named.map(([key, own = key]) => [own, `${path}.${key}`]);
+  const put = (text, [own, whole]) => text.replaceAll(new RegExp(`(?<![.\\w])${own}\\b(?!:)`, "g"), whole);
+  return resolved(names.reduce(put, source.replace(declaration, "")));
 }
 
+const leaves = (part, path) =>
+  typeof part === "string" || Array.isArray(part)
+    ? [path]
+    : Object.entries(part).flatMap(([name, one]) => leaves(one, `${path}.${name}`));
+
 test("no text is left over", () => {
-  const used = [];
-  for (const file of FILES) {
-    const source = readFileSync(new URL(file, FOLDER), "utf8").replace(/^import .*$/gm, "");
-    follow(source, "WORDS", "WORDS", used);
-  }
-  const reached = (leaf) => used.some((path) => leaf === path || leaf.startsWith(`${path}.`));
-  const known = leaves(WORDS, "WORDS").filter((leaf) => leaf !== "WORDS.language");
-  assert.deepEqual(known.filter((leaf) => !reached(leaf)), []);
+  const files = readdirSync(SOURCES, { recursive: true }).filter((name) => name.endsWith(".ts"));
+  const all = files.map((name) => resolved(readFileSync(new URL(name, SOURCES), "utf8"))).join("\n");
+  const used = [...new Set(all.match(/WORDS(\.\w+)+/g)), "WORDS.language"].map((path) => `${path}.`);
+  const isUsed = (leaf) => used.some((path) => `${leaf}.`.startsWith(path) || path.startsWith(`${leaf}.`));
+  assert.deepEqual(leaves(WORDS, "WORDS").filter((leaf) => !isUsed(leaf)), []);
 });
