@@ -278,7 +278,9 @@ impl Workshop {
 
     fn explorer(&self, options: &[OsString]) -> Result<()> {
         let built = self.built.join("explorer");
-        succeed(self.xtask("explorer")?.arg("--out").arg(&built).args(options))?;
+        let mut explorer = self.xtask("explorer")?;
+        explorer.arg("--tools").arg(in_workspace("target/explorer-tools")).arg("--out").arg(&built);
+        succeed(explorer.args(options))?;
         let folder = self.folder("explorer")?;
         copy(&built.join("explorer.html"), &folder.join("explorer.html"))?;
         copy_folder(&built.join("site"), &folder.join("site"))

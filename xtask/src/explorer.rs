@@ -8,8 +8,8 @@ use std::process::{Command, ExitCode};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use crate::output::say;
-use crate::workspace::{cargo, in_workspace};
+use crate::output::{complain, say};
+use crate::workspace::{cargo, in_workspace, target_folder};
 
 /// The package, its library, and the page that runs it.
 const PACKAGE: &str = "bouncing-disk-web";
@@ -22,9 +22,13 @@ const TARGET: &str = "wasm32-unknown-unknown";
 #[derive(Args, Debug)]
 pub(crate) struct Options {
     /// Write the page to this folder: explorer.html, which holds everything, and site/, the same in several
-    /// files for a web server.
-    #[arg(long, value_name = "DIR", default_value = "target/explorer")]
-    out: PathBuf,
+    /// files for a web server [default: explorer in cargo's target folder].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Where the page will be published: links copied from the file on a disk lead there. Without it they have
+    /// the address in crates/bouncing-disk-web/page/index.html.
+    #[arg(long, value_name = "URL")]
+    address: Option<String>,
     /// Serve the page on this machine alone when it is built, by Python's web server, until interrupted.
     #[arg(long)]
     serve: bool,
@@ -45,22 +49,31 @@ pub(crate) struct Options {
     /// The linker of WebAssembly, where rustc has none of its own.
     #[arg(long, value_name = "PATH")]
     linker: Option<PathBuf>,
+    /// The folder of wasm-bindgen [default: explorer-tools in cargo's target folder].
+    #[arg(long, value_name = "DIR", hide = true)]
+    tools: Option<PathBuf>,
 }
 
 pub(crate) fn run(options: &Options) -> Result<ExitCode> {
     tools::complain_of_missing(options.rustc.as_deref(), options.build_std)?;
-    let out =
-        if options.out.is_absolute() { options.out.clone() } else { in_workspace("").join(&options.out) };
+    let target = target_folder()?;
+    let out = options.out.as_ref().map_or(target.join("explorer"), |out| in_workspace("").join(out));
+    let steps = if options.digests { 3 } else { 4 };
+    complain!(
+        "Building the explorer, in {steps} steps: some ten minutes the first time, a minute or two later"
+    );
     if options.digests {
-        digests_compared(options, &out.join("digests"))?;
+        digests_compared(options, &target, &out.join("digests"))?;
         return Ok(ExitCode::SUCCESS);
     }
     let module = out.join("module");
-    bound(&compiled(options, &[])?, &module)?;
+    bound(options, &target, steps, &module)?;
     let page = in_workspace(PAGE);
+    complain!("3/4 The page's packages, from npm: some seconds");
     // Install exactly the packages of the lock file, without running their scripts: they bring their programs
     // ready to use.
     succeed(tools::npm().current_dir(&page).args(["ci", "--no-audit", "--no-fund", "--loglevel=error"]))?;
+    complain!("4/4 The page: some seconds");
     succeed(
         Command::new("node")
             .current_dir(&page)
@@ -69,7 +82,8 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
             .arg("--glue")
             .arg(module.join(format!("{LIBRARY}.js")))
             .arg("--out")
-            .arg(&out),
+            .arg(&out)
+            .args(options.address.as_ref().map(|address| format!("--address={address}"))),
     )?;
     say!("{}", out.join("explorer.html").display())?;
     if options.serve {
@@ -81,16 +95,20 @@ pub(crate) fn run(options: &Options) -> Result<ExitCode> {
 }
 
 /// Fails where WebAssembly gives other bits than the machine that the digests were stored on.
-fn digests_compared(options: &Options, folder: &Path) -> Result<()> {
-    bound(&compiled(options, &["digests"])?, folder)?;
+fn digests_compared(options: &Options, target: &Path, folder: &Path) -> Result<()> {
+    bound(options, target, 3, folder)?;
+    complain!("3/3 The digests of its results, in Node: some seconds");
     let test = in_workspace(PAGE).join("tests").join("digests.test.mjs");
     succeed(Command::new("node").arg("--test").arg(test).env("EXPLORER_MODULE", folder))
 }
 
 /// Writes the module and what binds it to JavaScript into a folder.
-fn bound(module: &Path, folder: &Path) -> Result<()> {
+fn bound(options: &Options, target: &Path, steps: usize, folder: &Path) -> Result<()> {
+    complain!("1/{steps} The library as a module of WebAssembly: a minute or two");
+    let module = compiled(options, target)?;
     std::fs::create_dir_all(folder).with_context(|| format!("{} cannot be made", folder.display()))?;
-    let wasm_bindgen = tools::wasm_bindgen(&in_workspace("target/explorer-tools"))?;
+    complain!("2/{steps} What binds it to JavaScript: some seconds, the first time some minutes");
+    let wasm_bindgen = tools::wasm_bindgen(options.tools.as_ref().unwrap_or(&target.join("explorer-tools")))?;
     succeed(
         Command::new(wasm_bindgen)
             .args(["--target", "no-modules", "--no-typescript", "--out-name", LIBRARY, "--out-dir"])
@@ -100,12 +118,10 @@ fn bound(module: &Path, folder: &Path) -> Result<()> {
 }
 
 /// The module as the compiler leaves it.
-fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
-    let folder = in_workspace("target");
+fn compiled(options: &Options, target: &Path) -> Result<PathBuf> {
     let mut build = cargo();
     build.args(["build", "--profile", "web", "--package", PACKAGE, "--lib", "--target", TARGET, "--locked"]);
-    build.arg("--features").arg(features.join(","));
-    build.arg("--target-dir").arg(&folder);
+    build.args(options.digests.then_some("--features=digests"));
     if let Some(rustc) = &options.rustc {
         build.env("RUSTC", rustc);
     }
@@ -117,7 +133,7 @@ fn compiled(options: &Options, features: &[&str]) -> Result<PathBuf> {
         build.env("RUSTC_BOOTSTRAP", "1").arg("-Zbuild-std=std,panic_abort");
     }
     succeed(&mut build)?;
-    Ok(folder.join(TARGET).join("web").join(format!("{LIBRARY}.wasm")))
+    Ok(target.join(TARGET).join("web").join(format!("{LIBRARY}.wasm")))
 }
 
 /// Runs a program that reports its own errors.

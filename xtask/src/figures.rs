@@ -12,12 +12,12 @@ use bouncing_disk_experiments::output::OutputFolder;
 use bouncing_disk_experiments::registry;
 use bouncing_disk_experiments::report::gallery::Summary;
 use bouncing_disk_experiments::report::pages::{self, Pictures};
-use bouncing_disk_experiments::visible::{visible, visible_path};
 use bouncing_disk_experiments::{Measurements, Quality};
 use clap::Args;
 
 use crate::output::{complain, say};
 use crate::report::Report;
+use crate::visible::{visible, visible_path};
 use crate::work::{self, Finished};
 use crate::workspace::{DOCS_FOLDER, in_workspace};
 

@@ -5,16 +5,34 @@
 //! `cargo xtask dist` makes what is published, and `cargo xtask dependencies` counts what it depends on and
 //! checks the licences.
 
+#[cfg(feature = "figures")]
 mod archive;
 mod dependencies;
+#[cfg(feature = "figures")]
 mod dist;
 mod explorer;
+#[cfg(feature = "figures")]
 mod figures;
+#[cfg(not(feature = "figures"))]
+mod forward;
 mod output;
+#[cfg(feature = "figures")]
 mod report;
+#[cfg(feature = "figures")]
 mod typeset;
+#[path = "../../experiments/src/visible.rs"]
+#[allow(dead_code, unreachable_pub, reason = "it is the experiments', without which this program may be")]
+mod visible;
+#[cfg(feature = "figures")]
 mod work;
 mod workspace;
+
+#[cfg(not(feature = "figures"))]
+use forward as archive;
+#[cfg(not(feature = "figures"))]
+use forward as dist;
+#[cfg(not(feature = "figures"))]
+use forward as figures;
 
 use std::process::ExitCode;
 

@@ -3,7 +3,7 @@
 use std::fmt::Arguments;
 use std::io::{self, ErrorKind, Write};
 
-use bouncing_disk_experiments::visible::visible;
+use crate::visible::visible;
 
 /// Writes a line, or several, with everything escaped that a terminal would obey instead of showing it. A
 /// reader that has gone, as `head` does, wanted no more: that is no error.

@@ -1,10 +1,11 @@
 /**
  * Builds the page: one file with everything in it, and the same split for hosting.
  *
- *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--words WORDS.json] [--check: the types first]
+ *     node build.mjs --wasm MODULE.wasm --glue GLUE.js --out DIR [--words WORDS.json] [--address URL]
+ *         [--check: the types first]
  *
  * The glue is what `wasm-bindgen --target no-modules` writes. WORDS.json has all texts of the page, as src/words.json has
- * them in English.
+ * them in English. The URL is where the page is published, instead of that in index.html.
  */
 
 import { execFileSync } from "node:child_process";
@@ -20,9 +21,9 @@ const here = dirname(fileURLToPath(import.meta.url));
 
 const text = { type: "string" };
 const { values } = parseArgs({
-  options: { wasm: text, glue: text, out: text, words: text, check: { type: "boolean" } },
+  options: { wasm: text, glue: text, out: text, words: text, address: text, check: { type: "boolean" } },
 });
-const { wasm, glue, out, check, words = join(here, "src/words.json") } = values;
+const { wasm, glue, out, check, address, words = join(here, "src/words.json") } = values;
 
 /** The texts stand in the page by themselves, where an editor finds them. */
 const wordsOfThePage = {
@@ -33,6 +34,8 @@ const wordsOfThePage = {
       loader: "js",
     })),
 };
+
+const licence = readFileSync(join(here, "node_modules/uqr/LICENSE"), "utf8");
 
 /** The text of a script's bundle, and of the style sheets that it imports. */
 async function bundled(entry) {
@@ -47,6 +50,8 @@ async function bundled(entry) {
     format: "iife",
     target: ["es2022"],
     legalComments: "none",
+    // Whoever passes the page on passes on the licence of what is in it.
+    banner: entry === "src/main.ts" ? { js: `/* uqr\n${licence.trim()}\n*/` } : {},
     logLevel: "warning",
     plugins: [wordsOfThePage],
   });
@@ -96,7 +101,14 @@ const texts = JSON.parse(readFileSync(words, "utf8"));
 compared(texts, JSON.parse(readFileSync(join(here, "src/words.json"), "utf8")), words);
 const compiler = join(here, "node_modules/typescript/bin/tsc");
 if (check) execFileSync(process.execPath, [compiler, "--noEmit"], { cwd: here, stdio: "inherit" });
-const html = filled(readFileSync(join(here, "index.html"), "utf8").replace('lang="en"', `lang="${texts.language}"`), {
+/** The published address stands in the page; a page without one does not say that it has one. */
+const published = (text) =>
+  text.replace(/( *<link rel="canonical" href=")(.*)(" \/>\n)/, (_, before, own, after) => {
+    const url = address ?? own;
+    return url === "" ? "" : before + new URL(url).href.replaceAll("&", "&amp;") + after;
+  });
+const source = readFileSync(join(here, "index.html"), "utf8").replace('lang="en"', `lang="${texts.language}"`);
+const html = filled(published(source), {
   words: `<script type="application/json" id="words">\n${inScript(JSON.stringify(texts, null, 1))}\n</script>`,
 });
 const page = await bundled("src/main.ts");

@@ -21,7 +21,10 @@ pub(super) fn npm() -> Command {
 pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Result<()> {
     let mut missing = Vec::new();
     if !build_std && !has_target(rustc) {
-        missing.push(format!("the target {TARGET} (rustup target add {TARGET})"));
+        missing.push(format!(
+            "the target {TARGET} (rustup target add {TARGET}; without rustup, a distribution's compiler by \
+             --rustc /usr/bin/rustc --build-std --linker wasm-ld, from rustc-web, rust-web-src and lld on Debian)"
+        ));
     }
     match node_version() {
         None => missing.push(format!("Node {OLDEST_NODE} or later (https://nodejs.org)")),
@@ -33,7 +36,13 @@ pub(super) fn complain_of_missing(rustc: Option<&Path>, build_std: bool) -> Resu
         }
         Some(_) => {}
     }
-    if missing.is_empty() { Ok(()) } else { bail!("the explorer needs {}", missing.join(", and ")) }
+    if missing.is_empty() {
+        return Ok(());
+    }
+    bail!(
+        "building the explorer needs {}; the ready file (docs/explorer.md) needs nothing",
+        missing.join(", and ")
+    )
 }
 
 /// The first number of Node's version: `v20.20.2`.
@@ -63,9 +72,7 @@ pub(super) fn wasm_bindgen(folder: &Path) -> Result<PathBuf> {
         return Ok(program);
     }
     let mut install = cargo();
-    install
-        .args(["install", "wasm-bindgen-cli", "--debug", "--quiet", "--version", &version, "--root"])
-        .arg(&root);
+    install.args(["install", "wasm-bindgen-cli", "--debug", "--version", &version, "--root"]).arg(&root);
     let status = install.status().context("cargo cannot be run")?;
     if !status.success() {
         bail!("wasm-bindgen-cli {version} could not be installed from crates.io ({status})");
@@ -101,6 +108,7 @@ mod tests {
         assert!(!has_target(Some(Path::new("/no/such/rustc"))));
         let missing = complain_of_missing(Some(Path::new("/no/such/rustc")), false).expect_err("no compiler");
         assert!(missing.to_string().contains("rustup target add wasm32-unknown-unknown"), "{missing}");
+        assert!(missing.to_string().contains("--build-std"), "{missing}");
         assert_eq!(missing.to_string().lines().count(), 1);
     }
 }

@@ -6,6 +6,9 @@ import { fromHash, toHash } from "./state";
 /** Browsers ignore a page that writes more often than some ten times in a second (ms). */
 const PAUSE = 250;
 
+/** Whether the page stands in a frame of another one, without what stands around the view. */
+export const isEmbedded = (): boolean => new URLSearchParams(location.search).has("embed");
+
 export class Address {
   private written = "";
   /** The address of the last state that was not in the middle of a drag: where going back leads. */
@@ -38,7 +41,8 @@ export class Address {
   /** Writes at once if the last time is long enough ago, else soon. */
   write(state: State, settled: boolean): void {
     const hash = toHash(state);
-    this.waiting = { hash, settled: settled || this.waiting?.settled === true };
+    // Going back is for the page around a frame.
+    this.waiting = { hash, settled: !isEmbedded() && (settled || this.waiting?.settled === true) };
     if (this.timer === undefined) this.flush();
   }
 
@@ -76,4 +80,16 @@ export class Address {
   }
 }
 
-export const link = (state: State): string => location.href.replace(/#.*$/s, "") + toHash(state);
+/** Where the page is published, if it is. */
+const published = (): string | undefined => document.querySelector<HTMLLinkElement>('link[rel="canonical"]')?.href;
+
+/** Whether a link leads to a file of this computer, which nobody else has. */
+export const isLocal = (): boolean => location.protocol === "file:" && published() === undefined;
+
+/** The address of this state, which from a file on a disk leads to the published page. */
+export function link(state: State): string {
+  const url = new URL((location.protocol === "file:" && published()) || location.href);
+  url.searchParams.delete("embed");
+  url.hash = "";
+  return url.href + toHash(state);
+}

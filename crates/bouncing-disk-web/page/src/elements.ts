@@ -71,6 +71,25 @@ export function roved(key: string, at: number, count: number): number | undefine
   return { Home: 0, End: count - 1 }[key];
 }
 
+/** Puts text into the clipboard; false where the browser does not let it. */
+export async function copied(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    // Pages on the disk may not use the clipboard; an old way still works in most browsers.
+    const before = document.activeElement as HTMLElement | null;
+    const area = element("textarea", { class: "hidden" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    before?.focus();
+    return done;
+  }
+}
+
 /** Sets text only where it differs, so that screen readers and layout are left in peace. */
 export function setText(target: Node, text: string): void {
   if (target.textContent !== text) target.textContent = text;

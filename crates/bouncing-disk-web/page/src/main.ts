@@ -5,16 +5,19 @@ import "./styles/theme.css";
 import "./styles/page.css";
 import "./styles/screens.css";
 import "./styles/views.css";
-import { Address, link } from "./address";
+import "./styles/elsewhere.css";
+import { Address, isLocal, link } from "./address";
 import { makeClient, type Source } from "./client";
-import type { Context, Offer, State, ViewKind, ViewName } from "./contract";
+import { messageOf, type Context, type Offer, type State, type ViewKind, type ViewName } from "./contract";
 import { COURSES, CoursePanel, type Course } from "./courses";
-import { fileName, save } from "./drawing/files";
-import { byId, element } from "./elements";
+import { fileName, noteOf, save } from "./drawing/files";
+import { byId, copied } from "./elements";
+import { embedded, frameOf } from "./embed";
 import { Parameters } from "./form";
 import { Notes, Opening, Problems } from "./notes";
 import { openingPanel, PRESETS, stateOf, type Panel, type Preset } from "./presets";
 import { SYSTEM_NAMES } from "./protocol";
+import { printSheet } from "./sheet";
 import { choices, helpDialog, shortcutsOn, Stage, Tabs, Themes } from "./shell";
 import { Store } from "./store";
 import { basins } from "./views/basins";
@@ -57,6 +60,7 @@ function begin(): void {
       parameters.show(state, fresh || fromAddress);
       notes.show(state, course.running);
       stage.show(state);
+      showInFull(state);
       fresh = false;
     },
     summary: (summary) => parameters.follow(summary),
@@ -93,6 +97,7 @@ function begin(): void {
       if (kind === "busy") clock = window.setInterval(tell, 1000);
     },
   };
+  const showInFull = embedded(byId("main"));
   const stage = new Stage(byId("views"), VIEWS, context);
   /** What the motor's view has put aside: a hand is no motor. */
   let aside: State | null = null;
@@ -154,13 +159,22 @@ function begin(): void {
       problems.add(`${name} cannot be made: ${String(error)}`);
     }
   };
+  const print = async (): Promise<void> => {
+    try {
+      await printSheet(store.state(), stage.view?.offers() ?? []);
+    } catch (error) {
+      problems.add(messageOf(error));
+    }
+  };
   const exports = choices("Export", "export", "Data and pictures of this view, and its address.", () => [
     ...(stage.view?.offers() ?? []).map((offer) => ({
       label: offer.name,
-      note: offer.kind.toUpperCase(),
+      note: noteOf(offer),
       act: () => void saved(offer),
     })),
     { label: "link to this state", note: "COPY", act: copy },
+    { label: WORDS.sheet.label, note: "PRINT", act: () => void print() },
+    { label: WORDS.embed.label, note: "COPY", act: () => void copyFrame(context) },
   ]);
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [
@@ -206,24 +220,18 @@ function begin(): void {
   void store.open(first.state);
 }
 
+async function copyFrame(context: Context): Promise<void> {
+  const done = await copied(frameOf(context.state()));
+  const words = isLocal() ? WORDS.address.local : WORDS.embed.copied;
+  context.status(done ? words : WORDS.embed.not_copied, done ? "done" : "error");
+}
+
 async function copyLink(context: Context, button: HTMLButtonElement): Promise<void> {
-  const text = link(context.state());
   const words = button.textContent;
-  let copied = true;
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    // Pages on the disk may not use the clipboard; an old way still works in most browsers.
-    const area = element("textarea", { class: "hidden" });
-    area.value = text;
-    document.body.append(area);
-    area.select();
-    copied = document.execCommand("copy");
-    area.remove();
-    button.focus();
-  }
-  button.textContent = copied ? "Copied" : "See the address";
-  context.announce(copied ? "The link is in the clipboard" : "Copy the address of the page: it is the link");
+  const done = await copied(link(context.state()));
+  button.textContent = done ? "Copied" : "See the address";
+  context.announce(done ? "The link is in the clipboard" : "Copy the address of the page: it is the link");
+  if (done && isLocal()) context.status(WORDS.address.local);
   setTimeout(() => {
     button.textContent = words;
   }, 1500);

@@ -8,7 +8,7 @@ import { say, WORDS } from "../words";
 import {
   clamp, crossAt, layOut, paintAxes, paintGrid, pixelX, pixelY, valueX, type Axis, type Plot,
 } from "./axes"; // prettier-ignore
-import { ONE_COLUMN, pictureOffers, PRINT_SIZE } from "./files";
+import { ONE_COLUMN, pictureOffers, PRINT_SIZE, type Basis } from "./files";
 import { plainText, type Pen } from "./pen";
 import { Layers } from "./window";
 
@@ -168,10 +168,13 @@ function paintLegend(pen: Pen, chart: Chart, plot: Plot): void {
 }
 
 /** Charts below each other, each so high, on one axis: all have the place that the longest numbers need. */
-export function chartOffers(name: string, title: string, charts: readonly Chart[], each: number): Offer[] {
+export function chartOffers(
+  name: string, title: string, charts: readonly Chart[], each: number, basis: Basis,
+): Offer[] {
   return pictureOffers({
     name,
     title,
+    basis,
     width: ONE_COLUMN,
     height: each * charts.length,
     paint(pen, width) {
@@ -185,7 +188,7 @@ export function chartOffers(name: string, title: string, charts: readonly Chart[
       });
     },
   });
-}
+} // prettier-ignore
 
 const SIZE = 12;
 const KEYS = WORDS.drawing.chart_keys;

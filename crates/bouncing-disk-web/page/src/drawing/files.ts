@@ -1,9 +1,15 @@
 /** Files that people take away: tables, parameters and pictures at the width of a journal's column. */
 
-import type { Offer } from "../contract";
+import { isLocal, link } from "../address";
+import type { Offer, State } from "../contract";
 import { element } from "../elements";
+import { PARAMETERS, type Parameter } from "../form";
+import { quantity, shown } from "../numbers";
+import { SYSTEM_NAMES, type Summary } from "../protocol";
+import { axialForcing, toHash } from "../state";
+import { say, WORDS } from "../words";
 import { layOut, paintAxes, type Axes, type Plot } from "./axes";
-import { contextOf, SvgPen, type Pen } from "./pen";
+import { contextOf, plainText, SvgPen, wrapped, type Pen } from "./pen";
 
 /** One column of a journal, 8.6 cm, and two with their gap, 17.8 cm, in points. */
 export const ONE_COLUMN = 243.8;
@@ -11,8 +17,47 @@ export const TWO_COLUMNS = 504.6;
 /** Letters of captions and labels, in points. */
 export const PRINT_SIZE = 8;
 const PRINT_DOTS_PER_POINT = 600 / 72;
+/** Of the parameters below a picture. */
+const SMALL_SIZE = 6;
+const SMALL_LINE = 1.3 * SMALL_SIZE;
+
+/** What a picture was computed with: parameters of a state, and sentences about what is no parameter. */
+export interface Basis {
+  readonly state: State;
+  readonly names: readonly Parameter["name"][];
+  readonly more?: readonly string[];
+}
+
+const SYSTEM = ["axial_forcing", ...SYSTEM_NAMES] as const;
+const IMPACT = ["impact_phase", "normalised_speed"] as const;
+/** Parts of the parameters: the system, with its mass, with the impact that its motion begins with, and so on. */
+export const PARTS = {
+  rotor: [...SYSTEM, "mass"],
+  motion: [...SYSTEM, ...IMPACT, "angular_speed"],
+  system: SYSTEM,
+  platform: ["amplitude", "twist_amplitude", "angular_frequency", "phase_lag"],
+  vertical: ["restitution", "contact_time", ...IMPACT],
+  rotation: [...SYSTEM_NAMES.filter((name) => name !== "amplitude"), ...IMPACT],
+  map: ["axial_forcing", "restitution", "contact_time"],
+  all: [...SYSTEM, "mass", ...IMPACT, "angular_speed"],
+} satisfies Record<string, Basis["names"]>;
+
+/** Parameters as in the form, with their symbols in the markup of labels, and their values with units. */
+export function valuesOf({ state, names }: Basis): { parameter: Parameter; symbol: string; value: string }[] {
+  const summary = { axial_forcing: axialForcing(state.system) } as Summary;
+  return PARAMETERS.filter(({ name }) => names.includes(name)).map((parameter) => {
+    const [base = "", below] = parameter.symbol.split("_");
+    const letter = /[ΓΦ]/.test(base) ? base : `*${base}*`;
+    const number = parameter.value(state, summary) ?? NaN;
+    // Units that are themselves quantities are factors.
+    const unit = parameter.unit === "" || number === 0 ? "" : `${/[ωπ]/.test(parameter.unit) ? " ×" : ""} ${parameter.unit}`;
+    const value = `${shown(number, 6)}${unit}`;
+    return { parameter, symbol: below === undefined ? letter : `${letter}_{${below}}`, value };
+  });
+}
 
 interface Picture {
+  readonly basis: Basis;
   readonly name: string;
   readonly title: string;
   readonly width: number;
@@ -21,15 +66,22 @@ interface Picture {
 }
 
 export function pictureOffers(picture: Picture): Offer[] {
-  const { name, title, width, height } = picture;
+  const { name, title, width, height, basis } = picture;
+  const values = valuesOf(basis).map(({ symbol, value }) => `${symbol} = ${value}`.replaceAll(" ", "\u00a0"));
+  const words = [values.join(", "), ...(basis.more ?? [])].join("; ");
+  const lines = wrapped(words, SMALL_SIZE, width - 2 * SMALL_SIZE);
+  const whole = height + (lines.length + 0.5) * SMALL_LINE;
   const svg = () => {
-    const pen = new SvgPen(width, height);
+    const pen = new SvgPen(width, whole);
     picture.paint(pen, width, height);
-    return pen.finish(title);
+    const style = { colour: "--picture-muted", size: SMALL_SIZE, baseline: "top" } as const;
+    lines.forEach((line, index) => pen.text(line, SMALL_SIZE, height + index * SMALL_LINE, style));
+    // The folders of this computer are nobody's business.
+    return pen.finish(title, plainText(words), isLocal() ? toHash(basis.state) : link(basis.state));
   };
   return [
     { name, kind: "svg", make: async () => new Blob([svg()], { type: "image/svg+xml" }) },
-    { name, kind: "png", make: () => pngOf(svg(), width, height) },
+    { name, kind: "png", make: () => pngOf(svg(), width, whole) },
   ];
 }
 
@@ -65,7 +117,7 @@ async function pngOf(svg: string, ...points: [width: number, height: number]): P
 
 type Row = ArrayLike<number | string>;
 
-interface Table {
+export interface Table {
   readonly name: string;
   /** What it is and what it was computed with. */
   readonly parameters: unknown;
@@ -73,7 +125,13 @@ interface Table {
   readonly columns: readonly string[];
   /** Row by row. */
   rows(): Iterable<Row>;
+  /** No more rows than this, where there are many. */
+  readonly most?: number;
 }
+
+/** For a spreadsheet, from the clipboard. */
+export const tabbed = ({ columns, rows }: Table): string =>
+  [columns, ...rows()].map((row) => Array.from(row).join("\t")).join("\n");
 
 export function tableOffers(table: Table): Offer[] {
   const { name, parameters, columns } = table;
@@ -82,9 +140,12 @@ export function tableOffers(table: Table): Offer[] {
   const head = () => `${JSON.stringify({ parameters, columns }).slice(0, -1)},"rows":[\n`;
   const list = (row: Row) => JSON.stringify(Array.from(row));
   const json = () => written(table, head(), list, ",\n", "\n]}\n", "application/json");
+  const [row = []] = table.rows();
+  // Digits that end in zeros are shorter in the first row than in others.
+  const size = (text: string) => (table.most === undefined ? {} : { most: table.most * (text.length + 12) });
   return [
-    { name, kind: "csv", make: csv },
-    { name, kind: "json", make: json },
+    { name, kind: "csv", make: csv, ...size(comma(row)) },
+    { name, kind: "json", make: json, ...size(list(row)) },
   ];
 } // prettier-ignore
 
@@ -93,24 +154,36 @@ function csvCell(value: number | string): string {
   return /[",\n]/.test(value) ? `"${value.replace(/"/g, '""')}"` : value;
 }
 
-/** Rows that are written before the page gets its turn again. */
-const ROWS_AT_ONCE = 4000;
+/** How long (ms) rows are written before the page gets its turn again. */
+const AT_ONCE = 20;
 
 async function written(
   table: Table, head: string, line: (row: Row) => string, between: string, end: string, type: string,
 ): Promise<Blob> {
   const parts = [head];
-  let count = 0;
+  let began = performance.now();
   for (const row of table.rows()) {
-    parts.push(count === 0 ? "" : between, line(row));
-    count += 1;
-    if (count % ROWS_AT_ONCE === 0) await new Promise((resolve) => setTimeout(resolve, 0));
+    parts.push(parts.length === 1 ? "" : between, line(row));
+    if (performance.now() - began < AT_ONCE) continue;
+    await new Promise((resolve) => setTimeout(resolve, 0));
+    began = performance.now();
   }
   return new Blob([...parts, end], { type });
 } // prettier-ignore
 
+/** The decimals of this step: digits that no picture shows would be most of a file. */
+export function rounded(value: number, step: number): number {
+  return Number(value.toFixed(Math.min(Math.max(Math.ceil(-Math.log10(step)), 0), 20)));
+}
+
 export function* rowsOf(numbers: Float64Array, width: number): Iterable<Float64Array> {
   for (let index = 0; index + width <= numbers.length; index += width) yield numbers.subarray(index, index + width);
+}
+
+/** The kind of a file and, where that is worth knowing before, its size. */
+export function noteOf({ kind, most = 0 }: Offer): string {
+  const size = quantity(most, "B", 2);
+  return most < 1e6 ? kind.toUpperCase() : say(WORDS.files.most, { kind: kind.toUpperCase(), size });
 }
 
 export const fileName = ({ name, kind }: Offer): string => `${name.trim().replace(/\s+/g, "-").toLowerCase()}.${kind}`;

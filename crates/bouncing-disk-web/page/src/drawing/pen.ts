@@ -109,6 +109,20 @@ export function contextOf(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   return context;
 }
 
+/** Words in lines of print that are no longer than `room`. */
+export function wrapped(text: string, size: number, room: number): string[] {
+  const lines: string[] = [];
+  let line = "";
+  for (const word of text.split(" ")) {
+    const longer = line === "" ? word : `${line} ${word}`;
+    if (line !== "" && measureRuns(longer, size, PRINT_FONT) > room) {
+      lines.push(line);
+      line = word;
+    } else line = longer;
+  }
+  return [...lines, line];
+}
+
 /** Follows a polyline; `down` is false where the pen has been lifted. */
 function trace(points: ArrayLike<number>, to: (x: number, y: number, down: boolean) => void): void {
   let down = false;
@@ -289,12 +303,13 @@ export class SvgPen implements Pen {
   }
 
   /** All of it. A length of 1 is a point, as journals give the widths of their columns. */
-  finish(title: string): string {
+  finish(title: string, description: string, metadata: string): string {
     const [width, height] = [short(this.width), short(this.height)];
     return (
       `<svg xmlns="http://www.w3.org/2000/svg" width="${width}pt" height="${height}pt"` +
       ` viewBox="0 0 ${width} ${height}" font-family="${escape(PRINT_FONT)}" role="img">` +
-      `<title>${escape(title)}</title><rect width="100%" height="100%" fill="${printedColour("--picture-paper")}"/>` +
+      `<title>${escape(title)}</title><desc>${escape(description)}</desc>` +
+      `<metadata>${escape(metadata)}</metadata><rect width="100%" height="100%" fill="${printedColour("--picture-paper")}"/>` +
       `${this.parts.join("\n")}</svg>\n`
     );
   }

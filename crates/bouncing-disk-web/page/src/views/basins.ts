@@ -3,7 +3,7 @@
 import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
 import { themeColour } from "../drawing/colours";
-import { ONE_COLUMN, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
+import { ONE_COLUMN, PARTS, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
@@ -20,8 +20,6 @@ const SPEEDS: Range = [0, 1000];
 const PHASES: Range = [-1, 2];
 /** The smallest speed that a start can have. */
 const LEAST_SPEED = 1e-9;
-/** Of the line above printed basins. */
-const TITLE_HEIGHT = 1.5 * PRINT_SIZE;
 
 class BasinsView implements View {
   private readonly picture: WindowPicture;
@@ -83,7 +81,8 @@ class BasinsView implements View {
     const cells = this.layers[1];
     // What is half done is not given away: it has the labels of some of its cells.
     if (cells === undefined || found === null || this.stale || !this.complete) return [];
-    const map = mapOf(this.context.state());
+    const state = this.context.state();
+    const map = mapOf(state);
     const legend = printedLegend(found, cells.shares());
     return [
       ...tableOffers({
@@ -91,18 +90,16 @@ class BasinsView implements View {
         parameters: { picture: "basins", ...map, basins, ...found },
         columns: ["phase_periods", "normalised_speed", "label"],
         rows: () => cells.rows(),
+        most: cells.grid.phases * cells.grid.speeds,
       }),
       ...pictureOffers({
         name: TEXTS.file,
         title: TEXTS.title,
+        basis: { state, names: PARTS.map },
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.9 + legend.height,
         paint: (pen, width, height) => {
-          const ink = { colour: "--picture-text", size: PRINT_SIZE, anchor: "middle", baseline: "top" } as const;
-          const title = `Γ = ${brief(map.axial_forcing)}, *ε* = ${brief(map.restitution)}`;
-          pen.text(title, width / 2, 0.3 * PRINT_SIZE, ink);
-          const laid = layOut(pen, width, height - legend.height - TITLE_HEIGHT, this.axes(), PRINT_SIZE);
-          const plot = { ...laid, top: laid.top + TITLE_HEIGHT };
+          const plot = layOut(pen, width, height - legend.height, this.axes(), PRINT_SIZE);
           cells.repaint(pen.colour);
           pen.clipped(plot, () => {
             paintStretched(pen, plot, cells.canvas, cells.window);

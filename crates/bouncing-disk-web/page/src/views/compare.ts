@@ -3,7 +3,7 @@
 import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { clamp, extent, padded } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
-import { ONE_COLUMN, tableOffers } from "../drawing/files";
+import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, debounced, div, element, oncePerFrame, rich, setText } from "../elements";
 import { plain, prefixOf, shown } from "../numbers";
 import { bouncing } from "../presets";
@@ -111,9 +111,12 @@ class CompareView implements View {
       for (const [row, time] of times.entries()) yield [time, ...columns.map((column) => column[row] ?? NaN)];
     };
     const { system, start, thrown, compare } = pair.state;
+    const parameter = varied(compare.parameter);
+    const other = `B: ${parameter.symbol} = ${exactText(parameter, compare.value)}`;
+    const basis = { state: pair.state, names: PARTS.all, more: [other] };
     return [
       ...tableOffers({ name: "comparison", parameters: { system, start, thrown, compare }, columns: COLUMNS, rows }),
-      ...chartOffers("comparison", TEXT.title, this.chartsOf(pair), ONE_COLUMN * 0.6),
+      ...chartOffers("comparison", TEXT.title, this.chartsOf(pair), ONE_COLUMN * 0.6, basis),
     ];
   }
 

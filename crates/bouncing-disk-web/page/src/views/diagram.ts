@@ -2,19 +2,19 @@
 
 import type { Context, Drive, Offer, Quantity, State, View, ViewKind } from "../contract";
 import { clamp, pixelX, type Axes, type Plot } from "../drawing/axes";
-import { plotOffers, rowsOf, tableOffers, TWO_COLUMNS } from "../drawing/files";
+import { PARTS, plotOffers, tabbed, tableOffers, TWO_COLUMNS, type Basis } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
 import { confined, WindowPicture, type Window2 } from "../drawing/window";
-import { debounced, div, element, setText } from "../elements";
+import { button, copied, debounced, div, element, setText } from "../elements";
 import { plain } from "../numbers";
 import { say, WORDS } from "../words";
 import { DIAGRAM_COLUMNS, type DiagramJson, type Range, type VerdictJson } from "../protocol";
 import { amplitudeOf, axialForcing, contactPeriods, DEFAULT_STATE } from "../state";
 import { Asked, impactOf, tellFailure } from "./asking";
 import {
-  areDrawn, BRANCHES, branchesOf, describeBifurcations, isPlain, paintBranches, type Branches,
+  areDrawn, BRANCHES, branchesOf, describeBifurcations, isPlain, paintBranches, tablesOf, type Branches,
 } from "./diagram/branches"; // prettier-ignore
-import { computeColumns, DESCRIBED, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
+import { computeColumns, DESCRIBED, distinctImpacts, PATIENCE, RECORDED, TRANSIENT, type Wanted } from "./diagram/columns";
 import { Dots } from "./diagram/dots";
 import { cancelVerdicts, describeDiagram, Verdict, verdictsOf } from "./diagram/words";
 
@@ -23,6 +23,8 @@ const TEXTS = WORDS.diagram;
 /** More columns than this no eye tells apart, and a telephone has to compute them. */
 const MOST_COLUMNS = 2048;
 const FORCING_BOUNDS: Range = [1e-3, 1e3];
+/** Impacts in tables are rounded to this share of the window. */
+const FINENESS = 1e-6;
 
 class DiagramView implements View {
   private readonly picture: WindowPicture;
@@ -31,6 +33,7 @@ class DiagramView implements View {
   private readonly drive: HTMLSelectElement;
   private readonly branchesBox: HTMLInputElement;
   private readonly alternative = element("p", { class: "alternative" });
+  private readonly copy = button(WORDS.diagram.copy, () => void this.copyTable(), { hidden: true });
   private readonly note = element("p", { class: "remark", hidden: true });
   private readonly dots = new Dots();
   private readonly columns = new Asked<void>();
@@ -85,7 +88,7 @@ class DiagramView implements View {
     const picture = div("main-part", this.picture.layers.root, this.note);
     host.append(
       div("bar", ...choices.map((parts) => element("label", {}, ...parts)), this.picture.tools),
-      div("beside", picture, this.verdict.root, element("div", {}, legend, this.alternative)),
+      div("beside", picture, this.verdict.root, element("div", {}, legend, this.alternative, this.copy)),
     );
   }
 
@@ -119,22 +122,28 @@ class DiagramView implements View {
   }
 
   offers(): Offer[] {
-    const { system, start, diagram } = this.context.state();
+    const state = this.context.state();
+    const { system, start, diagram } = state;
     const fine = this.dots.columns.filter(({ coarse }) => !coarse);
+    const lines = this.linesOf(state);
+    const widths = [diagram.axial_forcing, this.dots.range(diagram)].map(([low, high]) => high - low);
+    const step = FINENESS * Math.min(1, ...widths);
     return [
       ...tableOffers({
         name: TEXTS.file,
         parameters: {
           picture: "orbit diagram", system, start, diagram, transient: TRANSIENT, recorded: RECORDED, patience: PATIENCE,
+          rounded_to: step,
         }, // prettier-ignore
-        columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi"],
-        *rows() {
-          for (const { numbers } of fine) yield* rowsOf(numbers, DIAGRAM_COLUMNS.length);
-        },
+        columns: [DIAGRAM_COLUMNS[0], "impact_phase_rad", "normalised_speed", "angular_speed_per_omega_phi", "impacts"],
+        rows: () => distinctImpacts(fine, step),
+        most: this.dots.count * RECORDED,
       }),
+      ...(lines === null ? [] : tablesOf(lines, state).flatMap(tableOffers)),
       ...plotOffers({
         name: TEXTS.file,
         title: TEXTS.title,
+        basis: basisOf(state),
         width: TWO_COLUMNS,
         height: TWO_COLUMNS * 0.5,
         axes: this.axes(),
@@ -199,6 +208,7 @@ class DiagramView implements View {
       if (turn !== this.turn) return;
       const seen = describeDiagram(state, verdicts, this.dots.count, this.orbits);
       const lines = this.linesOf(state);
+      this.copy.hidden = lines === null || lines.json.bifurcations.length === 0;
       setText(this.alternative, lines === null ? seen : `${seen} ${describeBifurcations(lines, window)}`);
       if (!this.told) this.context.status(this.sentence);
       this.told = true;
@@ -235,6 +245,14 @@ class DiagramView implements View {
     this.picture.redraw();
   }
 
+  private async copyTable(): Promise<void> {
+    const state = this.context.state();
+    const lines = this.linesOf(state);
+    if (lines === null) return;
+    const done = await copied(tabbed(tablesOf(lines, state)[0]));
+    this.context.status(done ? WORDS.diagram.copied : WORDS.diagram.not_copied, done ? "done" : "error");
+  }
+
   /** Those of another window are the same lines; those of another coefficient of restitution are others. */
   private linesOf(state: State): Branches | null {
     return areDrawn(state) && this.lines?.restitution === state.system.restitution ? this.lines : null;
@@ -266,6 +284,13 @@ class DiagramView implements View {
       tellFailure(this.context, error);
     }
   }
+}
+
+/** What the diagram depends on: the vertical motion on less than the rotation. */
+function basisOf(state: State): Basis {
+  const { quantity, drive } = state.diagram;
+  const names = quantity === "angular_speed" ? PARTS.rotation : PARTS.vertical;
+  return { state, names, more: drive === "sine" ? [] : [say(WORDS.files.drive, { drive })] };
 }
 
 /** What there is to say below a diagram of angular speeds. */

@@ -3,7 +3,7 @@
 import { Cancelled, messageOf, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { clamp } from "../drawing/axes";
 import { ScreenChart, type Chart } from "../drawing/chart";
-import { rowsOf } from "../drawing/files";
+import { PARTS, rowsOf } from "../drawing/files";
 import { debounced, div, element, oncePerFrame, section, setText } from "../elements";
 import { percent } from "../numbers";
 import { TRANSIENT_COLUMNS, type MotorSheet, type Range, type ReportJson, type SheetJson, type StallJson } from "../protocol";
@@ -100,7 +100,9 @@ class MotorView implements View {
     const { sheet, text, transient, operations, own } = this.known;
     if (sheet === null || text === "") return [];
     const runUp = transient === null ? null : transientChart(transient, own);
-    return motorOffers({ sheet, text, transient, operations, runUp, curves: this.curves() });
+    const more = sheet.stator ? [say(WORDS.files.stator, { stator: JSON.stringify(sheet.stator) })] : [];
+    const basis = { state: this.context.state(), names: PARTS.rotor, more };
+    return motorOffers({ sheet, text, transient, operations, runUp, curves: this.curves(), basis });
   }
 
   private curves(): Chart[] {

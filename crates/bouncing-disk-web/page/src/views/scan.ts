@@ -5,7 +5,7 @@ import {
 } from "../contract"; // prettier-ignore
 import { clamp } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
-import { ONE_COLUMN, tableOffers } from "../drawing/files";
+import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
 import { button, debounced, div, element, oncePerFrame, rich } from "../elements";
 import type { Range } from "../protocol";
 import { axialForcing, changed, MOST_POINTS, MOST_VALUES } from "../state";
@@ -106,7 +106,9 @@ class ScanView implements View {
     const { scan, at, lines } = plan;
     const readings = readingsOf(plan, this.known);
     if (readings.flat().includes(null)) return [];
-    const { system, mass, start } = this.context.state();
+    const state = this.context.state();
+    const { system, mass, start } = state;
+    const basis = { state, names: PARTS.all.filter((name) => name !== scan.over && name !== scan.family) };
     const rows = function* () {
       for (const [index, { value }] of lines.entries())
         for (const [place, reading] of (readings[index] ?? []).entries()) {
@@ -117,7 +119,7 @@ class ScanView implements View {
     const columns = [scan.family ?? "family", scan.over, scan.result, "standard_error", "low_95", "high_95", "lacks"];
     return [
       ...tableOffers({ name: "scan", parameters: { system, mass, start, scan }, columns, rows }),
-      ...chartOffers("scan", TEXT.results[scan.result], [chartOf(plan, readings)], ONE_COLUMN * 0.75),
+      ...chartOffers("scan", TEXT.results[scan.result], [chartOf(plan, readings)], ONE_COLUMN * 0.75, basis),
     ];
   }
 

@@ -2,7 +2,7 @@
 
 import type { Context, Offer, State, View, ViewKind } from "../contract";
 import { chartOffers, ScreenChart } from "../drawing/chart";
-import { ONE_COLUMN, plotOffers, tableOffers } from "../drawing/files";
+import { ONE_COLUMN, PARTS, plotOffers, tableOffers, type Basis } from "../drawing/files";
 import { Layers, type Point } from "../drawing/window";
 import { button, div, element, oncePerFrame, section, setText } from "../elements";
 import { plain } from "../numbers";
@@ -14,6 +14,7 @@ import { paintImpacts, Portrait } from "./toss/portrait";
 import { describeMoment, Readings } from "./toss/readings";
 import { Recording, traces, type Moment } from "./toss/recording";
 import { describePath, paintPath, paintPathInset, pathAxes, Stage } from "./toss/scene";
+import { Sound } from "./toss/sound";
 import { attachThrowing, describeThrow, throwForm } from "./toss/throwing";
 
 const TEXTS = WORDS.toss;
@@ -49,7 +50,9 @@ class TossView implements View {
     this.player,
     () => this.period(),
     () => this.describe(),
+    (on) => this.sound.switch(on),
   );
+  private readonly sound = new Sound();
   private recording: Recording | null = null;
   private stage: Stage | null = null;
   private held: { height: number; angle: number } | null = null;
@@ -82,6 +85,13 @@ class TossView implements View {
       },
     };
     attachThrowing(this.scene.surface, throwing);
+    this.player.played = (from, to, seconds) => {
+      if (this.recording === null) return;
+      const { recording } = this;
+      const [begin, end] = [from * recording.period, to * recording.period];
+      const passed = recording.impacts.slice(recording.impactsUntil(begin), recording.impactsUntil(end));
+      this.sound.play(passed, begin, end, seconds);
+    };
     const scene = [this.scene.root, this.controls.root, this.gains, this.thrown, this.rounding.root, this.alternative];
     const charts = [this.heights.root, this.spins.root];
     const readings = [...this.readings.elements, throwForm(throwing)];
@@ -119,7 +129,12 @@ class TossView implements View {
     const { recording } = this;
     if (recording === null) return [];
     const charts = traces(recording, Math.max(this.player.now, Math.min(recording.periods, 8)));
-    const parameters = { system: this.context.state().system, start: this.start(), periods: recording.periods };
+    const state = this.context.state();
+    const basis: Basis =
+      state.thrown === null
+        ? { state, names: PARTS.motion }
+        : { state, names: PARTS.system, more: [describeThrow(state.thrown)] };
+    const parameters = { system: state.system, start: this.start(), periods: recording.periods };
     return [
       ...tableOffers({ name: TEXTS.files.motion, parameters, columns: COLUMNS, rows: () => recording.table() }),
       ...tableOffers({
@@ -128,10 +143,11 @@ class TossView implements View {
         columns: ["time_s", "impact_phase_rad", "normalised_speed"],
         rows: () => recording.impacts.map(({ time, phase, normalised_speed }) => [time, phase, normalised_speed]),
       }),
-      ...chartOffers(TEXTS.files.traces, TEXTS.titles.traces, charts, ONE_COLUMN * 0.6),
+      ...chartOffers(TEXTS.files.traces, TEXTS.titles.traces, charts, ONE_COLUMN * 0.6, basis),
       ...plotOffers({
         name: TEXTS.files.path,
         title: TEXTS.titles.path,
+        basis: { state, names: PARTS.platform },
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.8,
         axes: pathAxes(recording.system),
@@ -140,6 +156,7 @@ class TossView implements View {
       ...plotOffers({
         name: TEXTS.files.portrait,
         title: TEXTS.titles.portrait,
+        basis,
         width: ONE_COLUMN,
         height: ONE_COLUMN * 0.8,
         axes: this.portrait.axes(),

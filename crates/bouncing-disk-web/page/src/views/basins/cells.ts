@@ -2,6 +2,7 @@
 
 import type { Context } from "../../contract";
 import { pixelWord, themeColour, type Colours } from "../../drawing/colours";
+import { rounded } from "../../drawing/files";
 import { contextOf } from "../../drawing/pen";
 import type { Window2 } from "../../drawing/window";
 import { element } from "../../elements";
@@ -101,11 +102,14 @@ export class Cells {
   /** Row by row from the lowest speed: phase, speed, label. */
   *rows(): Iterable<[number, number, number]> {
     const { phase_periods: x, normalised_speed: y, phases, speeds } = this.grid;
+    const middle = ([low, high]: Range, cell: number, cells: number) =>
+      rounded(low + ((cell + 0.5) / cells) * (high - low), (high - low) / cells / 1000);
+    const places = Array.from({ length: phases }, (_, column) => middle(x, column, phases));
     for (let row = 0; row < speeds; row += 1) {
-      const speed = y[0] + ((row + 0.5) / speeds) * (y[1] - y[0]);
+      const speed = middle(y, row, speeds);
       for (let column = 0; column < phases; column += 1) {
         const label = this.labels[row * phases + column] as number;
-        if (label !== UNKNOWN) yield [x[0] + ((column + 0.5) / phases) * (x[1] - x[0]), speed, label];
+        if (label !== UNKNOWN) yield [places[column] as number, speed, label];
       }
     }
   }

@@ -1,7 +1,7 @@
 /** The attractors in words, with the shares of the starts that end on them: on the screen and in print. */
 
 import { ONE_COLUMN, PRINT_SIZE } from "../../drawing/files";
-import { measureRuns, PRINT_FONT, type Pen } from "../../drawing/pen";
+import { wrapped, type Pen } from "../../drawing/pen";
 import { element, section, setText } from "../../elements";
 import { brief, grouped, percent } from "../../numbers";
 import type { AttractorJson, AttractorsJson } from "../../protocol";
@@ -98,6 +98,8 @@ const LINE = 1.3 * PRINT_SIZE;
 const GAP = 0.3 * LINE;
 const SWATCH = 1.2 * PRINT_SIZE;
 const SWATCH_HEIGHT = 0.8 * PRINT_SIZE;
+/** Of the words beside a swatch. */
+const ROOM = ONE_COLUMN - 2 * LEFT - SWATCH - INDENT;
 /** More attractors than this are counted and not listed. */
 const MOST = 12;
 
@@ -105,7 +107,7 @@ const MOST = 12;
 export function printedLegend(found: AttractorsJson, shares: Shares) {
   const entry = (swatch: string | null, words: string, share: number | null) => ({
     swatch,
-    lines: wrapped(say(TEXTS.printed_share, { share: percent(share ?? 0), text: words })),
+    lines: wrapped(say(TEXTS.printed_share, { share: percent(share ?? 0), text: words }), PRINT_SIZE, ROOM),
   });
   const known = found.attractors.map((attractor, index) => ({
     share: windowShare(attractor, shares) ?? 0,
@@ -148,19 +150,4 @@ function stripes(pen: Pen, y: number): void {
   for (let x = LEFT; x < LEFT + SWATCH - SWATCH_HEIGHT / 2; x += 3)
     points.push(x, y + SWATCH_HEIGHT, x + SWATCH_HEIGHT / 2, y, NaN, NaN);
   pen.path(points, { stroke: "--undecided-line", width: 1 });
-}
-
-/** Words in lines that are no longer than the column has room for. */
-function wrapped(text: string): string[] {
-  const room = ONE_COLUMN - 2 * LEFT - SWATCH - INDENT;
-  const lines: string[] = [];
-  let line = "";
-  for (const word of text.split(" ")) {
-    const longer = line === "" ? word : `${line} ${word}`;
-    if (line !== "" && measureRuns(longer, PRINT_SIZE, PRINT_FONT) > room) {
-      lines.push(line);
-      line = word;
-    } else line = longer;
-  }
-  return [...lines, line];
 }

@@ -2,6 +2,7 @@
 
 import type { Context, Quantity, State } from "../../contract";
 import { crossAt, pixelX, pixelY, type Plot } from "../../drawing/axes";
+import { rounded, rowsOf, type Table } from "../../drawing/files";
 import type { Pen } from "../../drawing/pen";
 import { minus } from "../../numbers";
 import { BRANCH_COLUMNS, type BranchesJson, type Range } from "../../protocol";
@@ -11,6 +12,8 @@ import { axisValue, columnOf } from "./columns";
 export const BRANCHES = "diagram-branches";
 
 export interface Branches {
+  /** The forcings for which they were looked for. */
+  readonly axial_forcing: Range;
   readonly json: BranchesJson;
   readonly numbers: Float64Array;
 }
@@ -22,9 +25,10 @@ export const isPlain = ({ system, diagram }: State): boolean => diagram.drive ==
 export const areDrawn = (state: State): boolean =>
   state.diagram.branches && state.diagram.quantity !== "angular_speed" && isPlain(state);
 
-export function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
-  const request = { call: "branches", restitution, axial_forcing: diagram.axial_forcing } as const;
-  return client.series<BranchesJson>(BRANCHES, [request]);
+export async function branchesOf({ client }: Context, { system: { restitution }, diagram }: State): Promise<Branches> {
+  const { axial_forcing } = diagram;
+  const request = { call: "branches", restitution, axial_forcing } as const;
+  return { ...(await client.series<BranchesJson>(BRANCHES, [request])), axial_forcing };
 }
 
 const WIDTH = BRANCH_COLUMNS.length;
@@ -101,6 +105,27 @@ function paintBifurcations(pen: Pen, plot: Plot, { json }: Branches, quantity: Q
     else if (found.kind === "fold") pen.rect(x - 3, y - 3, 6, 6, style);
     else pen.path(crossAt(x, y, 3), { stroke: style.stroke, width: 1.5 });
   }
+}
+
+/** The bifurcations, in the order of the forcing and each once, and the branches point by point. */
+export function tablesOf({ json, numbers, axial_forcing }: Branches, { system }: State): [Table, Table] {
+  const { tables } = WORDS.diagram;
+  const parameters = { picture: "branches", restitution: system.restitution, axial_forcing };
+  const impact = ["axial_forcing", "impact_phase_rad", "normalised_speed"];
+  // The phase of a fold at 0 is what rounding leaves of it.
+  const found = json.bifurcations.map(({ kind, axial_forcing, impact_phase, normalised_speed }) => {
+    return [kind, axial_forcing, rounded(impact_phase, 1e-12), normalised_speed] as const;
+  });
+  const once = [...new Map(found.map((row) => [row.join(), row])).values()].sort((one, other) => one[1] - other[1]);
+  return [
+    { name: tables.bifurcations, parameters, columns: ["kind", ...impact], rows: () => once },
+    {
+      name: tables.branches,
+      parameters,
+      columns: [...impact, ...BRANCH_COLUMNS.slice(impact.length)],
+      rows: () => rowsOf(numbers, WIDTH),
+    },
+  ];
 }
 
 /** "doubling at 0.4860, fold at 0.3333", for the text beside the picture; the first few. */

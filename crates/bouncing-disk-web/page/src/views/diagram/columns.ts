@@ -1,7 +1,8 @@
 /** What is drawn over the forcing, and the columns of a window: where they take long, every eighth first, then all. */
 
 import type { Context, Drive, Quantity } from "../../contract";
-import type { DiagramJson, ImpactStart, Range, Request, SystemParameters } from "../../protocol";
+import { rounded, rowsOf } from "../../drawing/files";
+import { DIAGRAM_COLUMNS, type DiagramJson, type ImpactStart, type Range, type Request, type SystemParameters } from "../../protocol";
 import { WORDS } from "../../words";
 
 export interface Described {
@@ -113,4 +114,24 @@ export async function computeColumns(
     take({ ...place, numbers });
   });
   return told;
+}
+
+/** The impacts of each forcing, those that are equal when rounded in one row with their number: most orbits repeat few. */
+export function* distinctImpacts(columns: readonly Columns[], step: number): Iterable<number[]> {
+  const found = new Map<string, number[]>();
+  let forcing = NaN;
+  for (const { numbers } of columns) {
+    for (const [present = NaN, ...impact] of rowsOf(numbers, DIAGRAM_COLUMNS.length)) {
+      if (present !== forcing) {
+        yield* found.values();
+        found.clear();
+        forcing = present;
+      }
+      const row = impact.map((value) => rounded(value, step));
+      const known = found.get(row.join());
+      if (known === undefined) found.set(row.join(), [forcing, ...row, 1]);
+      else known.push((known.pop() ?? 0) + 1);
+    }
+  }
+  yield* found.values();
 }

@@ -3,7 +3,7 @@
 import type { Offer } from "../../contract";
 import { clamp, extent, padded } from "../../drawing/axes";
 import { chartOffers, type Chart, type Curve, type Mark } from "../../drawing/chart";
-import { ONE_COLUMN, rowsOf, tableOffers } from "../../drawing/files";
+import { ONE_COLUMN, rowsOf, tableOffers, type Basis } from "../../drawing/files";
 import { prefixOf } from "../../numbers";
 import { OPERATION_COLUMNS, TRANSIENT_COLUMNS, type MotorSheet, type Range, type StallJson } from "../../protocol";
 import { say, WORDS } from "../../words";
@@ -145,9 +145,10 @@ interface MotorParts {
   readonly operations: readonly Operation[];
   readonly runUp: Chart | null;
   readonly curves: readonly Chart[];
+  readonly basis: Basis;
 }
 
-export function motorOffers({ sheet, text, transient, operations, runUp, curves }: MotorParts): Offer[] {
+export function motorOffers({ sheet, text, transient, operations, runUp, curves, basis }: MotorParts): Offer[] {
   const written = async () => new Blob([text], { type: "application/json" });
   const offers: Offer[] = [{ name: FILES.sheet, kind: "json", make: written }];
   if (transient !== null) {
@@ -165,8 +166,8 @@ export function motorOffers({ sheet, text, transient, operations, runUp, curves 
     offers.push(...tableOffers({ name: FILES.curve, parameters: { sheet, seed: SEED }, columns, rows }));
   }
   const each = ONE_COLUMN * 0.62;
-  if (runUp !== null) offers.push(...chartOffers(FILES.run_up, TITLES.run_up, [runUp], each));
+  if (runUp !== null) offers.push(...chartOffers(FILES.run_up, TITLES.run_up, [runUp], each, basis));
   if (curves.length > 0)
-    offers.push(...chartOffers(FILES.curve, TITLES.curve, curves, each));
+    offers.push(...chartOffers(FILES.curve, TITLES.curve, curves, each, basis));
   return offers;
 }

@@ -2,6 +2,7 @@
 
 import { button, element, setText } from "../../elements";
 import { plain } from "../../numbers";
+import { WORDS } from "../../words";
 
 /** A frame that took longer than this was not seen; the motion does not jump ahead. */
 const LONGEST_FRAME = 0.1;
@@ -11,6 +12,8 @@ export class Player {
   now = 0;
   /** Platform periods in a second of ours. */
   rate = 0.6;
+  /** Called for what goes by while it plays, and not where somebody jumps: from, to (periods), and in which time (s). */
+  played: (from: number, to: number, seconds: number) => void = () => {};
   private frame = 0;
   private last = 0;
 
@@ -31,7 +34,9 @@ export class Player {
       const passed = Math.min(Math.max((time - this.last) / 1000, 0), LONGEST_FRAME);
       this.last = time;
       this.frame = requestAnimationFrame(step);
-      this.seek(this.now + passed * this.rate);
+      const from = this.now;
+      this.seek(from + passed * this.rate);
+      if (this.now > from) this.played(from, this.now, passed);
     };
     this.frame = requestAnimationFrame(step);
   }
@@ -59,13 +64,16 @@ export class Controls {
     type: "range", min: 0, step: "any", "aria-label": "Time in periods", oninput: () => this.scrub(),
   }); // prettier-ignore
   private readonly told = element("output", { class: "speed" });
+  private readonly sound = element("input", { type: "checkbox", onchange: () => this.heard(this.sound.checked) });
 
-  /** `period` is that of the platform in seconds; `chosen` is called where another moment stands still. */
+  /** `period` is that of the platform in seconds; `chosen` is called where another moment stands still, `heard`
+   * where sound is switched on or off. */
   constructor(
     surface: HTMLElement,
     private readonly player: Player,
     private readonly period: () => number,
     private readonly chosen: () => void,
+    private readonly heard: (on: boolean) => void,
   ) {
     const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Speed of the animation" });
     speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));
@@ -80,6 +88,7 @@ export class Controls {
       button("|◀", () => player.seek(0), { "aria-label": "Back to the start", title: "Back to the start (Home)" }),
       element("label", { class: "grow" }, "Time", this.place),
       element("label", {}, "Speed", speed),
+      element("label", { title: WORDS.toss.sound_hint }, this.sound, WORDS.toss.sound),
       this.told,
     );
     surface.addEventListener("keydown", (event) => this.key(event));

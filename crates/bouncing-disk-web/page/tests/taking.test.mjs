@@ -1,0 +1,278 @@
+/** What people take away: links, pictures with their parameters, sheets to print, tables and frames. */
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { fileURLToPath } from "node:url";
+import { fact, onPage, preset, savedBy, settled, svgOf } from "./browser.mjs";
+
+const PUBLISHED = "https://example.org/disk/explorer/";
+
+/** The page keeps what it copies in `copied`. */
+const COPYING = `Object.defineProperty(navigator, "clipboard", {
+  value: { writeText: async (text) => void (globalThis.copied = text) },
+});`;
+
+const chosen = (page, name) => async () => {
+  await page.click("#export-button");
+  await page.locator("dialog.export .card", { hasText: name }).click();
+};
+
+/** As the build writes the address that it is given. */
+const publish = (page) =>
+  page.evaluate((href) => {
+    document.head.append(Object.assign(document.createElement("link"), { rel: "canonical", href }));
+  }, PUBLISHED);
+
+async function copiedBy(page, act) {
+  await page.evaluate(() => (globalThis.copied = undefined));
+  await act();
+  await page.waitForFunction(() => globalThis.copied !== undefined);
+  return page.evaluate(() => globalThis.copied);
+}
+
+onPage("a link from the disk leads to the published page, or says that it opens here only", { script: COPYING }, async (page) => {
+  const copy = () => copiedBy(page, () => page.click("#link-button"));
+  const [address, hash] = await page.evaluate(() => [location.href.replace(/#.*/, ""), location.hash]);
+  assert.equal(await copy(), address + hash);
+  assert.match(await page.textContent("#status"), /on this computer only/);
+  await publish(page);
+  await page.focus("#tab-diagram");
+  await page.click("#tab-diagram");
+  assert.equal(await copy(), PUBLISHED + (await page.evaluate(() => location.hash)));
+  assert.doesNotMatch(await page.textContent("#status"), /on this computer only/);
+});
+
+test("the build writes the address that it is given, and none where there is none", () => {
+  const folder = mkdtempSync(join(tmpdir(), "explorer-"));
+  try {
+    const empty = join(folder, "empty");
+    writeFileSync(empty, "");
+    const built = (...more) => {
+      const script = fileURLToPath(new URL("../build.mjs", import.meta.url));
+      execFileSync(process.execPath, [script, "--wasm", empty, "--glue", empty, "--out", folder, ...more], { stdio: "pipe" });
+      return readFileSync(join(folder, "site/index.html"), "utf8");
+    };
+    assert.match(built("--address", `${PUBLISHED}?a&b`), /<link rel="canonical" href="https:\/\/example.org\/disk\/explorer\/\?a&amp;b" \/>/);
+    assert.doesNotMatch(built("--address", ""), /canonical/);
+    assert.throws(() => built("--address", "nowhere"));
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+const textOf = (svg, name) => new RegExp(`<${name}>([^<]*)</${name}>`).exec(svg)[1];
+
+onPage("pictures say below them what they were computed with, and hold their link", "#view=toss&restitution=0.4&friction=0.25", async (page) => {
+  await publish(page);
+  const hash = await page.evaluate(() => location.hash);
+  for (const [name, has, hasNot] of [
+    ["phase portrait", ["ε = 0.4,", "μ = 0.25,", "ω = 15 rad/s,", "wA = 1.4 × πg/ω,"], []],
+    ["path of the platform", ["Φ = 0.9 rad,"], ["ε", "wA"]],
+  ]) {
+    const svg = await svgOf(page, name);
+    const words = textOf(svg, "desc").replaceAll("\u00a0", " ");
+    for (const part of has) assert.ok(words.includes(part), `${part}: ${words}`);
+    for (const part of hasNot) assert.ok(!words.includes(part), `${part}: ${words}`);
+    assert.equal(textOf(svg, "metadata").replaceAll("&#38;", "&"), PUBLISHED + hash);
+    // The same words can be read in the picture.
+    const seen = svg.replaceAll(/<desc>.*?<\/metadata>/gs, "").replaceAll(/<[^>]*>/g, "").replaceAll(/\s/g, "");
+    assert.ok(seen.includes(words.replaceAll(/\s/g, "")), seen);
+  }
+});
+
+/** What a telephone reads from a photograph of the sheet, on which a module of the code has so many pixels. */
+async function readFrom(page, pixelsPerModule, modules) {
+  await page.emulateMedia({ media: "print" });
+  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("jsqr"), "utf8"));
+  return page.locator(".printed svg").evaluate(
+    async (svg, width) => {
+      const image = new Image();
+      image.src = `data:image/svg+xml,${encodeURIComponent(svg.outerHTML)}`;
+      await image.decode();
+      const canvas = new OffscreenCanvas(width, width).getContext("2d");
+      // Out of focus by a quarter of a module, and pale.
+      canvas.filter = `blur(${0.25 * (width / svg.viewBox.baseVal.width) * 10}px) contrast(60%)`;
+      canvas.drawImage(image, 0, 0, width, width);
+      return jsQR(canvas.getImageData(0, 0, width, width).data, width, width)?.data;
+    },
+    Math.round(pixelsPerModule * modules),
+  );
+}
+
+/** A state whose numbers have all their digits: the longest links are like it. */
+const LONG = `#view=diagram&amplitude=${0.2 / 3}&twist_amplitude=${1.3 / 3}&angular_frequency=${44 / 3}&phase_lag=${-1 / 3}\
+&contact_radius=${0.4 / 3}&gyration_radius=${0.35 / 3}&friction=${1 / 3}&restitution=${1.1 / 3}&mass=${1.4 / 3}\
+&impact_phase=${1 / 7}&normalised_speed=${9 / 7}&throw=${1 / 3},${1 / 7},${2 / 3},${8 / 7}&diagram_forcing=${1 / 3},${2 / 3}\
+&diagram_range=${1 / 9},${7 / 9}&basins_phase=${1 / 7},${5 / 7}&basins_speed=${1 / 7},${31 / 7}`;
+
+const PRINTING = "window.print = () => (globalThis.printed = true);";
+
+for (const [what, hash, least] of [["usual", "#view=basins", 500], ["long", LONG, 850]])
+  onPage(`a sheet has pictures, parameters, room to write and a code of a ${what} link`, { hash, script: PRINTING }, async (page) => {
+    await publish(page);
+    const here = PUBLISHED + (await page.evaluate(() => location.hash));
+    assert.ok(here.length > least, `${here.length}`);
+    await chosen(page, "sheet to print")();
+    await page.waitForFunction(() => globalThis.printed);
+    assert.equal(await page.isVisible(".printed"), false, "on the screen");
+    const modules = await page.locator(".printed svg").evaluate((svg) => svg.viewBox.baseVal.width / 10);
+    // Of 64 mm of paper, a quarter of what a camera with 3,000 pixels in a row sees.
+    assert.ok(64 / modules > 0.5, `${64 / modules} mm`);
+    assert.equal(await readFrom(page, 5, modules), here);
+    assert.equal(await page.isVisible("header"), false);
+    assert.ok(await page.isVisible(".printed img"));
+    assert.match(await page.textContent(".printed dl"), /coefficient of restitution ε0\.(5|366667)/);
+    assert.match(await page.textContent(".printed small"), /^https:\/\/example\.org.*restitution=/);
+    assert.equal(await page.locator(".printed-line").count(), 3);
+    await page.evaluate(() => window.dispatchEvent(new Event("afterprint")));
+    assert.equal(await page.locator(".printed").count(), 0);
+    assert.ok(await page.isVisible("header"));
+  });
+
+onPage("a sheet has the note or the task that is open, and no code where nothing is published", { script: PRINTING }, async (page) => {
+  await preset(page, "fig02");
+  await chosen(page, "sheet to print")();
+  await page.waitForFunction(() => globalThis.printed);
+  assert.match(await page.textContent(".printed-task"), /Fig\. 2/);
+  await page.click("#courses-button");
+  await page.click('[data-course="doubling"]');
+  const answer = await page.textContent(".tour details p");
+  await page.evaluate(() => (globalThis.printed = false));
+  await chosen(page, "sheet to print")();
+  await page.waitForFunction(() => globalThis.printed);
+  const task = await page.textContent(".printed-task");
+  assert.match(task, /Period one and period two, step 1 of 4/);
+  assert.ok(task.includes(await page.textContent(".tour .text p:nth-of-type(2)")) && !task.includes(answer), task);
+  assert.match(await page.textContent(".printed small"), /^#view=/);
+  assert.equal(await page.locator(".printed svg").count(), 0);
+});
+
+onPage("tables have distinct impacts and bifurcations, and the diagram copies the latter", { hash: "#view=diagram", script: COPYING }, async (page) => {
+  const table = async (name) => {
+    const note = await page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "CSV" }).textContent();
+    const { content } = await savedBy(page, async () => {
+      await page.click("#export-button");
+      await page.locator("dialog.export .card", { hasText: name }).filter({ hasText: "CSV" }).click();
+    });
+    const [head, columns, ...rows] = String(content).trim().split("\n");
+    return { note, size: content.length, given: JSON.parse(head.slice(2)), columns: columns.split(","), rows: rows.map((row) => row.split(",")) };
+  };
+  await page.click("#export-button");
+  await page.keyboard.press("Escape");
+  const impacts = await table("orbit diagram");
+  const most = Number(/at most ([\d.]+) MB/.exec(impacts.note)[1]);
+  assert.ok(impacts.size < 2e6 && impacts.size < 1e6 * most, `${impacts.size} of ${most} MB`);
+  // Each forcing keeps its 200 impacts; where the disk bounces once in every period they are one row.
+  const counts = new Map();
+  for (const row of impacts.rows) counts.set(row[0], (counts.get(row[0]) ?? 0) + Number(row.at(-1)));
+  assert.deepEqual([...new Set(counts.values())], [200]);
+  const single = impacts.rows.filter(([forcing]) => forcing > 0.4 && forcing < 0.45);
+  assert.ok(single.length > 50);
+  for (const [forcing, phase, speed, , count] of single) {
+    assert.equal(count, "200", forcing);
+    assert.ok(Math.abs(speed - 4 / 3) <= impacts.given.rounded_to, speed);
+    // The period-one orbit: its phase follows from its speed.
+    assert.ok(Math.abs(Math.cos(phase) - (Math.PI * (1 - 0.5)) / (1 + 0.5) / (Math.PI * forcing)) < 1e-6, `${phase} at ${forcing}`);
+  }
+  const found = await table("doublings");
+  assert.deepEqual(found.columns, ["kind", "axial_forcing", "impact_phase_rad", "normalised_speed"]);
+  const doublings = found.rows.filter(([kind]) => kind === "doubling").map(([, forcing]) => Number(forcing));
+  assert.ok(Math.abs(doublings[0] - Math.hypot(1 / 3, 20 / 18 / Math.PI)) < 1e-9, `${doublings[0]}`);
+  assert.deepEqual(doublings, doublings.toSorted((one, other) => one - other));
+  assert.ok((await table("branches")).rows.length > 1000);
+  const copied = await copiedBy(page, () => page.click("text=Copy the bifurcations"));
+  assert.deepEqual(copied.split("\n").map((row) => row.split("\t")), [found.columns, ...found.rows]);
+});
+
+/** An audio context that takes down what it is asked to play. */
+const LISTENING = `
+globalThis.tones = [];
+globalThis.AudioContext = class {
+  state = "suspended";
+  currentTime = 0;
+  destination = {};
+  resume() { this.state = "running"; }
+  suspend() { this.state = "suspended"; }
+};
+globalThis.OscillatorNode = class {
+  constructor(context, { frequency }) { this.tone = { frequency, frame: document.timeline.currentTime }; tones.push(this.tone); }
+  connect(gain) { gain.tone = this.tone; return gain; }
+  start(at) { this.tone.start = at; }
+  stop() {}
+};
+globalThis.GainNode = class {
+  gain = { setValueAtTime: (gain) => void (this.level = gain), exponentialRampToValueAtTime() {} };
+  connect() { this.tone.gain = this.level; }
+};`;
+const tonesOf = (page) => page.evaluate(() => globalThis.tones);
+
+const hurry = (page, share) =>
+  page.getByLabel("Speed of the animation").evaluate((slider, of) => {
+    slider.value = slider.max * of;
+    slider.dispatchEvent(new Event("input"));
+  }, share);
+
+onPage("impacts are heard while the motion plays with sound, loud and soft in turn on a doubled period", { hash: "#view=toss&amplitude=0.0684&normalised_speed=1.4", script: LISTENING }, async (page) => {
+  await page.waitForTimeout(1000);
+  assert.deepEqual(await tonesOf(page), [], "off at the start");
+  await page.check("text=Sound");
+  await hurry(page, 0.8);
+  await page.waitForFunction(() => globalThis.tones.length >= 30, undefined, { timeout: 60_000 });
+  const [one, two, three, four] = (await tonesOf(page)).slice(-4);
+  assert.ok(Math.abs(one.frequency - three.frequency) < 2 && Math.abs(two.frequency - four.frequency) < 2);
+  const [loud, soft] = one.frequency > two.frequency ? [one, two] : [two, one];
+  assert.ok(loud.frequency > 1.05 * soft.frequency && loud.gain > 1.1 * soft.gain, JSON.stringify([loud, soft]));
+  await page.click("text=Pause");
+  const before = (await tonesOf(page)).length;
+  await page.waitForTimeout(800);
+  await page.focus("#view-toss canvas:last-child");
+  for (let step = 0; step < 20; step++) await page.keyboard.press("Shift+ArrowRight");
+  assert.equal((await tonesOf(page)).length, before, "silent where it stands still or jumps");
+});
+
+onPage("a chatter makes few tones, which together stay below the full scale", { hash: "#view=toss&restitution=0.9&amplitude=0.02&normalised_speed=3", script: LISTENING }, async (page) => {
+  await page.check("text=Sound");
+  await hurry(page, 1);
+  await page.click('[aria-label="Back to the start"]');
+  await page.waitForTimeout(3000);
+  const tones = await tonesOf(page);
+  const impacts = Number(await fact(page, "toss", "Impacts so far"));
+  assert.ok(tones.length > 20 && tones.length < 0.5 * impacts, `${tones.length} of ${impacts}`);
+  for (const { frame } of tones) {
+    const together = tones.filter((tone) => tone.frame === frame);
+    assert.ok(together.length <= 4, `${together.length} tones`);
+    assert.ok(together.reduce((sum, { gain }) => sum + gain, 0) <= 0.25);
+    assert.ok(together.every(({ start, frequency, gain }) => start >= 0 && frequency > 0 && gain > 0));
+  }
+});
+
+onPage("a frame for another page shows the view alone, with a way to all of it", { hash: "#view=diagram&restitution=0.4", script: COPYING }, async (page, context) => {
+  await publish(page);
+  const frame = await copiedBy(page, chosen(page, "frame for another page"));
+  const hash = await page.evaluate(() => location.hash);
+  const [, address] = /^<iframe src="([^"]*)" title="Bouncing disk explorer: Orbit diagram" width="640"/.exec(frame);
+  assert.equal(address.replaceAll("&amp;", "&"), `${PUBLISHED}?embed${hash}`);
+  const own = await context.newPage();
+  await own.setViewportSize({ width: 480, height: 360 });
+  await own.goto((await page.evaluate(() => location.href)).replace("#", "?embed#"));
+  await own.waitForSelector("#view-diagram canvas");
+  await settled(own);
+  for (const hidden of ["header", "#parameters", "#opening"]) assert.equal(await own.isVisible(hidden), false, hidden);
+  const box = await own.locator("#view-diagram .picture").boundingBox();
+  assert.ok(box.height > 150 && box.y + box.height <= 360 && box.width > 450, JSON.stringify(box));
+  assert.equal(await own.evaluate(() => document.documentElement.scrollWidth), 480);
+  const full = own.locator("text=Open in full");
+  assert.ok(await full.isVisible());
+  assert.equal(await full.getAttribute("href"), await page.evaluate(() => location.href));
+  // What is done in the frame is no step of the page around it.
+  const steps = await own.evaluate(() => history.length);
+  await own.click('#view-diagram .picture-tools button >> nth=0');
+  await own.waitForFunction((old) => location.hash !== old, hash);
+  assert.equal(await own.evaluate(() => history.length), steps);
+  assert.equal(await full.getAttribute("href"), (await own.evaluate(() => location.href)).replace("?embed", ""));
+});
