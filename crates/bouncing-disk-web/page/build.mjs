@@ -108,7 +108,9 @@ const published = (text) =>
     return url === "" ? "" : before + new URL(url).href.replaceAll("&", "&amp;") + after;
   });
 const source = readFileSync(join(here, "index.html"), "utf8").replace('lang="en"', `lang="${texts.language}"`);
-const html = filled(published(source), {
+const named = (path) => path.split(".").reduce((part, name) => part[name], texts);
+const shell = published(source).replace(/\{\{([\w.]+)\}\}/g, (_, path) => named(path));
+const html = filled(shell, {
   words: `<script type="application/json" id="words">\n${inScript(JSON.stringify(texts, null, 1))}\n</script>`,
 });
 const page = await bundled("src/main.ts");

@@ -124,9 +124,9 @@ function begin(): void {
   };
   const notes = new Notes(byId("note"), choose);
   const presets = choices(
-    "Figures and tables of the paper",
+    WORDS.page.figures_choose,
     "presets",
-    "Each opens the view and the parameters that come nearest to it, and says what to see.",
+    WORDS.page.figures_what,
     () =>
       PRESETS.map((preset) => ({
         label: preset.place,
@@ -154,9 +154,9 @@ function begin(): void {
     const name = fileName(offer);
     try {
       save(await offer.make(), name);
-      context.announce(`${name} is saved`);
+      context.announce(say(WORDS.page.saved, { name }));
     } catch (error) {
-      problems.add(`${name} cannot be made: ${String(error)}`);
+      problems.add(say(WORDS.page.not_saved, { name, why: String(error) }));
     }
   };
   const print = async (): Promise<void> => {
@@ -166,15 +166,15 @@ function begin(): void {
       problems.add(messageOf(error));
     }
   };
-  const exports = choices("Export", "export", "Data and pictures of this view, and its address.", () => [
+  const exports = choices(WORDS.page.export, "export", WORDS.page.export_what, () => [
     ...(stage.view?.offers() ?? []).map((offer) => ({
       label: offer.name,
       note: noteOf(offer),
       act: () => void saved(offer),
     })),
-    { label: "link to this state", note: "COPY", act: copy },
+    { label: WORDS.page.link_offer, note: WORDS.page.copy, act: copy },
     { label: WORDS.sheet.label, note: "PRINT", act: () => void print() },
-    { label: WORDS.embed.label, note: "COPY", act: () => void copyFrame(context) },
+    { label: WORDS.embed.label, note: WORDS.page.copy, act: () => void copyFrame(context) },
   ]);
   /** The tools with the keys that do the same. */
   const tools: readonly (readonly [string, string, () => void])[] = [
@@ -229,8 +229,8 @@ async function copyFrame(context: Context): Promise<void> {
 async function copyLink(context: Context, button: HTMLButtonElement): Promise<void> {
   const words = button.textContent;
   const done = await copied(link(context.state()));
-  button.textContent = done ? "Copied" : "See the address";
-  context.announce(done ? "The link is in the clipboard" : "Copy the address of the page: it is the link");
+  button.textContent = done ? WORDS.page.copied : WORDS.page.not_copied;
+  context.announce(done ? WORDS.page.copied_told : WORDS.page.not_copied_told);
   if (done && isLocal()) context.status(WORDS.address.local);
   setTimeout(() => {
     button.textContent = words;

@@ -26,7 +26,9 @@ const leaves = (part, path) =>
 test("no text is left over", () => {
   const files = readdirSync(SOURCES, { recursive: true }).filter((name) => name.endsWith(".ts"));
   const all = files.map((name) => resolved(readFileSync(new URL(name, SOURCES), "utf8"))).join("\n");
-  const used = [...new Set(all.match(/WORDS(\.\w+)+/g)), "WORDS.language"].map((path) => `${path}.`);
+  const page = readFileSync(new URL("../index.html", SOURCES), "utf8");
+  const ofPage = [...page.matchAll(/\{\{([\w.]+)\}\}/g)].map(([, path]) => `WORDS.${path}`);
+  const used = [...new Set(all.match(/WORDS(\.\w+)+/g)), ...ofPage].map((path) => `${path}.`);
   const isUsed = (leaf) => used.some((path) => `${leaf}.`.startsWith(path) || path.startsWith(`${leaf}.`));
   assert.deepEqual(leaves(WORDS, "WORDS").filter((leaf) => !isUsed(leaf)), []);
 });

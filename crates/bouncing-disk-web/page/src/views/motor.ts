@@ -68,8 +68,8 @@ class MotorView implements View {
     });
     const [runUp, speed, power, efficiency] = [this.runUpChart, ...this.curveCharts].map(({ root }) => root);
     const charts = [
-      section("Run-up and speed", null, runUp ?? null, speed ?? null),
-      section("Power and efficiency", null, power ?? null, efficiency ?? null, this.remark),
+      section(WORDS.motor.panels.run_up, null, runUp ?? null, speed ?? null),
+      section(WORDS.motor.panels.power, null, power ?? null, efficiency ?? null, this.remark),
     ];
     const words = div("motor-words", this.reportPanel.root, this.sheetPanel.root);
     host.append(div("motor", this.attractors.root, this.reportPanel.trap, ...charts, words));

@@ -2,7 +2,9 @@
 
 import { button, element, setText } from "../../elements";
 import { plain } from "../../numbers";
-import { WORDS } from "../../words";
+import { say, WORDS } from "../../words";
+
+const TEXT = WORDS.player;
 
 /** A frame that took longer than this was not seen; the motion does not jump ahead. */
 const LONGEST_FRAME = 0.1;
@@ -59,9 +61,9 @@ const STEPS = 200;
 
 export class Controls {
   readonly root: HTMLElement;
-  private readonly playButton = button("Play", () => this.toggle(), { class: "play" });
+  private readonly playButton = button(TEXT.play, () => this.toggle(), { class: "play" });
   private readonly place = element("input", {
-    type: "range", min: 0, step: "any", "aria-label": "Time in periods", oninput: () => this.scrub(),
+    type: "range", min: 0, step: "any", "aria-label": TEXT.time_periods, oninput: () => this.scrub(),
   }); // prettier-ignore
   private readonly told = element("output", { class: "speed" });
   private readonly sound = element("input", { type: "checkbox", onchange: () => this.heard(this.sound.checked) });
@@ -75,7 +77,7 @@ export class Controls {
     private readonly chosen: () => void,
     private readonly heard: (on: boolean) => void,
   ) {
-    const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": "Speed of the animation" });
+    const speed = element("input", { type: "range", min: 0, max: STEPS, step: 1, "aria-label": TEXT.speed_of });
     speed.value = String(Math.round((STEPS * Math.log(player.rate / SLOWEST)) / Math.log(FASTEST / SLOWEST)));
     speed.addEventListener("input", () => {
       player.rate = SLOWEST * (FASTEST / SLOWEST) ** (Number(speed.value) / STEPS);
@@ -83,11 +85,11 @@ export class Controls {
     });
     this.root = element(
       "div",
-      { class: "bar controls", role: "group", "aria-label": "Animation" },
+      { class: "bar controls", role: "group", "aria-label": TEXT.animation },
       this.playButton,
-      button("|◀", () => player.seek(0), { "aria-label": "Back to the start", title: "Back to the start (Home)" }),
-      element("label", { class: "grow" }, "Time", this.place),
-      element("label", {}, "Speed", speed),
+      button("|◀", () => player.seek(0), { "aria-label": TEXT.start, title: TEXT.start_title }),
+      element("label", { class: "grow" }, TEXT.time, this.place),
+      element("label", {}, TEXT.speed, speed),
       element("label", { title: WORDS.toss.sound_hint }, this.sound, WORDS.toss.sound),
       this.told,
     );
@@ -97,13 +99,14 @@ export class Controls {
   /** Follows the player; `end` is how far one can scrub, in periods. */
   show(end: number): void {
     const { player } = this;
-    setText(this.playButton, player.playing ? "Pause" : "Play");
+    setText(this.playButton, player.playing ? TEXT.pause : TEXT.play);
     if (this.place.max !== String(end)) this.place.max = String(end);
     if (document.activeElement !== this.place || player.playing) this.place.value = String(player.now);
-    this.place.setAttribute("aria-valuetext", `${player.now.toFixed(2)} periods`);
+    this.place.setAttribute("aria-valuetext", say(TEXT.aria_time, { periods: player.now.toFixed(2) }));
     const real = player.rate * this.period();
-    const ratio = real < 1 ? `slowed ${plain(1 / real, 2)} times` : `quickened ${plain(real, 2)} times`;
-    setText(this.told, `${plain(player.rate, 2)} periods/s, ${Math.abs(real - 1) < 0.05 ? "as it is" : ratio}`);
+    const ratio = say(real < 1 ? TEXT.slowed : TEXT.quickened, { times: plain(real < 1 ? 1 / real : real, 2) });
+    const how = Math.abs(real - 1) < 0.05 ? TEXT.as_it_is : ratio;
+    setText(this.told, say(TEXT.rate, { rate: plain(player.rate, 2), how }));
   }
 
   private toggle(): void {
