@@ -28,7 +28,11 @@ fn a_stored_state_goes_on_as_the_first_one() {
         speed(instance).to_bits()
     });
     assert_eq!(ends[0], ends[1]);
+    // What was set is forgotten, too.
+    let torque = reference(&instance, "load_torque");
+    instance.set(torque, 1e-5).expect("legal");
     instance.reset().expect("legal");
+    assert_eq!(instance.get(torque), Ok(0.0));
     instance.enter_initialization(0.0).expect("legal");
     instance.exit_initialization().expect("legal");
     instance.step(0.0, 0.1).expect("legal");
