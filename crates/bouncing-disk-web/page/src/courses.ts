@@ -6,6 +6,7 @@ import {
   basins, bouncing, diagram, motor, multipleToss, REST, stateOf, toss, tossOf, withForcing, withTwist,
 } from "./presets"; // prettier-ignore
 import type { Range } from "./protocol";
+import { nextDouble } from "./views/compare/parting";
 import { say, WORDS } from "./words";
 
 type Words = typeof WORDS.courses;
@@ -52,11 +53,13 @@ const STEPS: { readonly [Course in Id]: Readonly<Record<keyof Words[Course]["ste
     lag: toss(tossOf({ angle: 0.323 * PI, lag: PI / 2 })),
     angle: toss(tossOf({ angle: 0.323 * PI })),
     friction: toss(tossOf({ angle: 0.323 * PI })),
+    scan: { ...toss({}), view: "scan", scan: { family: "phase_lag", range: [0, 1.4] } },
   },
   motor: { sheet: motor({}), runup: motor({}), curve: motor({}), friction: motor({ friction: 0.2 }) },
   sensitivity: {
     chaos: bouncing(0.55),
     exponent: cascade(0.55, 0.54999, 0.55001),
+    compare: { ...bouncing(0.55), view: "compare", compare: { parameter: "restitution", value: nextDouble(0.5) } },
     order: cascade(0.45, 0.44, 0.46),
     bits: bouncing(0.55),
   },

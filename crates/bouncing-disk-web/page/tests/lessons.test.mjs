@@ -7,6 +7,7 @@ import { asker, sourceOf, WORDS } from "./module.mjs";
 
 const { COURSES } = await sourceOf("courses.ts");
 const { axialForcing } = await sourceOf("state.ts");
+const { partingOf } = await sourceOf("views/compare/parting.ts");
 const ask = asker();
 
 /** A step by the order in which it comes: its state, and what it says, of which all `words` have to be a part. */
@@ -125,16 +126,32 @@ test("hand: the speeds of the tosses", async () => {
   const { state, says } = step("hand", 3);
   const { amplitude, contact_radius, twist_amplitude } = state.system;
   const stroke = Math.hypot(amplitude, contact_radius * twist_amplitude);
-  const at = (share) => {
-    const [up, around] = [Math.cos(share * Math.PI), Math.sin(share * Math.PI)].map((one) => one * stroke);
-    return spin(state, { amplitude: up, twist_amplitude: around / contact_radius });
-  };
-  const [low, high] = [await at(0.28), await at(0.35)].map((one) => one.replace(" rad/s", ""));
-  says(`${await at(0.301)} instead of ${await spin(state)}`, `${low} and ${high} rad/s`);
+  const at = (angle, phase_lag = 0) =>
+    ({ amplitude: stroke * Math.cos(angle), twist_amplitude: (stroke * Math.sin(angle)) / contact_radius, phase_lag });
+  const [best, low, high] = await Promise.all([0.301, 0.28, 0.35].map((share) => spin(state, at(share * Math.PI))));
+  says(`${best} instead of ${await spin(state)}`, `${low.replace(" rad/s", "")} and ${high}`);
   says(await spin(step("hand", 1).state), `φ_L = ${(0.55 / Math.PI).toFixed(3)}π`);
   const friction = step("hand", 4);
   for (const value of [0.7, 0.5]) friction.says(`${await spin(friction.state, { friction: value })} with μ = ${value}`);
-});
+  const scan = step("hand", 5);
+  const { range, points, values } = scan.state.scan;
+  const width = (range[1] - range[0]) / (points - 1);
+  const fastest = [];
+  for (const phase_lag of values) {
+    let most = { angular_speed: -Infinity };
+    // The last one does not throw.
+    for (let point = 1; point < points - 1; point += 1) {
+      const { angular_speed } = await thrown(state, at(point * width, phase_lag));
+      if (angular_speed > most.angular_speed) most = { angular_speed, angle: point * width, phase_lag };
+    }
+    fastest.push(most);
+  }
+  const [first, second] = fastest.sort((one, other) => other.angular_speed - one.angular_speed);
+  assert.equal(first.phase_lag, 0);
+  scan.says(`${first.angular_speed.toFixed(1)} rad/s at φ_L = ${first.angle.toFixed(3)}`, `${(first.angle / Math.PI).toFixed(3)}π`);
+  scan.says(`every ${Number(width.toFixed(6))}`);
+  scan.says(`θ = ${second.phase_lag / Math.PI}π, with ${second.angular_speed.toFixed(1)} rad/s`);
+}); // prettier-ignore
 
 test("motor: what the sheet, the run-up and the curve say", async () => {
   const reads = async (number) => {
@@ -176,7 +193,18 @@ test("sensitivity: the exponents, and how many impacts they leave", async () => 
     assert.ok(Math.abs(exponent - 0.285) < 0.004, `${exponent}`);
   }
   says("about 0.285", `= ${(Math.log(1e16) / 0.285).toFixed(0)}:`);
-  const { exponent } = await orbitOf(step("sensitivity", 3).state);
+  const compared = step("sensitivity", 3);
+  const { system, start, compare } = compared.state;
+  const heights = async (change) => {
+    const motion = { system: { ...system, ...change }, start: { kind: "impact", ...start }, periods: compare.periods };
+    const { json, numbers } = await ask({ call: "motion", ...motion, samples_per_period: 48 });
+    return Float64Array.from({ length: json.samples }, (_, row) => numbers[9 * row + 1]);
+  };
+  const [own, other] = [await heights({}), await heights({ [compare.parameter]: compare.value })];
+  const apart = own.map((height, row) => Math.abs(height - other[row]) / system.amplitude);
+  const { first, growth } = partingOf(apart, 48);
+  compared.says(`some ${first.toFixed(0)} periods`, `about ${growth.factor.toFixed(1)}.`, `= ${Math.exp(0.285).toFixed(2)} for`);
+  const { exponent } = await orbitOf(step("sensitivity", 4).state);
   assert.ok(Math.abs(exponent + Math.LN2) < 1e-9);
-  step("sensitivity", 3).says(`−${Math.LN2.toFixed(3)}`);
+  step("sensitivity", 4).says(`−${Math.LN2.toFixed(3)}`);
 });
