@@ -145,3 +145,15 @@ export function debounced<Values extends unknown[]>(
   later.stop = () => clearTimeout(timer);
   return later;
 }
+
+/** A choice among values with their texts. */
+export function choice(label: string, options: readonly (readonly [string, string])[], choose: (value: string) => void): HTMLSelectElement {
+  const all = options.map(([value, text]) => element("option", { value }, text));
+  const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
+  return made;
+}
+
+export const labelled = (text: string, field: HTMLElement): HTMLElement => element("label", {}, `${text} `, field);
+
+/** Whether the form stands below the view, as in `screens.css`. */
+export const isNarrow = (): boolean => window.matchMedia("(max-width: 860px)").matches;

@@ -3,9 +3,7 @@
 import { button, debounced, element, oncePerFrame, placeOn } from "../elements";
 import type { Range } from "../protocol";
 import { WORDS } from "../words";
-import {
-  clamp, hairsAt, inside, layOut, paintAxes, pixelX, pixelY, valueX, valueY, type Axes, type Plot,
-} from "./axes"; // prettier-ignore
+import { clamp, hairsAt, inside, layOut, paintAxes, valueX, valueY, type Axes, type Plot } from "./axes";
 import { CanvasPen, contextOf, type Box, type Pen } from "./pen";
 
 export interface Window2 {
@@ -113,13 +111,6 @@ export class WindowPicture {
       pen.rect(box.left, box.top, box.width, box.height, { stroke, width: 1.5 });
     }
   }
-}
-
-/** Draws a picture of one window into a plot of another, stretched as it has to be. */
-export function paintStretched(pen: Pen, plot: Plot, image: HTMLCanvasElement, { x, y }: Window2): void {
-  const left = pixelX(plot, x[0]);
-  const top = pixelY(plot, y[1]);
-  pen.image(image, left, top, pixelX(plot, x[1]) - left, pixelY(plot, y[0]) - top);
 }
 
 const SETTLE = 350;

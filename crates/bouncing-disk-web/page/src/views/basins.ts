@@ -2,10 +2,9 @@
 
 import { Cancelled, type Context, type Offer, type State, type View, type ViewKind } from "../contract";
 import { crossAt, layOut, paintAxes, pixelX, pixelY, type Axes, type Plot } from "../drawing/axes";
-import { themeColour } from "../drawing/colours";
 import { ONE_COLUMN, PARTS, pictureOffers, PRINT_SIZE, tableOffers } from "../drawing/files";
 import type { Pen } from "../drawing/pen";
-import { confined, paintStretched, WindowPicture, type Point, type Window2 } from "../drawing/window";
+import { confined, WindowPicture, type Point, type Window2 } from "../drawing/window";
 import { debounced, div, element, setText } from "../elements";
 import { brief, percent, plain } from "../numbers";
 import { say, WORDS } from "../words";
@@ -71,7 +70,6 @@ class BasinsView implements View {
   }
 
   redraw(): void {
-    for (const cells of [...this.layers, this.previous]) cells?.repaint(themeColour);
     this.picture.redraw();
     this.compute();
   }
@@ -100,14 +98,12 @@ class BasinsView implements View {
         height: ONE_COLUMN * 0.9 + legend.height,
         paint: (pen, width, height) => {
           const plot = layOut(pen, width, height - legend.height, this.axes(), PRINT_SIZE);
-          cells.repaint(pen.colour);
           pen.clipped(plot, () => {
-            paintStretched(pen, plot, cells.canvas, cells.window);
+            cells.paint(pen, plot);
             this.paintAttractors(pen, plot);
           });
           paintAxes(pen, plot);
           legend.paint(pen, height - legend.height);
-          cells.repaint(themeColour);
         },
       }),
     ];
@@ -207,9 +203,7 @@ class BasinsView implements View {
   }
 
   private paint(pen: Pen, plot: Plot): void {
-    for (const cells of [this.previous, ...this.layers]) {
-      if (cells !== null) paintStretched(pen, plot, cells.canvas, cells.window);
-    }
+    for (const cells of [this.previous, ...this.layers]) cells?.paint(pen, plot);
     const paper = { fill: "--picture-paper", opacity: 0.75 };
     if (this.stale) pen.rect(plot.left, plot.top, plot.width, plot.height, paper);
     else this.paintAttractors(pen, plot);

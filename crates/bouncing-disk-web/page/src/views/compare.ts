@@ -4,7 +4,7 @@ import { Cancelled, messageOf, type Context, type Offer, type State, type View, 
 import { clamp, extent, padded } from "../drawing/axes";
 import { chartOffers, ScreenChart, type Chart, type Curve } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, debounced, div, element, oncePerFrame, rich, setText } from "../elements";
+import { button, debounced, div, element, labelled, oncePerFrame, rich, setText } from "../elements";
 import { plain, prefixOf, shown } from "../numbers";
 import { bouncing } from "../presets";
 import { MOTION_COLUMNS, type MotionJson, type Range, type VerdictJson } from "../protocol";
@@ -13,7 +13,7 @@ import { say, WORDS } from "../words";
 import { Asked, impactOf, mapOf, motionStartOf, tellFailure, verdictOf } from "./asking";
 import { GROWING, nextDouble, partingOf, type Parting } from "./compare/parting";
 import { behaviour } from "./diagram/words";
-import { exactText, labelled, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
+import { exactText, settings, NumberField, parameterChoice, valueIn, varied, withValue } from "./varied";
 
 const SAMPLES = 48;
 /** Periods that the heights and spins are shown for, and how many of them before the parting. */

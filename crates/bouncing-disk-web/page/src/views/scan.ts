@@ -6,7 +6,7 @@ import {
 import { clamp } from "../drawing/axes";
 import { chartOffers, ScreenChart } from "../drawing/chart";
 import { ONE_COLUMN, PARTS, tableOffers } from "../drawing/files";
-import { button, debounced, div, element, oncePerFrame, rich } from "../elements";
+import { button, choice, debounced, div, element, labelled, oncePerFrame, rich } from "../elements";
 import type { Range } from "../protocol";
 import { axialForcing, changed, MOST_POINTS, MOST_VALUES } from "../state";
 import { say, WORDS } from "../words";
@@ -14,7 +14,7 @@ import { tellFailure } from "./asking";
 import { chartOf, describeGaps, describeOptima, planOf, readingsOf, type Plan } from "./scan/curves";
 import { READY } from "./scan/ready";
 import { compute, RESULT, type Outcome } from "./scan/results";
-import { choice, labelled, NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
+import { NumberField, parameterChoice, rangeAbout, settings, valueIn, varied } from "./varied";
 
 /** Answers that are kept, so that another result or another curve of the same points comes at once. */
 const MOST_KNOWN = 3000;

@@ -1,7 +1,7 @@
 /** The parameters that a scan or a comparison varies, and the fields that choose one and its values. */
 
 import type { Context, State } from "../contract";
-import { element } from "../elements";
+import { choice, element, isNarrow } from "../elements";
 import { labelOf, PARAMETERS, type Parameter } from "../form";
 import { abridged, minus, typed } from "../numbers";
 import type { Range, Summary } from "../protocol";
@@ -52,31 +52,15 @@ export function valueText(parameter: Parameter, value: number): string {
 /** All digits: "0.5000000000000001 rad". */
 export const exactText = (parameter: Parameter, value: number): string => minus(String(value)) + unitOf(parameter, " ");
 
-type Choices = readonly (readonly [value: string, text: string])[];
-
-/** A choice with its label before it. */
-export function choice(label: string, options: Choices, choose: (value: string) => void): HTMLSelectElement {
-  const all = options.map(([value, text]) => element("option", { value }, text));
-  const made = element("select", { "aria-label": label, onchange: () => choose(made.value) }, ...all);
-  return made;
-}
-
 /** Chooses one of all parameters; `none` stands for no one at all. */
 export function parameterChoice(label: string, choose: (name: string) => void, none?: string): HTMLSelectElement {
   const all = PARAMETERS.map((one) => [one.name, `${nameOf(one)} ${one.symbol.replace("_", "")}`] as const);
   return choice(label, none === undefined ? all : [["", none], ...all], choose);
 }
 
-export const labelled = (text: string, field: HTMLElement): HTMLElement => element("label", {}, `${text} `, field);
-
 /** What is chosen stands above the picture, and folded on a narrow screen, where the picture comes first. */
 export const settings = (title: string, bars: readonly HTMLElement[]): HTMLElement =>
-  element(
-    "details",
-    { open: !window.matchMedia("(max-width: 860px)").matches },
-    element("summary", {}, title),
-    ...bars,
-  );
+  element("details", { open: !isNarrow() }, element("summary", {}, title), ...bars);
 
 /** A field of one number, or of several with semicolons between them: a comma may belong to a number. */
 export class NumberField {
