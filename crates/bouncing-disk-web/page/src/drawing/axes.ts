@@ -146,6 +146,10 @@ export function padded([low, high]: Range, share = 0.05): Range {
   return [low - room, high + room];
 }
 
+/** So many numbers from one end of a range to the other. */
+export const evenly = ([low, high]: Range, count: number): number[] =>
+  Array.from({ length: count }, (_, index) => low + ((high - low) * index) / (count - 1));
+
 /** The least and the greatest finite number; null if there is none. */
 export function extent(values: ArrayLike<number>, start = 0, stride = 1): Range | null {
   let low = Infinity;

@@ -50,7 +50,7 @@ export interface Chart {
   readonly lines?: readonly Line[];
   readonly marks?: readonly Mark[];
   /** A grey stretch of the x axis. */
-  readonly shade?: { readonly range: Range; readonly label: string };
+  readonly shade?: { readonly range: Readonly<Range>; readonly label: string };
 }
 
 function layOutChart(pen: Pen, { x, y, curves }: Chart, width: number, height: number, size: number): Plot {

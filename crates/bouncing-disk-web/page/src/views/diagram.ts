@@ -52,7 +52,7 @@ class DiagramView extends ComputingView {
   private sentence = "";
   private told = false;
   private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
-  protected readonly draw = () => this.picture.redraw();
+  protected readonly draw = (): void => this.draw();
 
   constructor(host: HTMLElement, context: Context) {
     super(context, 60, ["diagram", BRANCHES, ...SAMPLE_SLOTS]);
@@ -173,7 +173,7 @@ class DiagramView extends ComputingView {
     try {
       const name = keyOf(wanted);
       const columns = this.columns.get(name, () => this.fetchDots(name, wanted, laid.rows));
-      if (this.dots.arrange(diagram, laid.rows)) this.picture.redraw();
+      if (this.dots.arrange(diagram, laid.rows)) this.draw();
       await columns;
       if (turn !== this.turn) return;
       const { restitution } = system;
@@ -204,10 +204,10 @@ class DiagramView extends ComputingView {
     this.context.status(TEXTS.computing, "busy");
     this.orbits = await computeColumns(this.context, wanted, (columns) => {
       this.dots.take(columns, this.diagram, rows);
-      this.picture.redraw();
+      this.draw();
     });
     this.dots.end(this.diagram, rows);
-    this.picture.redraw();
+    this.draw();
     const seconds = ((performance.now() - began) / 1000).toFixed(2);
     const { resting, left_out } = this.orbits;
     const transient = left_out > TRANSIENT ? `${TRANSIENT}\u2013${left_out}` : TRANSIENT;
@@ -220,7 +220,7 @@ class DiagramView extends ComputingView {
     this.context.status(TEXTS.computing_branches, "busy");
     const branches = await branchesOf(this.context, state);
     this.lines = { ...branches, restitution: state.system.restitution };
-    this.picture.redraw();
+    this.draw();
   }
 
   private async copyTable(): Promise<void> {

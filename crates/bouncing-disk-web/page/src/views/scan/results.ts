@@ -7,7 +7,7 @@ import {
 import { say, WORDS } from "../../words";
 import { REST } from "../../presets";
 import { impactOf, mapOf } from "../asking";
-import { SEED } from "../motor/sheet";
+import { SEED } from "../motor/requests";
 
 type Answer = Response<unknown>;
 
