@@ -36,7 +36,7 @@ class BasinsView extends ComputingView {
   private complete = false;
   /** The attractors of another map are being looked for: what is seen is of the one before. */
   private stale = false;
-  protected readonly draw = (): void => this.draw();
+  protected readonly draw = (): void => this.picture.redraw();
 
   constructor(host: HTMLElement, context: Context) {
     super(context, 60, ["basins"]);

@@ -52,7 +52,7 @@ class DiagramView extends ComputingView {
   private sentence = "";
   private told = false;
   private orbits: DiagramJson = { resting: 0, unsettled: 0, left_out: TRANSIENT };
-  protected readonly draw = (): void => this.draw();
+  protected readonly draw = (): void => this.picture.redraw();
 
   constructor(host: HTMLElement, context: Context) {
     super(context, 60, ["diagram", BRANCHES, ...SAMPLE_SLOTS]);
